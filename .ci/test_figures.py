@@ -10,7 +10,7 @@ from reports import figures
 from reports.figures import Figure, style
 from validation.harness import store, study
 
-ALL = [(study, figure) for study in figures.MODULES for figure in figures.of_study(study)]
+ALL = [(study, figure) for study, those in figures.by_study().items() for figure in those]
 
 
 @pytest.mark.parametrize(("name", "figure"), ALL, ids=[f"{name}-{figure.name}" for name, figure in ALL])

@@ -14,8 +14,6 @@ from fctd.case.raw_case import explain
 
 # The first Python that pybullet has no wheels for.
 NO_PYBULLET = (3, 12)
-# The audit event of an entry that is asked for; its argument is the entry's module.
-FOUND = "references.registry.found"
 
 
 class Registered(Protocol):
@@ -44,7 +42,6 @@ class Registry(Generic[T]):
         if name not in self.entries:
             raise InputError(nearest(name, self.entries, self.noun), key=self.key, value=name)
         module, _, attribute = self.entries[name].partition(":")
-        sys.audit(FOUND, module)
         found: type[T] = getattr(importlib.import_module(module), attribute)
         return found
 

@@ -32,7 +32,7 @@ def main() -> None:
         raise typer.Exit(2) from error
     try:
         changes = runner.changes(STUDIES, study.RESULTS, sources)
-        questions = {name: runner.question_of(name) for name in STUDIES}
+        questions = {name: found.question for name in STUDIES if (found := runner.loaded(name))}
         problems = page.render(study.RESULTS, STUDIES, OUT, changes, questions=questions)
     except InputError as error:
         typer.echo(printable_lines(f"error: {error}"), err=True)

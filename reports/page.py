@@ -1,19 +1,16 @@
 """From stored results to pages: the first page with its chapters, the claims, and a page for every study."""
 
-import sys
-import traceback
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 import jinja2
 
-from fctd.case.text import printable_lines
 from fctd.store.whole_folder import whole_folder
-from reports import chapters, figures, results, words
+from reports import chapters, results, words
 from reports.claims import LOOKS, judged
 from reports.figures.leading import LEADING
-from reports.sections import Picture, Section, anchor, draw, section_of
+from reports.sections import Picture, Section, anchor, section_of
 from validation.claims.ledger import CLAIMS
 
 TEMPLATES = Path(__file__).parent / "templates"
@@ -53,18 +50,16 @@ def _render(
         folder.mkdir(parents=True)
     found = sorted(path.parent.name for path in stored.glob("[!.]*/verdict.json"))
     sections: dict[str, Section] = {}
-    leading: list[tuple[str, str, Picture | None]] = []
     first = {each.study: each for each in LEADING}
-    drawn: dict[str, Picture] = {}
+    drawn: dict[str, Picture | None] = {}
     for study in dict.fromkeys([*studies, *found]):
         section, tables = section_of(stored / study, out)
         section.changed = changes.get(study, "")
         section.asked = questions.get(study, "")
         sections[study] = section
         if study in first and tables:
-            _draw_leading(section, first[study].figure, tables, out, drawn)
-    for each in LEADING:
-        leading.append((each.study, each.figure.caption, drawn.get(each.study)))
+            drawn[study] = section.draw(first[study].figure, tables, out)
+    leading = [(each.study, each.figure.caption, drawn.get(each.study)) for each in LEADING]
     claims = judged(stored, ledger)
     given = {
         "sections": sections,
@@ -109,17 +104,6 @@ def _write_pages(out: Path, given: Mapping[str, Any]) -> None:
     write("claims.html", "claims.html")
     for section in given["sections"].values():
         write("study.html", f"studies/{section.study}.html", section=section)
-
-
-def _draw_leading(
-    section: Section, figure: figures.Figure, tables: figures.Tables, out: Path, drawn: dict[str, Picture]
-) -> None:
-    try:
-        drawn[section.study] = draw(section.study, figure, tables, out)
-    except Exception as error:
-        # As any other figure, it must not prevent the rest of the page.
-        print(printable_lines(traceback.format_exc()), end="", file=sys.stderr)
-        section.problems.append(f"figure {figure.name!r} could not be drawn: {type(error).__name__}: {error}")
 
 
 def _chapters(sections: Mapping[str, Section]) -> list[dict[str, Any]]:

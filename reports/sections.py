@@ -93,6 +93,15 @@ class Section:
         """Whether there is nothing to show but how to run it."""
         return not self.problems and (self.record is None or self.record.status == "skipped")
 
+    def draw(self, figure: figures.Figure, tables: figures.Tables, out: Path) -> Picture | None:
+        """A figure of the study.  One that cannot be drawn is a problem, and does not prevent the rest of the page."""
+        try:
+            return draw(self.study, figure, tables, out)
+        except Exception as error:
+            print(printable_lines(traceback.format_exc()), end="", file=sys.stderr)
+            self.problems.append(f"figure {figure.name!r} could not be drawn: {type(error).__name__}: {error}")
+            return None
+
 
 def anchor(name: str) -> str:
     """The address of a check within the page of its study."""
@@ -114,13 +123,8 @@ def section_of(folder: Path, out: Path) -> tuple[Section, figures.Tables]:
         return section, {}
     section.tables = [_print(tables[name], caption) for name, caption in found.display.items()]
     # A study whose package is missing finishes with a note only.
-    for figure in figures.of_study(section.study) if tables or found.checks else []:
-        try:
-            section.pictures.append(draw(section.study, figure, tables, out))
-        except Exception as error:
-            # A figure that cannot be drawn must not prevent the rest of the page.
-            print(printable_lines(traceback.format_exc()), end="", file=sys.stderr)
-            section.problems.append(f"figure {figure.name!r} could not be drawn: {type(error).__name__}: {error}")
+    drawn = figures.by_study().get(section.study, []) if tables or found.checks else []
+    section.pictures = [picture for figure in drawn if (picture := section.draw(figure, tables, out))]
     return section, tables
 
 

@@ -1,12 +1,10 @@
 """Single bodies in a state buffer, placed and read as vectors."""
 
-import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from fctd.arrays import Array
 from fctd.mechanics import state
 
-Array = NDArray[np.float64]
 PLACE, VELOCITY, AXIS = (state.X, state.Y, state.Z), (state.VX, state.VY, state.VZ), (state.AX, state.AY, state.AZ)
 QUATERNION = (state.QW, state.QX, state.QY, state.QZ)
 SPIN, GLOBAL_SPIN = (state.WX, state.WY, state.WZ), (state.GX, state.GY, state.GZ)

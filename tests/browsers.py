@@ -69,22 +69,12 @@ def close() -> None:
 
 
 @contextmanager
-def browser(*flags: str) -> Iterator[Browser]:
-    """A browser of this machine; one for all tests but for those with flags of their own."""
-    if not flags:
-        yield shared()
-        return
-    with open_browser(*flags) as found:
-        yield found
-
-
-@contextmanager
-def opened(where: Browser, path: Path | str, width: int = 1280, height: int = 800) -> Iterator[tuple[Page, Seen]]:
+def opened(path: Path | str, width: int = 1280, height: int = 800) -> Iterator[tuple[Page, Seen]]:
     """A page, of a file or at an address, in a window of a size [px]; what it says and asks for elsewhere is empty in
     the end."""
     address = path if isinstance(path, str) else path.resolve().as_uri()
     own = (*HERE, "/".join(address.split("/")[:4])) if isinstance(path, str) else HERE
-    page, seen = where.new_page(viewport={"width": width, "height": height}), Seen()
+    page, seen = shared().new_page(viewport={"width": width, "height": height}), Seen()
     page.set_default_timeout(LONGEST)
 
     def said(message: Any) -> None:

@@ -26,9 +26,6 @@ def main(
     reproduce: Annotated[bool, typer.Option("--reproduce", help="Run what `make reproduce` runs.")] = False,
     quick: Annotated[bool, typer.Option("--quick", help="Shorten each study; the checks stay.")] = False,
     force: Annotated[bool, typer.Option("--force", help="Repeat also studies that are up to date.")] = False,
-    audit: Annotated[
-        bool, typer.Option("--audit", help="As --force; a study fails that reads a file it does not declare.")
-    ] = False,
 ) -> None:
     """Run studies; each stores its tables and its verdict in validation/results/NAME/.
 
@@ -50,7 +47,7 @@ def main(
     claims = every or reproduce or CLAIMS in names
     try:
         sources = fingerprint.Sources()  # before any study is imported: a later edit is repeated by the next run
-        chosen = _choose([name for name in names if name != CLAIMS], every, reproduce)
+        chosen = choose([name for name in names if name != CLAIMS], every, reproduce)
         if not chosen and not claims:
             raise runner.UsageError("nothing to run: name a study, or use --all, --reproduce or --list")
         expected = runner.read_expected(runner.EXPECTED)
@@ -65,7 +62,6 @@ def main(
                 chosen,
                 quick=quick,
                 force=force,
-                audited=audit,
                 processes=1 if names else side_by_side.workers(),
                 data=study.data_folder(),
                 expected=expected,
@@ -81,11 +77,13 @@ def main(
     raise typer.Exit(code)
 
 
-def _choose(names: list[str], every: bool, reproduce: bool) -> list[str]:
+def choose(names: list[str], every: bool, reproduce: bool) -> list[str]:
     """The studies asked for, in the order of the registry."""
     for name in names:
         runner.check_name(name)
-    return [name for name in STUDIES if every or name in names or (reproduce and runner.is_reproduced(name))]
+    if reproduce:
+        names = [*names, *(name for name in STUDIES if (found := runner.loaded(name)) is None or found.reproduce)]
+    return [name for name in STUDIES if every or name in names]
 
 
 def _line(name: str) -> str:

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.calibration.fit import Fit
 from fctd.calibration.forward import Evaluation, Forward
 from fctd.calibration.intervals import Intervals
@@ -16,8 +17,6 @@ from fctd.calibration.quadrature import Mixture
 from fctd.calibration.rows import days_of
 from fctd.calibration.scatter import EFFECTS, At, DayFit, draw, fit_days, values_of
 from fctd.calibration.unknowns import is_factor
-
-Array = NDArray[np.float64]
 
 HOW: Final = "scatter of days"  # where its intervals come from
 SAMPLES: Final = 4000

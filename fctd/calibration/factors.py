@@ -5,15 +5,12 @@ from typing import Final
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from fctd.calibration.fit import Fit
 from fctd.calibration.forward import Forward
 from fctd.calibration.intervals import Intervals
 from fctd.calibration.rows import Load
 from fctd.calibration.unknowns import is_factor
-
-Array = NDArray[np.float64]
 
 # The reading that shows the factor of a motion: drag of a string that slides, torque of one that turns.
 MOTIONS: Final[dict[str, Load]] = {"sliding": "hookload", "rotating": "torque"}

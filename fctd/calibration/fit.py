@@ -8,9 +8,9 @@ from typing import Any, Final, Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.calibration.forward import Evaluation, Forward
 
-Array = NDArray[np.float64]
 Loss = Literal["soft_l1", "linear"]
 LOSSES: Final = get_args(Loss)
 

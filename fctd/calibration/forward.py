@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.calibration.rows import Load, Range, Row
 from fctd.calibration.setup import Setup
 from fctd.calibration.unknowns import Unknown, with_values
@@ -21,8 +21,6 @@ from fctd.steady.equilibrium import Solver
 from fctd.steady.laid_string import LaidString
 from fctd.steady.problem import Workspace
 from fctd.steady.sensitivity import Changed, solve_with_changes
-
-Array = NDArray[np.float64]
 
 # The change of an unknown for the tangent, over its typical size.
 _STEP = 1e-4

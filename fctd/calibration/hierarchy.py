@@ -12,8 +12,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-
+from fctd.arrays import Array
 
 _LARGEST: Final = 100_000  # days times sets of deviations that are computed at once, for memory
 

@@ -8,12 +8,10 @@ from collections.abc import Collection
 from typing import Final, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.calibration.forward import Evaluation, Forward
 from fctd.case.errors import InputError
-
-Array = NDArray[np.float64]
 
 # Multiple correlation with the other unknowns above which an unknown has no effect of its own, and the correlation of
 # a pair above which one partner explains it.

@@ -5,13 +5,11 @@ from typing import Final
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.calibration.fit import Fit, Loss, cost_of, fit, residuals_of, weights_of
 from fctd.calibration.forward import Forward
 from fctd.calibration.identify import covariance_of, information
-
-Array = NDArray[np.float64]
 
 # Half-width of a 95 % interval in standard deviations of a normal distribution.
 Z95: Final = 1.959963984540054

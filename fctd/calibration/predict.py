@@ -8,9 +8,9 @@ from typing import Annotated, Any, Final
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from pydantic import Field, FiniteFloat, ValidationError
 
+from fctd.arrays import Array
 from fctd.calibration.forward import Evaluation, Forward
 from fctd.calibration.quadrature import Mixture
 from fctd.calibration.rows import Row, days_of
@@ -22,8 +22,6 @@ from fctd.case.input_file import read_text
 from fctd.case.load import Case
 from fctd.case.raw_case import explain
 from fctd.store.whole_file import whole_file
-
-Array = NDArray[np.float64]
 
 SAMPLES: Final = 4000
 # Quantiles of the bands: 50 % and 95 %.

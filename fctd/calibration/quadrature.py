@@ -11,10 +11,9 @@ from typing import Final
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import NDArray
 from scipy.special import ndtr
 
-Array = NDArray[np.float64]
+from fctd.arrays import Array
 
 # A deviation is at most this many times the mean of its prior; its scale is linear below the mean, logarithmic beyond.
 MOST: Final = 40.0

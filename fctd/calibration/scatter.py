@@ -13,11 +13,10 @@ from typing import Final, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.calibration.hierarchy import Linear, condition
 from fctd.calibration.quadrature import Mixture, Nodes, integrate
 from fctd.calibration.unknowns import Prior, Unknown, is_factor
-
-Array = NDArray[np.float64]
 
 EFFECTS: Final = ("friction", "hookload")
 # Prior of a friction factor that has none of its own: log-normal about 0.25, in 95 of 100 wells 0.1 to 0.6 (the range

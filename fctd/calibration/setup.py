@@ -1,7 +1,5 @@
 """What a calibration is told beside case and rows: unknowns, sources of readings, override sets, model error."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 

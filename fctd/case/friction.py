@@ -1,7 +1,5 @@
 """Friction as it is planned: one factor for the whole hole, or one for each kind of interval."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Warnings about input that can be used and is probably not what the user meant."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass
 from typing import Any
 

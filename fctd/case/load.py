@@ -1,7 +1,5 @@
 """The case: `load_case` reads a TOML file, applies overrides and validates; every float of a `Case` is SI."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager

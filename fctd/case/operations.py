@@ -3,8 +3,6 @@
 To add a kind, write its class here and add it to ``Operation``; every table of kinds is made from these classes.
 """
 
-from __future__ import annotations
-
 from typing import ClassVar, Final, Literal, Self, get_args
 
 from pydantic import model_validator

@@ -1,7 +1,5 @@
 """A case as it is written: nested tables before validation, their dotted keys, overrides, and what is wrong in them."""
 
-from __future__ import annotations
-
 import copy
 import os
 import re

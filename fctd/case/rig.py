@@ -1,7 +1,5 @@
 """The tables of a case file for what the rig brings: mud, block and drive."""
 
-from __future__ import annotations
-
 from typing import Literal, Self
 
 from pydantic import StrictBool, model_validator

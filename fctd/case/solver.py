@@ -1,7 +1,5 @@
 """The tables of a case file for how it is computed: step, dampings, buckling, and what is recorded."""
 
-from __future__ import annotations
-
 from typing import Any, Literal
 
 from pydantic import Field, field_validator

@@ -1,7 +1,5 @@
 """The table of a case file for the string: its components, from the bit upwards."""
 
-from __future__ import annotations
-
 from typing import Literal, Self
 
 from pydantic import Field, model_validator

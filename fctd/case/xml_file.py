@@ -1,7 +1,5 @@
 """WITSML files: XML without a document type, and its elements by names without their namespace."""
 
-from __future__ import annotations
-
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 

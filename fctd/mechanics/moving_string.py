@@ -9,6 +9,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.mechanics import dynamics, readings, state, topdrive
 from fctd.mechanics.contact import update_walls
 from fctd.mechanics.derrick import put_immersed
@@ -18,8 +19,6 @@ from fctd.mechanics.faults import Worst, check
 from fctd.mechanics.state import Laws
 from fctd.mechanics.topdrive import Motion, PerMetre
 from fctd.mechanics.wall_law import put_stiffness
-
-Array = NDArray[np.float64]
 
 # The top drive at rest.
 STILL = Motion(0.0, 1.0, 0.0, 0.0, 0.0, 0.0)

@@ -1,11 +1,9 @@
 """The largest stable step of the stepper, from the stiffest mode of the string."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.mechanics import state
-
-Array = NDArray[np.float64]
 
 # Share of the largest stable step for each named ``step``.  The bound is exact for the axial mode of a uniform
 # string and a few percent below the real limit where the wall or shear sets it; tension, overlap and

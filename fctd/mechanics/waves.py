@@ -10,9 +10,7 @@ m and EA.
 
 import math
 
-import numpy as np
-from numpy.typing import NDArray
-
+from fctd.arrays import Array
 from fctd.mechanics.jit import inlined
 from fctd.mechanics.state import (
     FX,
@@ -28,8 +26,6 @@ from fctd.mechanics.state import (
     global_spin,
     velocity,
 )
-
-Array = NDArray[np.float64]
 
 # Waves of each kind; odd ones move with both ends, even ones with their difference.
 COUNT = 4

@@ -1,15 +1,13 @@
 """Bent housings: each tilts the end of the body above it towards its tool face, and turns with that body."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.case.string import ComponentSpec
 from fctd.mechanics import state
 from fctd.model.drillstring import String
 from fctd.model.wellbore import Wellbore, hole_frame
-
-Array = NDArray[np.float64]
 
 
 def bent_joints(case: Case, string: String) -> dict[int, ComponentSpec]:

@@ -13,13 +13,11 @@ segments.  A string that moves keeps 10 m there, as its time step falls with its
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.model import survey
 from fctd.model.tortuosity import resolving
-
-Array = NDArray[np.float64]
 
 # Longest segment, and the segment at the bit, of a steady string and of one that moves [m].  Between them, and beside
 # bends, lengths grow by this share of the distance: the bending moment of a bend fades within a wave of the string,

@@ -6,6 +6,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.errors import Computed, InputError
 from fctd.case.load import Case
 from fctd.case.string import ComponentSpec
@@ -13,8 +14,6 @@ from fctd.mechanics import state
 from fctd.model.default_layout import DefaultLayout
 from fctd.model.section import Section, section_of
 from fctd.model.string_rows import find_contacts, find_stiffness
-
-Array = NDArray[np.float64]
 
 # A long segment must be this long [m].
 SHORTEST_LONG_SEGMENT = 10.0

@@ -1,11 +1,9 @@
 """Frames across the hole that do not jump where the high side has no meaning."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.model.wellbore import hole_frame
-
-Array = NDArray[np.float64]
 
 INCLINED = np.radians(5.0)  # from this inclination on the high side is a steady direction
 

@@ -9,8 +9,8 @@ from itertools import groupby
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.string import ComponentSpec
@@ -18,7 +18,6 @@ from fctd.model import survey
 from fctd.model.default_layout import AT_MOVING_BIT, DefaultLayout
 from fctd.model.section import section_of
 
-Array = NDArray[np.float64]
 Components = tuple[ComponentSpec, ...]
 # A case, a bit depth [m], the length of the shortest segments [m] and the least number of segments of a component to
 # components.

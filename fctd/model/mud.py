@@ -5,11 +5,10 @@ the coefficients.
 """
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from fctd.arrays import Array
 from fctd.case.load import Case
-
-Array = NDArray[np.float64]
 
 # A string at rest is struck and swings at about this frequency [Hz].
 AT_REST = 1.0

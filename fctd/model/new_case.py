@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.string import ComponentSpec
 from fctd.case.surveys import reading as surveys
 from fctd.case.surveys.headers import NoUnitError, Wanted
@@ -20,7 +20,6 @@ from fctd.model.section import section_of
 from fctd.model.templates import TEMPLATES, Part, Template, TemplateName
 from fctd.model.torsion import torsional_period
 
-Array = NDArray[np.float64]
 UnitSystem = Literal["metric", "field"]
 
 # A unit for each dimension, and the digits after the point that are written.

@@ -1,13 +1,11 @@
 """The table of pieces of a hole: cylinders with overlap (§5.2, Fig. 8) or arcs, and their wall."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.mechanics import contact
 from fctd.mechanics.state import ARCS
 from fctd.model import survey
-
-Array = NDArray[np.float64]
 
 # The first and last piece extend this far beyond surface and total depth [m].
 RUN_OUT = 10.0

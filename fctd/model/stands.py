@@ -6,6 +6,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.errors import Computed, InputError
 from fctd.case.load import Case
 from fctd.case.string import ComponentSpec
@@ -16,8 +17,6 @@ from fctd.model.drillstring import String, check_lengths, check_segments
 from fctd.model.section import section_of
 from fctd.model.string_in_hole import check_clearance
 from fctd.model.wellbore import Wellbore
-
-Array = NDArray[np.float64]
 
 # A stand may be longer or shorter by this share, to end where a component ends.
 UNEVEN: Final = 0.1

@@ -1,8 +1,8 @@
 """A string in its hole: whether it fits, and its rows in the engine's buffer, with the mud around it."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.mechanics.topdrive import GRAVITY, PerMetre
@@ -11,8 +11,6 @@ from fctd.model.mud import hole_radius, steady_resistance
 from fctd.model.pieces import RADIUS, TO_MD
 from fctd.model.string_rows import fill_rows
 from fctd.model.wellbore import Wellbore
-
-Array = NDArray[np.float64]
 
 # A long segment hangs straight: where it lies the hole must be this close to vertical [rad].
 LONG_SEGMENT_TILT = np.radians(1.0)

@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case
@@ -15,8 +14,6 @@ from fctd.model.drillstring import String, lay_out
 from fctd.model.section import section_of
 from fctd.model.string_in_hole import check_fit
 from fctd.model.wellbore import build_wellbore
-
-Array = NDArray[np.float64]
 
 
 class Path(NamedTuple):

@@ -7,12 +7,10 @@ may run past 2π.  Positions are (n, 3): north, east, true vertical depth [m].
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.surveys.directions import dogleg as dogleg
 from fctd.case.surveys.directions import tangents as tangents
-
-Array = NDArray[np.float64]
 
 
 class Courses(NamedTuple):

@@ -5,11 +5,9 @@ rotates, and after its start the surface torque swings about its mean for minute
 """
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from fctd.model.drillstring import String
-
-Array = NDArray[np.float64]
 
 PIECE = 20.0  # longest piece of the chain of masses and springs [m]; 200 of them give the period to 1e-5
 # The error falls ninefold in each iteration: the second frequency of a uniform string is three times the first.

@@ -6,13 +6,11 @@ stiffness and contacts, not through its friction factor.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.wall import TortuositySpec
 from fctd.model import survey
-
-Array = NDArray[np.float64]
 
 # Stations for each wave; an arc through a sixteenth of a sine misses it by less than 1 % of the amplitude.
 PER_WAVE = 16

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.hole import WellboreSpec
 from fctd.case.load import Case, naming_file
@@ -25,8 +26,6 @@ from fctd.model.pieces import (
     fill_wall,
 )
 from fctd.model.tortuosity import winding
-
-Array = NDArray[np.float64]
 
 # Largest difference between the length of a hole's axis and the sum of its pieces [m].
 SAME_LENGTH = 1e-6

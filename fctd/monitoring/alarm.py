@@ -14,8 +14,6 @@ difference (Huber 1964).  Its own variance is added to that of a reading, as in 
 estimated from the median of the differences between one reading and the next (Rice 1984), which a step hardly changes.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import Final
 

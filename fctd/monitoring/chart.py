@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Final, Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionSet
 from fctd.case.load import Case
@@ -21,7 +21,6 @@ from fctd.steady.equilibrium import Solver
 if TYPE_CHECKING:
     from scipy.interpolate import PchipInterpolator
 
-Array = NDArray[np.float64]
 Fit = Literal["open", "cased", "all"]
 
 FACTORS: Final = np.array([0.0, 0.1, 0.2, 0.3, 0.45, 0.65])

@@ -1,7 +1,5 @@
 """Apparent friction factors: the factor with which the steady string has the reading of a stretch."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, fields
 from typing import Final
 

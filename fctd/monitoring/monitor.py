@@ -1,7 +1,5 @@
 """Friction over depth from a series of the rig's readings, and where it changes: ``fctd.monitor``."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from os import PathLike

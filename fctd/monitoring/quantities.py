@@ -4,8 +4,6 @@ A header is the name of a quantity in words ("Average Hookload"), as a mnemonic 
 a column of this program ("weight_indicator"), with its unit in brackets, after an underscore, a point or a blank.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

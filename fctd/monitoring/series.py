@@ -1,7 +1,5 @@
 """A series of the rig's readings from a file of any kind; the content tells which."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path

@@ -20,8 +20,6 @@ The rules, whose numbers are in `Rules`:
   which √(1 − 0.3²), 95 %, is left along the hole.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -29,9 +27,9 @@ from typing import Final, Literal, NamedTuple, Protocol, get_args
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from fctd.arrays import Array
+
 Mode = Literal["in_slips", "rotating", "rotating_up", "rotating_down", "pick_up", "slack_off"]
 MODES: Final[tuple[Mode, ...]] = get_args(Mode)
 ROTATING: Final = frozenset({"rotating", "rotating_up", "rotating_down"})

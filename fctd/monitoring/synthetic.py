@@ -1,7 +1,5 @@
 """Series with known friction: readings of the steady string with noise, by depth or over time, from a seed."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import pairwise
 

@@ -1,7 +1,5 @@
 """Series in text files of columns, whole or growing."""
 
-from __future__ import annotations
-
 import csv
 import io
 import re

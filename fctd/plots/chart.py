@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.plots import labels
@@ -49,8 +49,6 @@ from fctd.results.columns import DEPTH
 from fctd.results.series import Series, frictions_of, series_of
 from fctd.results.status import SteadyStatus
 from fctd.results.unit_systems import System, shown
-
-Array = NDArray[np.float64]
 
 MOST_GROUPS = 24  # in a picture
 ACROSS = 2  # groups side by side

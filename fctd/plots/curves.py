@@ -7,13 +7,13 @@ import pandas as pd
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.plots.loads import TORQUE, Limits, marked, measured_columns
 from fctd.plots.palette import BUCKLED, EDGE, LOOKS, MEASURED
 from fctd.plots.style import LOST
 from fctd.results.series import Series
 from fctd.results.status import SteadyStatus
 
-Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 # Rows that are answers with care, or locked up, have an open marker.

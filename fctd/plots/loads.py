@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Final, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.model.operations import SteadyRates, weight_indicator
@@ -20,7 +21,6 @@ from fctd.results.unit_systems import System, shown
 if TYPE_CHECKING:
     import pandas as pd
 
-Array = NDArray[np.float64]
 Load = Literal["string", "indicator"]
 
 LOAD_COLUMNS: Final[dict[Load, str]] = {"string": "hookload_N", "indicator": "weight_indicator_N"}

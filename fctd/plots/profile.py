@@ -11,7 +11,6 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
-from numpy.typing import NDArray
 
 from fctd.case.operations import KINDS
 from fctd.plots.facts import heading_of_profile
@@ -31,8 +30,6 @@ from fctd.plots.tracks import (
 from fctd.results.columns import COLUMNS
 from fctd.results.unit_systems import System, shown
 from fctd.steady.steady_string import Equilibrium
-
-Array = NDArray[np.float64]
 
 LIMITS: Final[dict[str, Any]] = dict(zip(BUCKLED, ((0, (4, 2)), (0, (1, 1.2))), strict=True))
 LEFT, BETWEEN, RIGHT, HEIGHT, BELOW = 0.72, 0.24, 0.15, 5.6, 0.72

@@ -11,8 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.operations import KINDS
 from fctd.case.text import counted
 from fctd.plots.palette import DARK, LOOKS, PALETTE, QUIET, SHADE
@@ -24,7 +24,6 @@ from fctd.results.unit_systems import System, reworded, shown
 if TYPE_CHECKING:
     import pandas as pd
 
-Array = NDArray[np.float64]
 MapOf = Literal["contact_force_N", "effective_tension_N"]
 
 # Sizes [in]: of the panels, and of what stands beside and below them.

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Final, Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.units import conversion
 from fctd.plots.palette import BUCKLED
 from fctd.results.columns import COLUMNS
@@ -17,7 +17,6 @@ from fctd.steady.steady_string import Equilibrium
 if TYPE_CHECKING:
     import pandas as pd
 
-Array = NDArray[np.float64]
 
 SideForce = Literal["length", "joint"]
 

@@ -11,11 +11,10 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.mechanics.jit import entry, inlined, kernel
 from fctd.model.drillstring import String
 from fctd.model.wellbore import Wellbore
-
-Array = NDArray[np.float64]
 
 # Segments in a half wave of snaking and in a turn of the helix that follow the shape.
 IN_HALF_WAVE, IN_TURN = 8, 12

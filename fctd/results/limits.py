@@ -10,13 +10,10 @@ from collections.abc import Callable
 from typing import Any, Final, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fctd.mechanics.jit import entry, inlined
 from fctd.model.section import Section
 from fctd.results.profile import von_mises
-
-Array = NDArray[np.float64]
 
 # The wall of the model is a spring.  Steel and rock yield by a millimetre or two; a contact point that is deeper in
 # the wall than a quarter of the clearance changes the string's shape and its buckling limits (∝ 1/√clearance) by a

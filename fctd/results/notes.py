@@ -9,16 +9,12 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from typing import Any, Final, NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
+from fctd.arrays import Array
 from fctd.mechanics.query import Walls
 from fctd.model.drillstring import String
 from fctd.results.buckling import Buckling
 from fctd.results.limits import LIMITS, Place
 from fctd.results.profile import place_in_words
-
-Array = NDArray[np.float64]
 
 
 class Meaning(NamedTuple):

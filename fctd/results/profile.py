@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.mechanics.query import Walls
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.drillstring import String
@@ -16,7 +16,6 @@ from fctd.results.buckling import HELICAL_LIMIT, MODE, MODES, SINUSOIDAL_LIMIT, 
 if TYPE_CHECKING:
     import pandas as pd
 
-Array = NDArray[np.float64]
 Load = float | Array
 
 

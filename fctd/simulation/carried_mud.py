@@ -6,15 +6,13 @@ All of it acts on motion that changes, at the present depth and rotation, and le
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.mechanics import state
 from fctd.mechanics.topdrive import PerMetre
 from fctd.model.drillstring import String
 from fctd.model.mud import AT_REST, added_mass, hole_radius, lateral_damping, layer_drag
-
-Array = NDArray[np.float64]
 
 
 class Sideways(NamedTuple):

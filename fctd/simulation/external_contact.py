@@ -7,8 +7,8 @@ microseconds.
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.mechanics import state
 from fctd.mechanics.contact import contact_point, store_sticking, store_wall
 from fctd.mechanics.dynamics import load, move, padded_columns, update_axes
@@ -19,8 +19,6 @@ from fctd.mechanics.topdrive import Motion
 from fctd.mechanics.wall_law import stiffen_walls
 from fctd.model.pieces import DECAY, EXCESS, FRICTION, RADIUS, STIFFNESS, TO_MD
 from fctd.model.wellbore import Contacts, Wellbore
-
-Array = NDArray[np.float64]
 
 # Where a method reports no contact the wall is placed this far from the string [m].
 OUT_OF_REACH = 1.0

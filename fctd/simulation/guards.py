@@ -19,6 +19,7 @@ from typing import ParamSpec, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.mechanics import state
 from fctd.mechanics.query import WALL_COLUMNS, Walls, walls_in
 from fctd.model.torsion import axial_period_of
@@ -41,7 +42,6 @@ from fctd.simulation.run import Run
 from fctd.store.facts import Facts, Restorable
 
 lost_of = itemgetter(*LOSSES, "lost_bit_J")
-Array = NDArray[np.float64]
 P = ParamSpec("P")
 R = TypeVar("R")
 

@@ -4,15 +4,13 @@ Column 0 is the upper end of the string, held by the block or, in a connection, 
 stretched and twisted as the load at the table asks, and leaves the force and torque on the string below as they are.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.derrick import read_joint
 from fctd.mechanics.drive import STIFF
@@ -24,8 +22,6 @@ from fctd.model.strokes import Stroke
 from fctd.model.wellbore import Wellbore
 from fctd.results.ledger import LOSSES
 from fctd.simulation.upper_end import UpperEnd
-
-Array = NDArray[np.float64]
 
 PLACE, AXIS = [state.X, state.Y, state.Z], [state.AX, state.AY, state.AZ]
 QUATERNION = [state.QW, state.QX, state.QY, state.QZ]

@@ -3,8 +3,8 @@
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.load import Case, naming_file
 from fctd.mechanics import dynamics, state, topdrive, waves
@@ -30,7 +30,6 @@ from fctd.simulation.hung import Hung
 from fctd.simulation.run import Run
 from fctd.simulation.upper_end import Fed, UpperEnd
 
-Array = NDArray[np.float64]
 LONGEST_SETTLING = 400.0  # [s] simulated
 # Above these limits a run would take hours or not fit into memory, most likely by an error in the case.  A step of one
 # segment takes some 20 ns, a record keeps 2 kB and a row of a profile 200 bytes.

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.mechanics import readings, state, topdrive
 from fctd.mechanics.energy import Energy, penetration
 from fctd.mechanics.joints import find_bends
@@ -40,7 +40,6 @@ from fctd.store.facts import Restorable
 if TYPE_CHECKING:
     import pandas as pd
 
-Array = NDArray[np.float64]
 
 SAME_DEPTH = 1e-3  # [m]: the schedule reaches its depths to the rounding of a step
 

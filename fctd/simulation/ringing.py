@@ -14,15 +14,13 @@ of points that leave the hole's axis.
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.mechanics import contact, state, waves
 from fctd.model.drillstring import String
 from fctd.model.operations import Phase
 from fctd.model.wellbore import Wellbore
 from fctd.simulation.run import Run
-
-Array = NDArray[np.float64]
 
 MODES = 2
 STRIDE, SPAN = 10.0, 20.0  # [m] and [s] over which modes and contact forces are taken as constant, at most

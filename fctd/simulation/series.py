@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.model.wellbore import Wellbore, hole_frame
 from fctd.results.buckling import MODES
 from fctd.store.facts import Restorable
@@ -15,7 +15,6 @@ from fctd.store.facts import Restorable
 if TYPE_CHECKING:
     import pandas as pd
 
-Array = NDArray[np.float64]
 
 # Rows kept of all records, some 25 megabytes; pictures and pages show no more.
 MOST_ROWS = 200_000

@@ -4,8 +4,8 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.mechanics import state, topdrive, waves
 from fctd.mechanics.energy import penetration
 from fctd.mechanics.faults import UnstableError
@@ -14,8 +14,6 @@ from fctd.mechanics.rock import NO_ROCK, NOTHING
 from fctd.model.drilling import above_bottom
 from fctd.simulation.preparation import LONGEST_SETTLING, own_wall
 from fctd.simulation.run import Run
-
-Array = NDArray[np.float64]
 
 # The string is settled when no force is out of balance by more than this share of its weight.
 SETTLED = 1e-6

@@ -1,21 +1,15 @@
 """The upper end of a run: pipe is fed at a rotary table (``Fed``), or the string hangs from a block (hung.py)."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from typing import Any, ClassVar
 
-import numpy as np
-from numpy.typing import NDArray
-
+from fctd.arrays import Array
 from fctd.case.operations import KINDS
 from fctd.mechanics import topdrive
 from fctd.mechanics.moving_string import MovingString
 from fctd.mechanics.topdrive import Motion
 from fctd.model.drillstring import String
 from fctd.store.facts import Restorable
-
-Array = NDArray[np.float64]
 
 
 class UpperEnd(Restorable, ABC):

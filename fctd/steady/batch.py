@@ -14,6 +14,7 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.mechanics import state
@@ -47,7 +48,6 @@ from fctd.steady.reading import (
 )
 from fctd.steady.tangent import Steady, frictionless_tangent
 
-Array = NDArray[np.float64]
 Part = TypeVar("Part")
 Found = TypeVar("Found")
 

@@ -1,11 +1,10 @@
 """Linear equations with a block tridiagonal matrix, as a chain of bodies has it: block Thomas elimination."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.mechanics.jit import entry, inlined
 
-Array = NDArray[np.float64]
 SIZE = 6
 BLOCK = SIZE * SIZE
 # Columns of a row of work: a block, the right-hand side and 0, whole packed operations.

@@ -8,8 +8,8 @@ from collections.abc import Callable
 from typing import Any, NamedTuple, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.mechanics import state
 from fctd.model import layouts
@@ -21,8 +21,6 @@ from fctd.steady.helix import Helix
 from fctd.steady.post_buckling import LAYOUTS, Resolved, is_resolved, lay_helix, needed_lengths, shorter
 from fctd.steady.problem import FULL, Problem
 from fctd.steady.tangent import JOINT_TENSION, JOINT_TORQUE
-
-Array = NDArray[np.float64]
 
 
 class CarriedShape(NamedTuple):

@@ -4,8 +4,6 @@ The string slides or turns at constant rates while its shape stands still; the f
 (tangent.py).  Newton's method starts from the guess of a soft string (first_guess.py, continuation.py).
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cached_property
 

@@ -9,8 +9,8 @@ above it, and so the force: both are found in turn.
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.mechanics import state
 from fctd.mechanics.jit import entry
 from fctd.mechanics.law_names import CODES
@@ -20,8 +20,6 @@ from fctd.steady.climb import LARGEST_PUSH, START_ITERATIONS, creep_of
 from fctd.steady.continuation import CONVERGED, Pace
 from fctd.steady.problem import Problem
 from fctd.steady.tangent import JOINT_TENSION, NORMAL_FORCE
-
-Array = NDArray[np.float64]
 
 # The force is found when the hook load changes by less than this share of the string's weight.
 SETTLED = 1e-6

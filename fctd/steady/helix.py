@@ -10,13 +10,12 @@ Logan 1962), and comes to rest from there.  A torque M winds it in its own sense
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.model.frames import carried_frame
 from fctd.results.buckling import SINUSOIDAL_LIMIT
 from fctd.steady.first_guess import MD, OFFSET, TENSION, TORQUE
 from fctd.steady.problem import Problem, Reactions, Share
 from fctd.steady.tangent import JOINT_TENSION, JOINT_TORQUE
-
-Array = NDArray[np.float64]
 
 # Compression over the sinusoidal limit above which the helix has the lower energy.
 LOWER_ENERGY = 1.45

@@ -4,16 +4,14 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.mechanics.topdrive import PerMetre
 from fctd.model.drillstring import String
 from fctd.model.string_in_hole import fill
 from fctd.model.wellbore import Wellbore
 from fctd.results.buckling import Pipe, pipe_of
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

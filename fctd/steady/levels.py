@@ -1,15 +1,13 @@
 """Levels of a refinement: strings of one fineness, the loads that count, and the errors that remain."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.model import layouts
 from fctd.model.drillstring import lay_out
@@ -17,8 +15,6 @@ from fctd.model.operations import SteadyRates
 from fctd.results.status import SteadyStatus
 from fctd.steady.equilibrium import Solver
 from fctd.steady.steady_string import Equilibrium
-
-Array = NDArray[np.float64]
 
 # Called before every level with a text that names the level.
 Progress = Callable[[str], None]

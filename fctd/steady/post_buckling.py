@@ -8,8 +8,8 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.mechanics import state
 from fctd.model import layouts
@@ -20,8 +20,6 @@ from fctd.steady.climb import LOW_FRICTION, SOUND_PUSH, Climb, climb, come_to_re
 from fctd.steady.continuation import CONVERGED, Pace
 from fctd.steady.helix import Helix
 from fctd.steady.problem import FULL, Compressed, Problem, Share
-
-Array = NDArray[np.float64]
 
 # Segments are planned for more compression than was found, since a string that bends is pushed more: for this factor
 # times it, and this share of the string's weight.  With them a half wave has 10 segments, and the amplitude of snaking

@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.mechanics import state
@@ -32,8 +33,6 @@ from fctd.steady.tangent import (
     assemble,
     frictionless_tangent,
 )
-
-Array = NDArray[np.float64]
 
 # Lateral imperfection of the first guess, so that a straight string may buckle [m].
 SEED = 1e-4

@@ -3,8 +3,8 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.mechanics.jit import entry
 from fctd.mechanics.query import WALL_COLUMNS, query_walls
 from fctd.results.buckling import NEITHER, ROW_COLUMNS, find_buckling
@@ -21,8 +21,6 @@ from fctd.steady.tangent import (
     R_MU_FN,
     read_loads,
 )
-
-Array = NDArray[np.float64]
 
 # Columns of the arrays of a shape, beside those of ``read_loads`` and ``query_walls``.
 SHAPE_COLUMNS = JOINT_COLUMNS, CONTACT_COLUMNS, WALL_COLUMNS

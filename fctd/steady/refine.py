@@ -21,7 +21,6 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case, check_bit_depth, naming_file
@@ -37,7 +36,6 @@ from fctd.steady.levels import Level, Progress, Task, counts, errors_of, is_judg
 if TYPE_CHECKING:
     import pandas as pd
 
-Array = NDArray[np.float64]
 
 # Segments of the first string, and of the strings with which the hole is refined.
 FIRST, IN_HOLE = 16, (128, 512)

@@ -9,16 +9,14 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.model.operations import SteadyRates
 from fctd.steady.continuation import Pace
 from fctd.steady.equilibrium import Solver
 from fctd.steady.laid_string import LaidString
 from fctd.steady.problem import Problem
 from fctd.steady.steady_string import Equilibrium
-
-Array = NDArray[np.float64]
 
 # One step of Newton's method, whatever its size: no pseudo-mass, no limit, no imbalance that ends it.
 _ONE_STEP = Pace(1, 1e9, 1.0, 1.0, 1e9, 1e9, 1e-200, 1e-200)

@@ -2,9 +2,7 @@
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
+from fctd.arrays import Array
 from fctd.mechanics.query import Walls, walls_in
 from fctd.model.wellbore import Wellbore
 from fctd.results.buckling import Buckling, buckling_of
@@ -12,8 +10,6 @@ from fctd.results.profile import Loads
 from fctd.steady.laid_string import LaidString
 from fctd.steady.reading import EXCESS, MODE
 from fctd.steady.tangent import JOINT_BENDING, JOINT_TENSION, JOINT_TORQUE, NORMAL_FORCE
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -10,15 +10,13 @@ has grown.
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.mechanics import state
 from fctd.steady.block_thomas import SIZE, eliminate
 from fctd.steady.problem import SLOWEST, Problem, Share
 from fctd.steady.relaxation import move_round
 from fctd.steady.tangent import assemble
-
-Array = NDArray[np.float64]
 
 # The pseudo-time of the fastest mode is found within this factor, from a time of which no mode is [s].
 WITHIN, FASTEST = 1.1, 1e-4

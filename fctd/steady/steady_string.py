@@ -8,8 +8,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.case.text import counted
@@ -35,7 +35,6 @@ if TYPE_CHECKING:
 
     from fctd.steady.carried_shape import Carried
 
-Array = NDArray[np.float64]
 
 AT_FULL = "solved at its full friction alone, from which share of it on is not known"
 

@@ -6,17 +6,16 @@ from math import prod
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import stats
 from scipy.stats import qmc
 
+from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.sweep.spec import LISTED, MOST_SAMPLES, ParameterSpec, SweepSpec
 
 if TYPE_CHECKING:
     import pandas as pd
 
-Array = NDArray[np.float64]
 Value = float | str
 
 # Levels of a Morris design: its points are the middles of their cells, so that no distribution is asked for its end.

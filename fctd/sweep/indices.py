@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
+from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.sweep.design import LEVELS, problem_of, unit_cube
 from fctd.sweep.spec import SweepSpec
@@ -19,7 +20,6 @@ from fctd.sweep.spec import SweepSpec
 if TYPE_CHECKING:
     import pandas as pd
 
-Array = NDArray[np.float64]
 
 # Resamples of the error bars, of 95 %.
 RESAMPLES: Final = 200

@@ -2,8 +2,6 @@
 is that they are exceeded.
 """
 
-from __future__ import annotations
-
 from typing import Final, Literal, Self
 
 from pydantic import Field, field_validator, model_validator

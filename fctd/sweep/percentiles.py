@@ -11,15 +11,14 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import stats
 
+from fctd.arrays import Array
 from fctd.case.errors import InputError, nearest
 
 if TYPE_CHECKING:
     import pandas as pd
 
-Array = NDArray[np.float64]
 
 CONFIDENCE: Final = 0.95
 # Shares of the samples with which the convergence of a percentile is shown.
@@ -49,13 +48,10 @@ def columns_of(rows: pd.DataFrame, wanted: Sequence[str], key: str = "uncertaint
 
 def quantile(values: Array, share: float) -> tuple[float, float, float]:
     """A quantile of values (n,), and the ends of its error bar; an end that lies beyond the samples is NaN."""
-    n, ordered = len(values), np.sort(values)
-    if not n:
+    if not len(values):
         return float("nan"), float("nan"), float("nan")
-    low = int(stats.binom.ppf((1 - CONFIDENCE) / 2, n, share))
-    high = int(stats.binom.ppf((1 + CONFIDENCE) / 2, n, share)) + 1
-    lower, upper = (float(ordered[k - 1]) if 1 <= k <= n else float("nan") for k in (low, high))
-    return float(np.quantile(ordered, share)), lower, upper
+    bar: Any = stats.quantile_test(values, p=share).confidence_interval(CONFIDENCE)
+    return float(np.quantile(values, share)), float(bar.low), float(bar.high)
 
 
 def percentile_table(rows: pd.DataFrame, columns: Sequence[str], percentiles: Sequence[float]) -> pd.DataFrame:

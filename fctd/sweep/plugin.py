@@ -1,7 +1,5 @@
 """What Dask runs on a worker of a sweep: it is carried there once, and tasks name it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -3,8 +3,6 @@
 A number is bare or has its unit, as in a case file; all numbers of one parameter have the same unit.
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager

@@ -9,13 +9,12 @@ from __future__ import annotations
 from typing import Annotated, Final, Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import model_validator
 
+from fctd.arrays import Array
 from fctd.case import units
 from fctd.case.errors import InputError, Table
 
-Array = NDArray[np.float64]
 Error = Annotated[float, units.Quantity(dimension=units.ANGLE, at_least=0.0, at_most=0.2)]
 
 

@@ -1,7 +1,5 @@
 """The case of each sample: a case file is read once, and samples change a copy of it."""
 
-from __future__ import annotations
-
 import copy
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -4,8 +4,6 @@ Every kind of work calls ``tick`` between its iterations or records, which raise
 used its time.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Final

@@ -11,11 +11,10 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.model.frames import carried_frame
 from fctd.model.wellbore import Wellbore
-
-Array = NDArray[np.float64]
 
 RINGS: Final = 64  # along the hole
 BETWEEN: Final = 4  # stations of the lines for each ring

@@ -4,14 +4,13 @@ from dataclasses import dataclass
 from typing import Final, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.errors import InputError, nearest
 from fctd.plots.tracks import side_force_unit
 from fctd.results.columns import COLUMNS
 from fctd.results.unit_systems import Shown, System, shown
 
-Array = NDArray[np.float64]
 Scale = Literal["magnitude", "nearness", "signed", "modes"]
 
 # Light to dark, so that they are told apart in grey and by colour-blind readers.

@@ -7,8 +7,8 @@ alone.
 from typing import Any, Final, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.plots.page import plain
 from fctd.plots.palette import DARK, EDGE, PALETTE, QUIET
 from fctd.plots.tracks import side_force_unit
@@ -18,7 +18,6 @@ from fctd.view.hole import clearance_at, exaggeration_of, rings, wall_lines
 from fctd.view.quantities import QUANTITIES, Quantity
 from fctd.view.strings import Snapshot, Strings
 
-Array = NDArray[np.float64]
 Trace = dict[str, Any]
 
 # Names of the traces, in the order in which they are drawn.

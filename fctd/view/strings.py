@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Final, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
@@ -26,7 +27,6 @@ from fctd.view.hole import DrawnHole, drawn_hole
 if TYPE_CHECKING:
     import pandas as pd
 
-Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
 
 # Columns of a profile, and of a run's segments, that a view keeps.

@@ -8,11 +8,10 @@ from collections.abc import Mapping
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import eigh
 from scipy.optimize import brentq
 
-Array = NDArray[np.float64]
+from fctd.arrays import Array
 
 
 def grid(points: Array, elements: int) -> Array:

@@ -5,7 +5,6 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case
@@ -15,8 +14,6 @@ from fctd.model.operations import schedule
 from fctd.model.section import Section, section_of
 from references.beams.elements import Beam, Surroundings, relaxed, statics
 from references.beams.planar_hole import PlanarHole
-
-Array = NDArray[np.float64]
 
 # The end of the pipe bends towards the wall over a short length, where elements are a third as long.
 END = 0.6  # [m]

@@ -8,12 +8,10 @@ from typing import Any, NamedTuple
 
 import elastica
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.model.section import Section
 from fctd.model.wellbore import Wellbore
-
-Array = NDArray[np.float64]
 
 # Step over the stable step, and steps between two checks of equilibrium.
 STEP_SHARE = 0.5

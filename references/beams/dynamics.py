@@ -9,12 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from scipy.sparse import csc_matrix
 
+from fctd.arrays import Array
 from references.beams.elements import Beam, ConvergenceError, WallLoad, newton, statics
-
-Array = NDArray[np.float64]
 
 # A step for which Newton's iteration fails is halved at most this many times.
 MOST_HALVINGS = 8

@@ -18,10 +18,9 @@ from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import splu
 from skfem import Basis, ElementLineP2, ElementVector, MeshLine
 
+from fctd.arrays import Array
 from fctd.model.section import Section
 from references.beams.planar_hole import PlanarHole
-
-Array = NDArray[np.float64]
 
 # Components of a state.
 Z, X, TURN = 0, 1, 2

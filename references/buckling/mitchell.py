@@ -22,14 +22,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import solve_bvp
 from scipy.optimize import brentq, minimize_scalar
 from scipy.special import j1
 
+from fctd.arrays import Array
 from references.buckling.onset import Pipe
-
-Array = NDArray[np.float64]
 
 Solution = tuple[Array, Array]
 

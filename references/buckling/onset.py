@@ -52,15 +52,6 @@ def snaking_limit(pipe: Pipe, inclination: float = 0.5 * np.pi, build: float = 0
     return float(2 * (curved + np.hypot(curved, straight)))
 
 
-def helical_limit(pipe: Pipe, inclination: float = 0.5 * np.pi, build: float = 0.0) -> float:
-    """√2 times the onset of snaking [N]: at it a helix has the energy of the straight pipe (Chen, Lin & Cheatham 1990).
-
-    In a bend the pipe's load q = w sin α + F κ is taken at that force.
-    """
-    # F = 2√2 √(EI q/r) is the onset of snaking of a pipe with twice the stiffness.
-    return snaking_limit(pipe._replace(EI=2 * pipe.EI), inclination, build)
-
-
 def half_wave(pipe: Pipe, inclination: float = 0.5 * np.pi) -> float:
     """Half wave of snaking at the onset [m], π(EI r/(w sin α))^¼, in a straight hole."""
     return float(np.pi * pipe.wave / np.sin(inclination) ** 0.25)

@@ -6,15 +6,11 @@ engine's loop and the studies can swap them; the settings of a method are its ``
 
 from typing import Any, ClassVar, Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
+from fctd.arrays import Array
 from fctd.case.errors import Table
 from fctd.case.load import Case
 from fctd.model.wellbore import Contacts
 from references.registry import Registry
-
-Array = NDArray[np.float64]
 
 METHODS: dict[str, str] = {
     "cylinders": "references.contact.own:Cylinders",

@@ -7,9 +7,8 @@ oriented box adds three dot products), so that an operation count is a lower bou
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from fctd.arrays import Array
 
 
 class BoxTree:

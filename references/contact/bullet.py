@@ -8,15 +8,13 @@ import weakref
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.errors import InputError, Table
 from fctd.case.load import Case
 from fctd.model.wellbore import Contacts
 from references.contact import need
 from references.contact.tube_mesh import MeshMethod, Tube, TubeOptions, build_tube
-
-Array = NDArray[np.float64]
 
 # The bindings accept at most this many indices in one shape.
 MOST_TRIANGLES = 524_288 // 3

@@ -8,16 +8,14 @@ against a mesh.
 from typing import Any, ClassVar, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.errors import Table
 from fctd.case.load import Case
 from fctd.model.wellbore import Contacts
 from references.contact import need
 from references.contact.fcl import MOST_CONTACTS, POINT
 from references.contact.tube_mesh import MeshMethod, Tube, TubeOptions, build_tube
-
-Array = NDArray[np.float64]
 
 
 class CoalOptions(TubeOptions):

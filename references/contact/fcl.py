@@ -8,15 +8,13 @@ long triangles of a tube report depths that are wrong by decimetres.
 from typing import Any, ClassVar, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.errors import Table
 from fctd.case.load import Case
 from fctd.model.wellbore import Contacts
 from references.contact import need
 from references.contact.tube_mesh import MeshMethod, Tube, TubeOptions, build_tube
-
-Array = NDArray[np.float64]
 
 # Radius of the sphere that represents a point [m]; the library does not accept 0.
 POINT = 1e-6

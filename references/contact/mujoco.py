@@ -10,13 +10,12 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.errors import Table
 from fctd.case.load import Case
 from fctd.model.wellbore import Contacts
 from references.contact import need
 from references.contact.tube_mesh import MeshMethod, Tube, TubeOptions, build_tube
-
-Array = NDArray[np.float64]
 
 BATCH = 64  # spheres in the model
 FACE_RADIUS = 1e-6  # half the thickness of the flex, which cannot be 0 [m]

@@ -4,9 +4,9 @@ from typing import ClassVar, Literal
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 from pydantic import ValidationError
 
+from fctd.arrays import Array
 from fctd.case import units
 from fctd.case.errors import Table
 from fctd.case.hole import WellboreSpec
@@ -17,8 +17,6 @@ from fctd.mechanics.state import ARCS
 from fctd.model.pieces import RADIUS
 from fctd.model.wellbore import Contacts, Wellbore, build_wellbore
 from references.contact.for_loop import for_loop_owner
-
-Array = NDArray[np.float64]
 
 
 @njit(error_model="numpy")

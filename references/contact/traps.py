@@ -7,8 +7,8 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.model.wellbore import build_wellbore, find_contacts
 from references.contact import bullet as bullet_method
@@ -17,8 +17,6 @@ from references.contact import fcl as fcl_method
 from references.contact import mujoco as mujoco_method
 from references.contact import need
 from references.contact.tube_mesh import Tube, TubeOptions, build_tube
-
-Array = NDArray[np.float64]
 
 RADIUS = 0.051  # of the string [m]
 STATIONS = ((0.0, 0.0, 0.0), (40.0, 8.0, 0.0))  # a bend of 286 m radius

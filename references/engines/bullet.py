@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from fctd.arrays import Array
 from fctd.case import units
 from fctd.case.errors import Table
 from fctd.mechanics import state
@@ -28,8 +29,6 @@ from references.contact.tube_mesh import Tube
 from references.engines import need
 from references.engines.free_bodies import HONOURS, FreeBodies, FreeBodyOptions, poses_of, tube_of, wall_stiffness
 from references.engines.run import InWindows
-
-Array = NDArray[np.float64]
 
 # Share of FCTD's step, found by the ladder of best_step.py: Bullet integrates rotation explicitly, and with the whole
 # step a spinning string gains energy until it leaves the hole.

@@ -12,9 +12,9 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from fctd.arrays import Array
 from fctd.case.errors import Table
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.energy import Energy
@@ -23,8 +23,6 @@ from fctd.mechanics.topdrive import Motion, planned_speeds
 from fctd.simulation.run import Run
 from references.engines import StepOptions, need
 from references.engines.run import InWindows
-
-Array = NDArray[np.float64]
 
 # Step over the stable step, found by the ladder of best_step.py: PyElastica's gyroscopic moments are explicit and add
 # energy to a spinning rod, with twice this step a sixth of the work within ten seconds.

@@ -10,6 +10,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case import units
 from fctd.case.errors import InputError
 from fctd.mechanics import state
@@ -21,8 +22,6 @@ from fctd.model.wellbore import LONGEST_CYLINDER
 from fctd.simulation.run import Run
 from references.contact.tube_mesh import Tube, TubeOptions, build_tube, curvature_at
 from references.engines import StepOptions
-
-Array = NDArray[np.float64]
 
 # Largest error of the triangles over the clearance of the string; with more the string lies in another hole.
 LARGEST_ERROR = 0.5

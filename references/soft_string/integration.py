@@ -24,16 +24,15 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
+from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.model import survey
 from fctd.model.drillstring import lay_out
 from references.soft_string.sliding import Friction, loads_at_bit, motion_of, split_friction
 
-Array = NDArray[np.float64]
 # Tangent and its derivative (…, 3) at measured depths (…) [m] in a course between two stations.
 Axis = Callable[[Array | float, int], tuple[Array, Array]]
 

@@ -8,13 +8,11 @@ No code is shared with FCTD's stepper: no contact, no bending, no axial motion.
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.model.drillstring import lay_out
 from references.soft_string.integration import soft_string
-
-Array = NDArray[np.float64]
 
 
 def twisted(case: Case, bit_depth: float, angle: Callable[[Array], Array], duration: float, step: float) -> Array:

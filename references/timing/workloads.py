@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 from numba import njit
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.mechanics import state
 from fctd.mechanics.contact import update_walls
@@ -28,8 +28,6 @@ from fctd.simulation.preparation import contact_points, prepare
 from fctd.simulation.run import Run
 from fctd.simulation.settling import start_from_rest
 from fctd.simulation.simulate import Simulation
-
-Array = NDArray[np.float64]
 
 # Damping rate of a string while it falls from the axis of the hole onto the wall [1/s].
 BRAKE = 5.0

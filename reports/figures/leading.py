@@ -5,12 +5,11 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure as Canvas
 from numpy.typing import NDArray
 
 from reports import words
-from reports.figures import Figure, Tables, style
-from reports.figures.contact_accuracy import FLOOR, exact_line
+from reports.figures import Canvas, Figure, Tables, style
+from reports.figures.methods import FLOOR, exact_line
 
 SIZE_IN = (4.3, 3.3)
 LETTERS = 8.5  # of legends, in a picture that a page shows smaller than it is [pt]
@@ -27,8 +26,9 @@ class Leading:
     more: str
 
 
-def _canvas() -> Canvas:
-    return Canvas(figsize=SIZE_IN, layout="constrained")
+def _subplots() -> tuple[Canvas, Axes]:
+    canvas = Canvas(figsize=SIZE_IN, layout="constrained")
+    return canvas, canvas.subplots()
 
 
 def _legend(canvas: Canvas, ax: Axes, **more: Any) -> None:
@@ -39,8 +39,7 @@ def _legend(canvas: Canvas, ax: Axes, **more: Any) -> None:
 def cost_and_error(tables: Tables) -> Canvas:
     """Error of penetration against cost, a line for each contact method."""
     cost = tables["cost"]
-    canvas = _canvas()
-    ax = canvas.subplots()
+    canvas, ax = _subplots()
     column = "max_penetration_error_mm"
     floor = FLOOR * cost.loc[cost[column] > 1e-5, column].min()
     for index, method in enumerate(cost["method"].unique()):
@@ -71,8 +70,7 @@ def where_it_touches(tables: Tables) -> Canvas:
         """Places off the axis, positive to the high side."""
         return out + times * offset * cosine, down - times * offset * sine
 
-    canvas = _canvas()
-    ax = canvas.subplots()
+    canvas, ax = _subplots()
     for side in (-1.0, 1.0):
         left, down_side = beside(side * clearance)
         ax.plot(left, down_side, color=style.QUIET, linewidth=0.8)
@@ -96,8 +94,7 @@ def stiff_and_measured(tables: Tables) -> Canvas:
     """Weight indicator over bit depth: the stiff string's curves, and measured points with their ranges."""
     points = tables["points"]
     points = points[points["load"] == "hookload"]
-    canvas = _canvas()
-    ax = canvas.subplots()
+    canvas, ax = _subplots()
     for index, (kind, name) in enumerate(KINDS.items()):
         for k, (_, curve) in enumerate(tables["curves"].groupby("string", sort=False)):
             rows = curve[curve["operation"] == kind]

@@ -80,6 +80,12 @@ def figure(height_in: float) -> Figure:
     return Figure(figsize=(WIDTH_IN, height_in), layout="constrained")
 
 
+def subplots(height_in: float, rows: int = 1, columns: int = 1, **layout: Any) -> tuple[Figure, Any]:
+    """A figure as wide as the page's column, and its axes as ``Figure.subplots`` gives them."""
+    canvas = figure(height_in)
+    return canvas, canvas.subplots(rows, columns, **layout)
+
+
 def depth_downwards(ax: Axes, label: str = "measured depth, m") -> None:
     """Depth on the vertical axis, growing downwards as in the well."""
     ax.set_ylabel(label)
@@ -113,11 +119,12 @@ def chart(table: pd.DataFrame) -> Figure:
     return plots.chart_figure(table, "si")
 
 
-def plain_log_ticks(axis: Axis) -> None:
-    """Ticks of a logarithmic axis as 1, 2, 5, 10 and not as powers, where it spans little."""
-    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axis.set_minor_locator(NullLocator())
+def plain_log_ticks(*axes: Axis) -> None:
+    """Ticks of logarithmic axes as 1, 2, 5, 10 and not as powers, where they span little."""
+    for axis in axes:
+        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axis.set_minor_locator(NullLocator())
 
 
 def slopes(ax: Axes, x: NDArray[np.float64], y: NDArray[np.float64]) -> None:

@@ -1,16 +1,23 @@
 """A public well: measured loads over depth with calibrated curves, and judged rows with their bands."""
 
-from matplotlib.figure import Figure as Canvas
-
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Tables, figure, style
 
 KINDS = {"trip_out": "picking up", "rotate_off_bottom": "rotating", "trip_in": "slacking off"}
 
 
+@figure(
+    "volve_f4",
+    name="chart",
+    caption=(
+        "Well 15/9-F-4 of the Volve field, as the paper's Fig. 12: torque (left) and weight indicator (right) over bit "
+        "depth. Lines: the string of the 12 1/4 in section at 130 rev/min, fitted to the series (above), and the wiper "
+        "string at 20 rev/min by model B (below). Open markers: medians of the 4-second series, at 60 to 130 rev/min; "
+        "filled: daily reports of several strings, which the next figure judges one by one."
+    ),
+)
 def chart(tables: Tables) -> Canvas:
     """Torque and weight indicator over bit depth."""
-    canvas = style.figure(4.6)
-    left, right = canvas.subplots(1, 2, sharey=True)
+    canvas, (left, right) = style.subplots(4.6, 1, 2, sharey=True)
     points = tables["points"]
     for _, curve in tables["curves"].groupby("string", sort=False):
         for index, kind in enumerate(KINDS):
@@ -39,13 +46,16 @@ def chart(tables: Tables) -> Canvas:
     return canvas
 
 
+@figure(
+    "volve_f4",
+    name="rows",
+    caption="Judged rows: predicted 95 % band (thin) and 50 % band (thick), recorded value or range (black).",
+)
 def rows(tables: Tables) -> Canvas:
     """Bands of judged rows: torque by model A, half spread by A and B."""
     table = tables["rows"]
-    canvas = style.figure(4.4)
-    for ax, (quantity, unit) in zip(
-        canvas.subplots(1, 2), (("torque", "kN·m"), ("half spread", "kN")), strict=True
-    ):  # fmt: skip
+    canvas, axes = style.subplots(4.4, 1, 2)
+    for ax, (quantity, unit) in zip(axes, (("torque", "kN·m"), ("half spread", "kN")), strict=True):
         part = table[table["quantity"] == quantity]
         part = part[(part["model"] == "B") | part["model"].str.startswith("A")].reset_index(drop=True)
         part = part.sort_values(["row", "model"], kind="stable").reset_index(drop=True)
@@ -63,20 +73,3 @@ def rows(tables: Tables) -> Canvas:
         if quantity == "half spread":
             style.legend_outside(canvas, ax, columns=4)
     return canvas
-
-
-FIGURES = [
-    Figure(
-        "chart",
-        "Well 15/9-F-4 of the Volve field, as the paper's Fig. 12: torque (left) and weight indicator (right) over bit "
-        "depth. Lines: the string of the 12 1/4 in section at 130 rev/min, fitted to the series (above), and the wiper "
-        "string at 20 rev/min by model B (below). Open markers: medians of the 4-second series, at 60 to 130 rev/min; "
-        "filled: daily reports of several strings, which the next figure judges one by one.",
-        chart,
-    ),
-    Figure(
-        "rows",
-        "Judged rows: predicted 95 % band (thin) and 50 % band (thick), recorded value or range (black).",
-        rows,
-    ),
-]

@@ -33,7 +33,6 @@ def of(well: Well, name: str, **given: Any) -> dict[str, str]:
 
 @pytest.mark.parametrize("name", FILES)
 def test_a_file_is_made_and_not_kept(name: str, well: Well) -> None:
-    pytest.importorskip("xlsxwriter")
     found = of(well, name)
     content = base64.b64decode(found["content"])
     assert content.startswith(STARTS[name])

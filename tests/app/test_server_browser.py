@@ -12,11 +12,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-pytest.importorskip("dash")
-
 from fctd.app.charts import place_of
 from tests.app.made import NAME, SURVEY, TEXT
-from tests.browsers import LONGEST, browser, needs_browser, opened, overflow, pixels
+from tests.browsers import LONGEST, needs_browser, opened, overflow, pixels
 
 pytestmark = needs_browser
 
@@ -65,16 +63,10 @@ def program(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Program]:
     found.end(signal.SIGINT)
 
 
-@pytest.fixture(scope="module")
-def chromium() -> Iterator[Any]:
-    with browser() as found:
-        yield found
-
-
 @pytest.fixture
-def page(chromium: Any, program: Program) -> Iterator[Any]:
+def page(program: Program) -> Iterator[Any]:
     """The page of the well, drawn; in the end it has said nothing and asked nobody else."""
-    with opened(chromium, program.address) as (found, _):
+    with opened(program.address) as (found, _):
         drawn(found)
         yield found
 
@@ -170,10 +162,8 @@ def test_the_same_files_are_taken_again(page: Any) -> None:
     until(page, lambda: mud.inner_text() == "1200")
 
 
-def test_two_pages_of_an_address_show_one_well_and_a_new_page_another(
-    page: Any, chromium: Any, program: Program
-) -> None:
-    with opened(chromium, program.address) as (other, _):
+def test_two_pages_of_an_address_show_one_well_and_a_new_page_another(page: Any, program: Program) -> None:
+    with opened(program.address) as (other, _):
         drawn(other)
         other.locator("#upload input").set_input_files(
             [{"name": "deeper.csv", "mimeType": "text/csv", "buffer": SURVEY.replace(b"900", b"950")}]
@@ -238,9 +228,9 @@ def test_pictures_stay_marked_where_the_server_refuses(page: Any) -> None:
     until(page, lambda: page.locator("#page[data-before]").count() == 0 and page.locator("#fault").is_hidden())
 
 
-def test_the_address_of_a_killed_server_shows_the_same_page(chromium: Any, program: Program) -> None:
+def test_the_address_of_a_killed_server_shows_the_same_page(program: Program) -> None:
     settings = program.folder / "state/fctd/app/sessions" / program.address.rstrip("/").rpartition("/")[2]
-    with opened(chromium, program.address) as (page, _):
+    with opened(program.address) as (page, _):
         drawn(page)
         page.locator("#sliders [role=slider]").nth(2).focus()
         page.keyboard.press("ArrowLeft")
@@ -249,6 +239,6 @@ def test_the_address_of_a_killed_server_shows_the_same_page(chromium: Any, progr
         moved = mud.inner_text()
     program.end(signal.SIGKILL)
     assert program.start().startswith(program.address.rpartition("/s/")[0])
-    with opened(chromium, program.address) as (page, _):
+    with opened(program.address) as (page, _):
         drawn(page)
         assert page.locator("#sliders output").nth(2).inner_text() == moved

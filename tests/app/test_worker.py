@@ -7,6 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 from typing import Any
+from unittest.mock import Mock
 
 import pytest
 
@@ -47,16 +48,10 @@ def test_a_case_that_cannot_be_used_is_refused(text: str, tmp_path: Path) -> Non
 
 
 def test_a_defect_and_a_lack_of_memory_are_answers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def fail(error: Exception) -> Any:
-        def call(*_: object, **__: object) -> None:
-            raise error
-
-        return call
-
     for error, words in (
         (MemoryError(), "1024 MiB"), (RecursionError(), "memory"), (KeyError("x\x1b[31m"), "KeyError: 'x\\x1b[31m'"),
     ):  # fmt: skip
-        monkeypatch.setitem(worker.OTHERS, "new_case", fail(error))
+        monkeypatch.setitem(worker.OTHERS, "new_case", Mock(side_effect=error))
         assert words in answer(Wells(tmp_path), {"do": "new_case"})["refused"]
     assert "refused" in answer(Wells(tmp_path), {"do": "nothing"})
     assert "refused" in answer(Wells(tmp_path), {})

@@ -1,6 +1,7 @@
 """The comparison that the gate makes, and the output and exit codes of its commands."""
 
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 from typer.testing import CliRunner
@@ -31,10 +32,9 @@ def record_here(**changes: object) -> Record:
 
 @pytest.fixture
 def no_sources(monkeypatch: pytest.MonkeyPatch) -> None:
-    def absent(*_: object) -> Path:
-        raise NoSourcesError("this shallow clone does not hold commit abc1234")
-
-    monkeypatch.setattr(module, "check_out", absent)
+    monkeypatch.setattr(
+        module, "check_out", Mock(side_effect=NoSourcesError("this shallow clone does not hold commit abc1234"))
+    )
 
 
 def measuring(monkeypatch: pytest.MonkeyPatch, costs: measure.Costs) -> None:

@@ -4,8 +4,6 @@ from types import SimpleNamespace
 
 import pytest
 
-pytest.importorskip("pytest_benchmark")
-
 from benchmarks import conftest, records
 from benchmarks.strings import chain, hanging, trip
 from fctd.mechanics.faults import UnstableError

@@ -3,8 +3,6 @@
 import pandas as pd
 import pytest
 
-pytest.importorskip("distributed")
-
 from benchmarks.scale import CHUNK, SAMPLES, SHORT, WORKERS, Model, fitted, the_sweep
 from fctd.sweep.design import samples_of
 

@@ -4,14 +4,12 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.surveys.directions import severity, tangents
 from fctd.case.surveys.smoothing import MOST_SMOOTHED, smooth
 from fctd.case.surveys.stations import to_radians
-
-Array = NDArray[np.float64]
 
 
 def well(count: int = 300) -> Array:

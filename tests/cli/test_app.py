@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from tests.app.made import SURVEY, TEXT
-from tests.cli.test_main import run
+from tests.commands import Command
 
 
 @pytest.fixture
@@ -43,11 +43,9 @@ def test_a_case_is_shown_until_ctrl_c(here: Path) -> None:
         assert path.stat().st_mode & 0o777 == (0o700 if path.is_dir() else 0o600), path
 
 
-def test_bad_input_is_refused(here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_bad_input_is_refused(here: Path, monkeypatch: pytest.MonkeyPatch, cli: Command) -> None:
     (here / "well.toml").write_text(TEXT.replace('"survey.csv"', '"other.csv"'))
-    assert run(monkeypatch, "app", "well.toml") == 2
-    assert "other.csv" in capsys.readouterr().err
+    assert "other.csv" in cli("app", "well.toml", code=2).err
     assert not (here / "state").exists()
     monkeypatch.setitem(sys.modules, "waitress", None)
-    assert run(monkeypatch, "app") == 2
-    assert "the extra fctd[app]" in capsys.readouterr().err
+    assert "the extra fctd[app]" in cli("app", code=2).err

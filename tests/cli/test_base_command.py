@@ -9,27 +9,27 @@ import typer
 from fctd.cli.main import COMMANDS, app
 from fctd.mechanics.compile_cache import hash_of_sources
 from fctd.store.origin import versions
-from tests.cli.test_main import CASE, run
+from tests.cli.tiny import SMALL
+from tests.commands import Command
 
 
 @pytest.fixture(autouse=True)
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "200")
-    Path("small.toml").write_text(CASE)
+    Path("small.toml").write_text(SMALL)
 
 
-def test_the_version(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(monkeypatch, "--version") == 0
+def test_the_version(cli: Command) -> None:
+    printed = cli("--version")
     """The version has stood for many commits: commit and sources say which program this is."""
     commit = f"commit {known['commit']}, " if "commit" in (known := versions()) else ""
-    assert capsys.readouterr().out == f"fctd {version('fctd')} ({commit}sources {hash_of_sources()})\n"
+    assert printed.out == f"fctd {version('fctd')} ({commit}sources {hash_of_sources()})\n"
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_short_options(command: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(monkeypatch, command, "-h") == 0
-    text = capsys.readouterr().out
+def test_short_options(command: str, cli: Command) -> None:
+    text = cli(command, "-h").out
     assert "-q " in text
     assert "--quiet" in text
     assert ("--out" in text) == ("-o " in text)
@@ -44,11 +44,8 @@ def test_short_options(command: str, monkeypatch: pytest.MonkeyPatch, capsys: py
         (["equilibrium", "small.toml", "--bit-depth", "700"], ["'--operation'", "rotate_off_bottom"]),
     ],
 )
-def test_a_missing_option_says_what_it_accepts(
-    arguments: list[str], parts: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert run(monkeypatch, *arguments) == 2
-    error = capsys.readouterr().err
+def test_a_missing_option_says_what_it_accepts(arguments: list[str], parts: list[str], cli: Command) -> None:
+    error = cli(*arguments, code=2).err
     assert "Missing option" in error
     assert all(part in error for part in parts)
 
@@ -62,22 +59,17 @@ def test_a_missing_option_says_what_it_accepts(
         (["--resolve-buckling", "--no-resolve-buckling"], "--resolve-buckling is given twice."),
     ],
 )
-def test_a_single_option_is_given_once(
-    options: list[str], message: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_single_option_is_given_once(options: list[str], message: str, cli: Command) -> None:
     needed = ["--operation", "trip_in"] + ["--bit-depth", "700"] * ("--bit-depth" not in options)
-    assert run(monkeypatch, "equilibrium", "small.toml", *needed, *options) == 2
-    error = capsys.readouterr().err
+    error = cli("equilibrium", "small.toml", *needed, *options, code=2).err
     assert message.replace("--resolve-buckling is", "resolve-buckling is") in error
 
 
-def test_options_that_may_be_repeated(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_options_that_may_be_repeated(cli: Command) -> None:
     changes = ["--set", "wellbore.overlap=0.1 m", "--set", "wellbore.intervals[0].friction=0.4"]
-    assert run(monkeypatch, "check", "small.toml", *changes) == 0
-    assert "0.4" in capsys.readouterr().out
+    assert "0.4" in cli("check", "small.toml", *changes).out
 
 
-def test_help_needs_no_options(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(monkeypatch, "chart", "--help", "--speed", "1") == 0
-    assert "Usage" in capsys.readouterr().out
+def test_help_needs_no_options(cli: Command) -> None:
+    assert "Usage" in cli("chart", "--help", "--speed", "1").out
     assert isinstance(app, typer.Typer)

@@ -6,7 +6,7 @@ import pytest
 
 from fctd.case.load import load_case
 from tests.calibration.test_calibrate import CASE
-from tests.cli.test_main import run
+from tests.commands import Command
 
 HANG = 500 * 30 * 9.80665e-3  # [kN]
 ROWS = (
@@ -24,13 +24,10 @@ def files(tmp_path: Path) -> tuple[Path, Path]:
     return case, rows
 
 
-def test_a_calibration_and_its_files(
-    files: tuple[Path, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_calibration_and_its_files(files: tuple[Path, Path], tmp_path: Path, cli: Command) -> None:
     out, table, plot = tmp_path / "new.toml", tmp_path / "rows_fitted.csv", tmp_path / "fit.png"
     options = ("--fit", "rig.block_weight", "--fit", "rig.torque_offset", "--starts", "1", "--quiet")
-    assert run(monkeypatch, "calibrate", *files, *options, "--out", out, "--table", table, "--plot", plot) == 0
-    printed = capsys.readouterr().out
+    printed = cli("calibrate", *files, *options, "--out", out, "--table", table, "--plot", plot).out
     for part in (
         "small: 3 rows fitted",
         "rig.block_weight",
@@ -43,10 +40,8 @@ def test_a_calibration_and_its_files(
     assert load_case(out).rig.torque_offset == pytest.approx(1500.0, rel=1e-4)
     assert len(table.read_text(encoding="utf-8").splitlines()) == 4
     assert plot.read_bytes().startswith(b"\x89PNG")
-    assert run(monkeypatch, "predict", out, files[1]) == 0
-    assert "inside the band of 50 %" in capsys.readouterr().out
-    assert run(monkeypatch, "predict", out, files[1], "--units", "field") == 0
-    field = capsys.readouterr().out
+    assert "inside the band of 50 %" in cli("predict", out, files[1]).out
+    field = cli("predict", out, files[1], "--units", "field").out
     assert "hookload, klbf" in field
     assert "torque, kft·lbf" in field
     assert "kN" not in field
@@ -69,29 +64,27 @@ def test_a_calibration_and_its_files(
     ],
 )
 def test_wrong_inputs_end_with_exit_code_2(
-    rows: str, options: tuple[str, ...], expected: str, files: tuple[Path, Path], monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
+    rows: str, options: tuple[str, ...], expected: str, files: tuple[Path, Path], cli: Command,
 ) -> None:  # fmt: skip
     files[1].write_text(rows, encoding="utf-8")
-    assert run(monkeypatch, "calibrate", *files, *options) == 2
-    assert expected in capsys.readouterr().err
+    assert expected in cli("calibrate", *files, *options, code=2).err
 
 
-def test_the_files_that_it_reads_are_not_replaced(
-    files: tuple[Path, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_files_that_it_reads_are_not_replaced(files: tuple[Path, Path], tmp_path: Path, cli: Command) -> None:
     setup = tmp_path / "setup.toml"
     setup.write_text('[sources.""]\nhookload_noise = "20 kN"\n', encoding="utf-8")
     for option, path in (("--table", files[1]), ("--out", setup)):
         before = path.read_bytes()
         options = ("--fit", "rig.block_weight", "--setup", setup, option, path)
-        assert run(monkeypatch, "calibrate", *files, *options) == 2
-        assert f'{option} = "{path}": expected another file than {path}, which' in capsys.readouterr().err
+        assert (
+            f'{option} = "{path}": expected another file than {path}, which'
+            in cli("calibrate", *files, *options, code=2).err
+        )
         assert path.read_bytes() == before
 
 
 def test_days_pumps_and_doubts_are_printed(
-    files: tuple[Path, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    files: tuple[Path, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
     rows = (
         "id,day,bit_depth_m,operation,rpm,hookload_kN,torque_kN_m,pumps,flow_L_min\n"
@@ -101,18 +94,15 @@ def test_days_pumps_and_doubts_are_printed(
     files[1].write_text(rows, encoding="utf-8")
     out = tmp_path / "new.toml"
     options = ("--fit", "rig.block_weight", "--starts", "1", "--quiet", "--out", out)
-    assert run(monkeypatch, "calibrate", *files, *options) == 0
-    printed = capsys.readouterr()
+    printed = cli("calibrate", *files, *options)
     for part in ("scatter.hookload", "scatter of days", "(pumps on", "1800", "(pumps off)", "rows of its day",
                  "score of the 3 days"):  # fmt: skip
         assert part in " ".join(printed.out.split())
     assert "with care: b: a slack-off of" in printed.err
     assert "did not settle" not in printed.err
-    assert run(monkeypatch, "predict", out, files[1]) == 0
+    cli("predict", out, files[1])
     monkeypatch.setattr("fctd.calibration.scatter._CLOSE", 0.0)
-    assert run(monkeypatch, "calibrate", *files, *options) == 0
-    assert "the fit with scatter did not settle" in capsys.readouterr().err
-    assert run(monkeypatch, "calibrate", *files, *options, "--no-scatter", "--units", "field") == 0
-    printed = capsys.readouterr()
-    assert "scatter" not in printed.out
-    assert "475.5" in printed.out  # gal/min
+    assert "the fit with scatter did not settle" in cli("calibrate", *files, *options).err
+    printed = cli("calibrate", *files, *options, "--no-scatter", "--units", "field").out
+    assert "scatter" not in printed
+    assert "475.5" in printed  # gal/min

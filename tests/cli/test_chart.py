@@ -14,8 +14,8 @@ import pytest
 
 import fctd
 from fctd.case.operations import KINDS
-from tests.cli.test_main import run
 from tests.cli.tiny import CASE, FOOT, LBF, SOFT_BELOW, settings
+from tests.commands import Command
 
 # Packages that a chart as CSV does without; each takes a tenth to half a second to import.
 SPARED = {"pandas", "pyarrow", "pint", "matplotlib", "plotly"}
@@ -27,9 +27,8 @@ CHART_COLUMNS = [
 ]  # fmt: skip
 
 
-def test_a_chart_reads_its_survey_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_chart_reads_its_survey_once(tmp_path: Path, cli: Command) -> None:
     """Whatever the number of operations and friction factors, and with pictures and tables."""
-    pytest.importorskip("matplotlib")
     survey, case_file = tmp_path / "survey.csv", tmp_path / "tiny.toml"
     survey.write_text("md_m,inc_deg,azi_deg\n0,0,0\n100,0,0\n550,90,0\n900,90,0\n")
     stations = "stations = [[0, 0, 0], [100, 0, 0], [550, 90, 0], [900, 90, 0]]"
@@ -46,26 +45,26 @@ def test_a_chart_reads_its_survey_once(tmp_path: Path, monkeypatch: pytest.Monke
     fctd.torque_drag(case, kinds, [600, 700], [0.1, 0.3])
     fctd.equilibrium(case, "trip_in", 700)
     assert reads == 1
-    code = run(
-        monkeypatch, "chart", case_file, *(word for kind in kinds for word in ("--operation", kind)),
+    cli(
+        "chart", case_file, *(word for kind in kinds for word in ("--operation", kind)),
         "--depths", "600:700:50", "--friction", "0.1", "--friction", "0.3", "--out", tmp_path / "chart.csv",
         "--plot-profile", tmp_path / "profile.svg", "--quiet",
     )  # fmt: skip
-    assert code == 0
     assert reads == 2
     listening = False
     assert (tmp_path / "profile.svg").is_file()
 
 
 def test_a_chart_is_the_one_of_the_library_with_its_origin_beside_it(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    case_file: Path, tmp_path: Path, cli: Command
 ) -> None:
     out = tmp_path / "new" / "chart.csv"
     given = ("--operation", "trip_in, rotate_off_bottom", "--operation", "trip_in")
     factors = ("--friction", "0.1", "--friction", "0.3")
-    code = run(monkeypatch, "chart", case_file, *given, *factors, "--depths", "700:850:50", "--rpm", "80", "--out", out)
-    assert code == 0
-    assert "16 rows: 16 converged\n" in capsys.readouterr().out
+    assert (
+        "16 rows: 16 converged\n"
+        in cli("chart", case_file, *given, *factors, "--depths", "700:850:50", "--rpm", "80", "--out", out).out
+    )
     table = pd.read_csv(out, dtype={"friction_label": str})
     assert list(table.columns) == CHART_COLUMNS
     kinds, depths = ["trip_in", "rotate_off_bottom"], [700, 750, 800, 850]
@@ -77,25 +76,18 @@ def test_a_chart_is_the_one_of_the_library_with_its_origin_beside_it(
     assert {"fctd", "numpy", "numba", "python"} <= origin["versions"].keys()
 
 
-def test_the_screen_says_how_many_rows_it_leaves_out(
-    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert run(monkeypatch, "chart", case_file, "--operation", "trip_in", "--depths", "600:636:1") == 0
-    printed = capsys.readouterr().out
+def test_the_screen_says_how_many_rows_it_leaves_out(case_file: Path, cli: Command) -> None:
+    printed = cli("chart", case_file, "--operation", "trip_in", "--depths", "600:636:1").out
     assert "37 rows: 37 converged; 36 of them above, all of them in a file by --out" in printed
     assert "636.0" in printed
 
 
-def test_field_units_in_columns_and_names(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_field_units_in_columns_and_names(case_file: Path, tmp_path: Path, cli: Command) -> None:
     out = tmp_path / "chart.parquet"
-    code = run(
-        monkeypatch, "chart", case_file, "--operation", "all", "--depths", "2000 ft:2600 ft:300 ft",
+    screen = cli(
+        "chart", case_file, "--operation", "all", "--depths", "2000 ft:2600 ft:300 ft",
         "--units", "field", "--out", out, "--quiet",
-    )  # fmt: skip
-    assert code == 0
-    screen = capsys.readouterr().out
+    ).out  # fmt: skip
     assert "klbf" in screen
     assert "2600.0" in screen
     table = pd.read_parquet(out)
@@ -114,16 +106,13 @@ def test_field_units_in_columns_and_names(
 
 
 def test_a_row_without_an_answer_shows_in_row_screen_and_exit_code(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    case_file: Path, tmp_path: Path, cli: Command
 ) -> None:
-    pytest.importorskip("matplotlib")
     out, picture = tmp_path / "chart.csv", tmp_path / "chart.svg"
-    code = run(
-        monkeypatch, "chart", case_file, "--operation", "trip_out", "--depths", "500:800:150",
-        *settings(SOFT_BELOW), "--out", out, "--plot", picture,
+    screen, errors = cli(
+        "chart", case_file, "--operation", "trip_out", "--depths", "500:800:150",
+        *settings(SOFT_BELOW), "--out", out, "--plot", picture, code=1,
     )  # fmt: skip
-    assert code == 1
-    screen, errors = capsys.readouterr()
     assert "diverged" in screen
     assert "trip_out: diverged at 650 to 800 m (2 of 3)" in errors
     table = pd.read_csv(out)
@@ -132,18 +121,13 @@ def test_a_row_without_an_answer_shows_in_row_screen_and_exit_code(
     assert picture.exists()
 
 
-def test_a_chart_goes_on_below_the_hole(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_chart_goes_on_below_the_hole(case_file: Path, tmp_path: Path, cli: Command) -> None:
     """Depths at which string and hole do not fit have rows of their own; the profile is that of the last that does."""
-    pytest.importorskip("matplotlib")
     out, pictures = tmp_path / "chart.csv", [tmp_path / "chart.svg", tmp_path / "profile.svg"]
-    code = run(
-        monkeypatch, "chart", case_file, "--operation", "trip_out", "--depths", "800:1000:100", "--out", out,
-        "--plot", pictures[0], "--plot-profile", pictures[1],
+    screen, errors = cli(
+        "chart", case_file, "--operation", "trip_out", "--depths", "800:1000:100", "--out", out,
+        "--plot", pictures[0], "--plot-profile", pictures[1], code=1,
     )  # fmt: skip
-    assert code == 1
-    screen, errors = capsys.readouterr()
     assert "not_possible" in screen
     assert 'trip_out: not_possible at 1000 m (1 of 3): bit_depth = "1000 m": expected a depth' in errors
     table = pd.read_csv(out)
@@ -154,15 +138,14 @@ def test_a_chart_goes_on_below_the_hole(
 
 
 def test_a_warning_is_on_screen_once_in_the_files_and_on_the_picture(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    case_file: Path, tmp_path: Path, cli: Command
 ) -> None:
-    pytest.importorskip("matplotlib")
     files = {"--out": tmp_path / "chart.csv", "--plot": tmp_path / "chart.svg", "--plot-profile": tmp_path / "p.svg"}
     chart = ("chart", case_file, "--operation", "trip_in", "--depths", "500:800:300", "--quiet")
     given = (*chart, *(part for pair in files.items() for part in pair), "--set", "mud.density=10.4")
-    assert run(monkeypatch, *given) == 0
+    printed = cli(*given)
     text = "a mud of 10.4 kg/m^3 (10.4 looks like '10.4 ppg'): write it with its unit; usual is 0.6 to 2.6 sg"
-    assert capsys.readouterr().err == f"warning: {case_file}: mud.density: {text}\n"
+    assert printed.err == f"warning: {case_file}: mud.density: {text}\n"
     (kept,) = json.loads((tmp_path / "chart.csv.json").read_text())["warnings"]
     assert (kept["code"], kept["key"]) == ("mud_density", "mud.density")
     for name in ("chart.svg", "p.svg"):
@@ -170,52 +153,43 @@ def test_a_warning_is_on_screen_once_in_the_files_and_on_the_picture(
 
     for file in tmp_path.glob("*.svg"):
         file.unlink()
-    assert run(monkeypatch, *given, "--strict") == 1
-    assert "strict: warnings are errors (mud_density); nothing is computed" in capsys.readouterr().err
+    assert "strict: warnings are errors (mud_density); nothing is computed" in cli(*given, "--strict", code=1).err
     assert not list(tmp_path.glob("*.svg"))
 
 
 @pytest.mark.parametrize("units", ["si", "field"])
 def test_factors_that_differ_along_the_hole_leave_the_table_its_width(
-    units: str, case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    units: str, case_file: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
     """On a terminal of 80 columns."""
     monkeypatch.setenv("COLUMNS", "80")
     intervals = "[{to_md = 600, diameter = 0.3, friction = 0.1}, {to_md = 900, diameter = 0.2159, friction = 0.25}]"
     given = ("chart", case_file, "--operation", "trip_out", *settings(f"wellbore.intervals={intervals}"))
-    assert run(monkeypatch, *given, "--depths", "td:td:1", "--quiet", "--units", units) == 0
-    printed = capsys.readouterr().out
+    printed = cli(*given, "--depths", "td:td:1", "--quiet", "--units", units).out
     shoe = "600 m" if units == "si" else "1969 ft"
     assert f"; friction factors: case's own: 0.1 down to {shoe}, 0.25 below\n" in printed
     assert re.search(r"^ trip_out +[\d.]+( +-?[\d.]+){3} .*converged", printed, re.MULTILINE)
 
 
-def test_friction_by_kind_is_a_line_of_its_own(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_friction_by_kind_is_a_line_of_its_own(case_file: Path, tmp_path: Path, cli: Command) -> None:
     out = tmp_path / "chart.csv"
     intervals = (
         'wellbore.intervals=[{to_md = 600, diameter = 0.3, friction = 0.1, kind = "cased"},'
         '{to_md = 900, diameter = 0.2159, friction = 0.1, kind = "open"}]'
     )
-    code = run(
-        monkeypatch, "chart", case_file, "--operation", "trip_out", "--depths", "800:800:1", "--quiet", "--out", out,
+    assert "cased 0.20, open 0.30" in cli(
+        "chart", case_file, "--operation", "trip_out", "--depths", "800:800:1", "--quiet", "--out", out,
         "--friction", "cased=0.2,open=0.3", "--friction", "0.2,0.3", *settings(intervals),
-    )  # fmt: skip
-    assert code == 0
-    assert "cased 0.20, open 0.30" in capsys.readouterr().out
+    ).out  # fmt: skip
     table = pd.read_csv(out).set_index("friction_label")["hookload_N"]
     assert table["0.2"] < table["cased 0.20, open 0.30"] < table["0.3"]
 
 
-def test_rates_go_to_the_operations_that_have_them(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    pytest.importorskip("matplotlib")
+def test_rates_go_to_the_operations_that_have_them(case_file: Path, tmp_path: Path, cli: Command) -> None:
     out, picture = tmp_path / "chart.csv", tmp_path / "profiles.svg"
     rates = ("--speed", "0.7 m/s", "--rpm", "80", "--plot-profile", picture)
     chart = ("chart", case_file, "--operation", "all", "--depths", "800:800:10", "--out", out, "--quiet")
-    assert run(monkeypatch, *chart, *rates) == 0
+    cli(*chart, *rates)
     found = json.loads((tmp_path / "chart.csv.json").read_text())["rates"]
     speeds = {kind: abs(rate["speed_m_s"]) for kind, rate in found.items()}
     spins = {kind: rate["spin_rad_s"] for kind, rate in found.items()}
@@ -238,17 +212,17 @@ def test_a_chart_as_csv_imports_no_package_that_it_does_not_use(tmp_path: Path) 
 
 
 def test_measured_rows_that_the_picture_does_not_show_are_told(
-    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    case_file: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
-    pytest.importorskip("matplotlib")
     monkeypatch.chdir(case_file.parent)
     rows = "bit_depth_m,operation,hookload_kN\n700,trip_in,90\n700,trip_out,100\n800,rotate_off_bottom,95\n"
     Path("rows.csv").write_text(rows, encoding="utf-8")
     options = ["--operation", "trip_out", "--depths", "700:800:100", "--measured", "rows.csv", "--plot", "a.png"]
-    assert run(monkeypatch, "chart", case_file, *options) == 0
-    errors = " ".join(capsys.readouterr().err.split())
+    errors = " ".join(cli("chart", case_file, *options).err.split())
     assert "2 of 3 measured rows are not drawn, of operations that are not asked for: trip_in, rotate" in errors
     before = Path("rows.csv").read_bytes()
-    assert run(monkeypatch, "chart", case_file, *options, "--out", "rows.csv") == 2
-    assert '--out = "rows.csv": expected another file than rows.csv, which' in capsys.readouterr().err
+    assert (
+        '--out = "rows.csv": expected another file than rows.csv, which'
+        in cli("chart", case_file, *options, "--out", "rows.csv", code=2).err
+    )
     assert Path("rows.csv").read_bytes() == before

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.test_main import run
 from tests.cli.tiny import CHART, POINT
+from tests.commands import Command
 from tests.plots.made import well
 
 SHOD = well()
@@ -58,24 +58,19 @@ def test_bad_input_is_one_message_and_exit_code_2(
     case_file: Path,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
+    cli: Command,
 ) -> None:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "folder.csv").mkdir()
     before = sorted(tmp_path.rglob("*"))
     given = (CHART if command == "chart" else POINT) | options
-    code = run(monkeypatch, command, case_file.name, *(part for pair in given.items() for part in pair))
-    assert code == 2
-    message = capsys.readouterr().err
+    message = cli(command, case_file.name, *(part for pair in given.items() for part in pair), code=2).err
     assert "Traceback" not in message
     for part in expected:
         assert part in message
     assert sorted(tmp_path.rglob("*")) == before
 
 
-def test_all_operations_do_not_hide_a_wrong_one(
-    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_all_operations_do_not_hide_a_wrong_one(case_file: Path, cli: Command) -> None:
     kinds = ("--operation", "all", "--operation", "wiggle")
-    assert run(monkeypatch, "chart", case_file, *kinds, "--depths", "500:800:100") == 2
-    assert "wiggle" in capsys.readouterr().err
+    assert "wiggle" in cli("chart", case_file, *kinds, "--depths", "500:800:100", code=2).err

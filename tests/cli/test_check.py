@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.test_main import run
+from tests.commands import Command
 
 # A quarter circle of 286.48 m radius after 300 m: 90° in 450 m, 6°/30 m; 150 m horizontal.
 CASE = """
@@ -45,15 +45,14 @@ def case_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return path
 
 
-def printed(case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], *more: str) -> str:
+def printed(cli: Command, case_file: Path, *more: str) -> str:
     """What ``fctd check`` prints, every run of blanks as one."""
-    assert run(monkeypatch, "check", case_file, *more) == 0
-    return " ".join(capsys.readouterr().out.split())
+    return " ".join(cli("check", case_file, *more).out.split())
 
 
-def test_the_numbers(case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_numbers(case_file: Path, cli: Command) -> None:
     """By hand: 300 m + radius deep, radius + 150 m away; 24 t of pipe and 13 t of collars, mud of a tenth of steel."""
-    text = printed(case_file, monkeypatch, capsys)
+    text = printed(cli, case_file)
     for line in (
         "total depth, measured 900.0 m (4 stations)",
         "true vertical depth 586.5 m",
@@ -72,8 +71,8 @@ def test_the_numbers(case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: p
         assert line in text
 
 
-def test_field_units(case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    text = printed(case_file, monkeypatch, capsys, "--units", "field")
+def test_field_units(case_file: Path, cli: Command) -> None:
+    text = printed(cli, case_file, "--units", "field")
     for line in (
         "total depth, measured 2952.8 ft",
         "greatest dog-leg 6.10 °/100 ft from 984 to 2461 ft",  # 6°/30 m
@@ -84,9 +83,7 @@ def test_field_units(case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: p
         assert line in text
 
 
-def test_options_change_the_case(
-    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_options_change_the_case(case_file: Path, cli: Command) -> None:
     changes = (
         "--friction",
         "0.4",
@@ -95,53 +92,43 @@ def test_options_change_the_case(
         "--set",
         "string.components[0].segments=2",
     )
-    text = printed(case_file, monkeypatch, capsys, *changes)
+    text = printed(cli, case_file, *changes)
     assert "220.5 0.4" in text
     assert "7 segments of 50 to 160 m with the bit at 900.0 m" in text
     assert "by default" not in text
 
 
-def test_the_key_that_was_written_is_named(
-    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_key_that_was_written_is_named(case_file: Path, cli: Command) -> None:
     """A contact diameter that follows from the outer diameter is not what is to be corrected."""
     changes = ("string.components[0].contact_diameter=", "string.components[0].outer_diameter=12.25 in")
     settings = [word for change in changes for word in ("--set", change)]
-    assert run(monkeypatch, "check", case_file, *settings, "--units", "field") == 2
     said = 'string.components[0].outer_diameter = "12.25 in": expected at most the hole\'s 8.5 in'
-    assert said in capsys.readouterr().err
+    assert said in cli("check", case_file, *settings, "--units", "field", code=2).err
 
 
-def test_what_does_not_fit_is_refused_below_the_tables(
-    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert run(monkeypatch, "check", case_file, "--set", "string.components[0].contact_diameter=8.6 in") == 2
-    out, err = capsys.readouterr()
+def test_what_does_not_fit_is_refused_below_the_tables(case_file: Path, cli: Command) -> None:
+    out, err = cli("check", case_file, "--set", "string.components[0].contact_diameter=8.6 in", code=2)
     assert err.startswith(f'{case_file}: string.components[0].contact_diameter = "8.6 in"')
     assert "-1.27" in out
 
 
-def test_a_string_that_fits_where_its_operations_end_is_checked_there(
-    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_string_that_fits_where_its_operations_end_is_checked_there(case_file: Path, cli: Command) -> None:
     """Pipe of one segment is straight: with the bit at 390 m it ends at 290 m, above the bend at 300 m."""
     text = CASE.replace('length = "100 m"', 'length = "100 m"\nsegments = 10')
     text = text.replace('linear_mass = "30 kg/m"', 'linear_mass = "30 kg/m"\nsegments = 1')
     case_file.write_text(text)
-    assert run(monkeypatch, "check", case_file) == 2
-    assert "expected a hole within 1 deg of vertical along the top segment" in capsys.readouterr().err
+    assert "expected a hole within 1 deg of vertical along the top segment" in cli("check", case_file, code=2).err
     operation = 'kind = "trip_in"\nfrom_md = 350\nto_md = {}\nspeed = 0.3\n'
     case_file.write_text(f"{text}[[operations]]\n{operation.format(390)}")
-    assert "11 segments of 10 to 290 m with the bit at 390.0 m" in printed(case_file, monkeypatch, capsys)
+    assert "11 segments of 10 to 290 m with the bit at 390.0 m" in printed(cli, case_file)
     case_file.write_text(f"{text}[[operations]]\n{operation.format(700)}")
-    assert run(monkeypatch, "check", case_file) == 2
+    cli("check", case_file, code=2)
 
 
-def test_warnings(case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_warnings(case_file: Path, cli: Command) -> None:
     arguments = ("check", case_file, "--quiet", "--set", "mud.density=10.4")
-    assert run(monkeypatch, *arguments) == 0
-    out, err = capsys.readouterr()
+    out, err = cli(*arguments)
     assert out == ""
     assert err.startswith(f"warning: {case_file}: mud.density: ")
     assert err.count("\n") == 1
-    assert run(monkeypatch, *arguments, "--strict") == 1
+    cli(*arguments, "--strict", code=1)

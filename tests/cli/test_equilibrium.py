@@ -10,19 +10,16 @@ import pytest
 
 import fctd
 from fctd.cli.equilibrium import stretches
-from tests.cli.test_main import run
 from tests.cli.tiny import FOOT, LBF, LEVEL, SOFT_BELOW, settings
+from tests.commands import Command
 
 
-def test_equilibrium_prints_the_loads_and_writes_the_profile(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    pytest.importorskip("matplotlib")
+def test_equilibrium_prints_the_loads_and_writes_the_profile(case_file: Path, tmp_path: Path, cli: Command) -> None:
     out, picture = tmp_path / "profile.csv", tmp_path / "profile.svg"
     arguments = ("--operation", "trip_out", "--bit-depth", "850 m", "--friction", "0.3")
-    assert run(monkeypatch, "equilibrium", case_file, *arguments, "--out", out, "--plot", picture) == 0
+    printed = cli("equilibrium", case_file, *arguments, "--out", out, "--plot", picture)
     point = fctd.equilibrium(fctd.load_case(case_file, {"friction": 0.3}), "trip_out", 850)
-    screen = capsys.readouterr().out
+    screen = printed.out
     assert f"{point.hookload / 1e3:.3f}" in screen
     assert f"{point.profile['von_mises_Pa'].max() / 1e6:.3f}" in screen
     pd.testing.assert_frame_equal(pd.read_csv(out), point.profile, check_dtype=False)
@@ -32,7 +29,7 @@ def test_equilibrium_prints_the_loads_and_writes_the_profile(
     assert picture.read_text().startswith("<?xml")
 
     field = tmp_path / "profile.parquet"
-    assert run(monkeypatch, "equilibrium", case_file, *arguments, "--units", "field", "--out", field) == 0
+    cli("equilibrium", case_file, *arguments, "--units", "field", "--out", field)
     table = pd.read_parquet(field)
     for name, column, factor in (
         ("von_mises_ksi", "von_mises_Pa", 1000 * LBF / (FOOT / 12) ** 2),
@@ -42,40 +39,33 @@ def test_equilibrium_prints_the_loads_and_writes_the_profile(
         np.testing.assert_allclose(table[name] * factor, point.profile[column], rtol=1e-12, atol=1e-15)
 
 
-def test_the_end_of_the_hole_is_a_word(
-    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_end_of_the_hole_is_a_word(case_file: Path, cli: Command) -> None:
     """The hole ends at 900 m and has one interval."""
-    assert run(monkeypatch, "equilibrium", case_file, "--operation", "trip_out", "--bit-depth", "td") == 0
-    assert "trip_out, bit at 900.0 m" in capsys.readouterr().out
+    assert (
+        "trip_out, bit at 900.0 m" in cli("equilibrium", case_file, "--operation", "trip_out", "--bit-depth", "td").out
+    )
     for word, expected in (("shoe", "a depth, as the case has one interval and no shoe"), ("end", "a length such as")):
-        assert run(monkeypatch, "equilibrium", case_file, "--operation", "trip_out", "--bit-depth", word) == 2
-        assert f'--bit-depth = "{word}": expected {expected}' in capsys.readouterr().err
+        assert (
+            f'--bit-depth = "{word}": expected {expected}'
+            in cli("equilibrium", case_file, "--operation", "trip_out", "--bit-depth", word, code=2).err
+        )
 
 
-def test_equilibrium_without_an_answer_writes_nothing(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    pytest.importorskip("matplotlib")
+def test_equilibrium_without_an_answer_writes_nothing(case_file: Path, tmp_path: Path, cli: Command) -> None:
     files = [tmp_path / "p.csv", tmp_path / "p.png"]
-    code = run(
-        monkeypatch, "equilibrium", case_file, "--operation", "trip_out", "--bit-depth", "800", *settings(SOFT_BELOW),
-        "--out", files[0], "--plot", files[1],
-    )  # fmt: skip
-    assert code == 1
-    assert "diverged: segment" in capsys.readouterr().err
+    assert "diverged: segment" in cli(
+        "equilibrium", case_file, "--operation", "trip_out", "--bit-depth", "800", *settings(SOFT_BELOW),
+        "--out", files[0], "--plot", files[1], code=1,
+    ).err  # fmt: skip
     assert not any(file.exists() for file in files)
 
 
 @pytest.mark.slow
-def test_a_resolved_string_shows_its_shapes_and_its_limits(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_resolved_string_shows_its_shapes_and_its_limits(tmp_path: Path, cli: Command) -> None:
     case_file, out = tmp_path / "level.toml", tmp_path / "profile.csv"
     case_file.write_text(LEVEL)
     point = ("equilibrium", case_file, "--operation", "drill_sliding", "--resolve-buckling", "--out", out)
-    assert run(monkeypatch, *point, "--bit-depth", "150") == 0
-    screen = " ".join(capsys.readouterr().out.split())
+    screen = " ".join(cli(*point, "--bit-depth", "150").out.split())
     origin = json.loads((tmp_path / "profile.csv.json").read_text())
     assert origin["shape"] == "helix"
     assert "locked_up_at" not in origin
@@ -85,9 +75,9 @@ def test_a_resolved_string_shows_its_shapes_and_its_limits(
 
     out.unlink()
     stuck = ("--bit-depth", "80", "--friction", "4", *settings("rig.block_weight=350 kN"))
-    assert run(monkeypatch, *point, *stuck) == 1  # the file that was asked for is not there
+    printed = cli(*point, *stuck, code=1)  # the file that was asked for is not there
     assert not out.exists()
-    printed = capsys.readouterr()
+    printed = printed
     assert "Nothing is written" in printed.err
     screen = " ".join(printed.out.split())
     for label, words in (
@@ -98,12 +88,9 @@ def test_a_resolved_string_shows_its_shapes_and_its_limits(
         assert f"{label} {share} % of the friction" in screen
 
 
-def test_one_string_is_of_one_operation(
-    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_one_string_is_of_one_operation(case_file: Path, cli: Command) -> None:
     kinds = ("--operation", "trip_in", "--operation", "trip_out")
-    assert run(monkeypatch, "equilibrium", case_file, *kinds, "--bit-depth", "800") == 2
-    message = capsys.readouterr().err
+    message = cli("equilibrium", case_file, *kinds, "--bit-depth", "800", code=2).err
     assert "--operation" in message
     assert "one kind of operation" in message
 

@@ -10,7 +10,7 @@ import pytest
 
 import fctd
 from fctd.model.templates import TEMPLATES
-from tests.cli.test_main import run
+from tests.commands import Command
 
 SURVEY = "md_ft,inc_deg,azi_deg\n" + "".join(f"{100 * k},{min(max(k - 10, 0), 60)},{40 + k % 3}\n" for k in range(101))
 
@@ -27,32 +27,27 @@ def advised(printed: str) -> list[list[str]]:
 
 
 @pytest.mark.parametrize("name", TEMPLATES)
-def test_every_template_is_written(name: str, here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert run(monkeypatch, "init", "--template", name, "--units", "field", "-o", "my.toml") == 0
+def test_every_template_is_written(name: str, here: Path, cli: Command) -> None:
+    cli("init", "--template", name, "--units", "field", "-o", "my.toml")
     case = fctd.load_case("my.toml")
     assert case.name == "my"
     assert all(part.cut_by_default for part in case.string.components)
 
 
 @pytest.mark.parametrize("units", ["metric", "field"])
-def test_the_commands_that_it_names_run(
-    units: str, here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_commands_that_it_names_run(units: str, here: Path, cli: Command) -> None:
     """All but ``simulate``, which takes too long for a fast test."""
-    assert run(monkeypatch, "init", "--units", units) == 0
-    commands = advised(capsys.readouterr().out)
+    commands = advised(cli("init", "--units", units).out)
     assert [command[0] for command in commands] == ["check", "chart", "equilibrium", "simulate"]
     assert "shoe:td:" in " ".join(commands[1])
-    for command in commands[:3]:
-        assert run(monkeypatch, *command) == 0
-    assert "segments of" in capsys.readouterr().out
+    assert "segments of" in "".join(cli(*command).out for command in commands[:3])
     assert (here / "chart.csv").exists()
 
 
-def test_the_case_of_a_survey(here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_case_of_a_survey(here: Path, cli: Command) -> None:
     (here / "surveys").mkdir()
     (here / "surveys" / "well ü.csv").write_text(SURVEY)
-    assert run(monkeypatch, "init", here / "surveys" / "well ü.csv", "--units", "field", "-o", "case/ü.toml") == 0
+    cli("init", here / "surveys" / "well ü.csv", "--units", "field", "-o", "case/ü.toml")
     raw = tomllib.loads((here / "case" / "ü.toml").read_text(encoding="utf-8"))
     assert raw["wellbore"]["survey"] == "../surveys/well ü.csv"
     case = fctd.load_case("case/ü.toml")
@@ -75,63 +70,55 @@ def test_a_survey_without_a_unit_of_depth(
     unit: str,
     metre: float,
     here: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
+    cli: Command,
 ) -> None:
     (here / "s.csv").write_text("DEPTH,DEVI,AZIM\n0,0,0\n500,0,0\n1000,40,10\n1500,40,10\n")
-    assert run(monkeypatch, "init", "s.csv", "--units", units) == 0
-    assert f"the file names no unit of depth: {unit} is assumed" in capsys.readouterr().err
+    assert f"the file names no unit of depth: {unit} is assumed" in cli("init", "s.csv", "--units", units).err
     assert f'columns = {{md = {{unit = "{unit}"}}}}' in (here / "my_well.toml").read_text(encoding="utf-8")
     assert fctd.load_case("my_well.toml").depths[1] == pytest.approx(1500 * metre, abs=0.01)
 
 
-def test_a_unit_that_the_case_would_not_have(
-    here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_unit_that_the_case_would_not_have(here: Path, cli: Command) -> None:
     """A survey whose headers and units disagree is refused, and not read in the units of the case."""
     rows = "".join(f"{k};{500 * k};{10 * k};45\n" for k in range(6))
     (here / "s.csv").write_text("Sta.;M.Depth;Inclin;Azim. Grid\n#;(ft);(deg);(deg)\n" + rows)
-    assert run(monkeypatch, "init", "s.csv", "--units", "metric") == 0
-    assert "its depths are in ft, as the file says, those of the case in m" in capsys.readouterr().err
+    assert (
+        "its depths are in ft, as the file says, those of the case in m"
+        in cli("init", "s.csv", "--units", "metric").err
+    )
     assert fctd.load_case("my_well.toml").depths[1] == pytest.approx(2500 * 0.3048, abs=0.01)
     (here / "s.csv").write_text("Sta.;MD (m);Inclin;Azim. Grid\n#;(ft);(deg);(deg)\n" + rows)
-    assert run(monkeypatch, "init", "s.csv", "--units", "field", "-o", "b.toml") == 2
-    assert 'row 2, MD (m) = "(ft)": expected m, as the header says' in capsys.readouterr().err
+    assert (
+        'row 2, MD (m) = "(ft)": expected m, as the header says'
+        in cli("init", "s.csv", "--units", "field", "-o", "b.toml", code=2).err
+    )
 
 
-def test_columns_that_are_told(here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_columns_that_are_told(here: Path, cli: Command) -> None:
     rows = "".join(f"{k},{500 * k},{10 * k},45,90\n" for k in range(6))
     (here / "s.csv").write_text("Sta,Tiefe (m),Inc,Azi Grid,Azi True\n" + rows)
-    assert run(monkeypatch, "init", "s.csv", "--columns", "md=Tiefe (m)") == 2
-    assert "(for init: --columns 'azi=Azi Grid')" in capsys.readouterr().err
+    assert "(for init: --columns 'azi=Azi Grid')" in cli("init", "s.csv", "--columns", "md=Tiefe (m)", code=2).err
     told = ["--columns", "azi=azi grid", "--columns", "md=Tiefe (m)", "--columns", "md.unit=feet"]
-    assert run(monkeypatch, "init", "s.csv", *told) == 0
+    cli("init", "s.csv", *told)
     hole = fctd.load_case("my_well.toml").wellbore
     assert hole.trajectory[-1] == pytest.approx([2500 * 0.3048, np.radians(50), np.radians(45)])
 
 
-def test_the_warnings_of_check_are_told(
-    here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_warnings_of_check_are_told(here: Path, cli: Command) -> None:
     (here / "s.csv").write_text(
         "md_m,inc_deg,azi_deg\n" + "".join(f"{95 * k + k % 3 / 10},{k},40\n" for k in range(1, 30))
     )
-    assert run(monkeypatch, "init", "s.csv", "-q") == 0
-    told = capsys.readouterr().err
-    assert run(monkeypatch, "check", "my_well.toml", "-q") == 0
-    checked = capsys.readouterr().err
+    told = cli("init", "s.csv", "-q").err
+    checked = cli("check", "my_well.toml", "-q").err
     assert checked.count("warning: ") == 2
     assert told.startswith(checked)
     assert "delete it and write it anew" in told
 
 
 @pytest.mark.parametrize(("steepest", "pipe"), [(60, "drill collars"), (89, "drill collars")])
-def test_the_string_follows_the_survey(
-    steepest: int, pipe: str, here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_string_follows_the_survey(steepest: int, pipe: str, here: Path, cli: Command) -> None:
     (here / "s.csv").write_text(f"md_m,inc_deg,azi_deg\n0,0,0\n500,0,0\n1000,{steepest},0\n1500,{steepest},0\n")
-    assert run(monkeypatch, "init", "s.csv") == 0
-    assert ("a horizontal well" in capsys.readouterr().out) == (steepest > 70)
+    assert ("a horizontal well" in cli("init", "s.csv").out) == (steepest > 70)
     assert pipe in fctd.load_case("my_well.toml").string.components[0].name
 
 
@@ -157,19 +144,17 @@ def test_refused(
     message: str,
     here: Path,
     monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
+    cli: Command,
 ) -> None:
     (here / "there.toml").write_text("mine")
     (here / "far.csv").write_text("md_m,inc_deg,azi_deg\n0,0,0\n1e9,0,0\n")
     (here / "bad.csv").write_text("md_m,inc_deg,azi_deg\n0,0,0\n100,x,0\n")
     monkeypatch.setenv("COLUMNS", "200")
-    assert run(monkeypatch, "init", *arguments) == 2
-    assert message in " ".join(capsys.readouterr().err.split())
+    assert message in " ".join(cli("init", *arguments, code=2).err.split())
     assert (here / "there.toml").read_text() == "mine"
     assert not (here / "my_well.toml").exists()
 
 
-def test_quiet(here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(monkeypatch, "init", "--quiet") == 0
-    assert capsys.readouterr().out == ""
+def test_quiet(here: Path, cli: Command) -> None:
+    assert cli("init", "--quiet").out == ""
     assert (here / "my_well.toml").exists()

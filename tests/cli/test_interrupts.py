@@ -14,18 +14,11 @@ import pytest
 from fctd import open_result
 from fctd.cli import chart, refine, simulate
 from fctd.cli.interrupts import as_interrupts, deferred
-from tests.cli.test_main import CASE, run
+from tests.commands import Command
 
 ROOT = Path(__file__).parents[2]
 SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
 KILL = (signal.SIGTERM, signal.SIGHUP)
-
-
-@pytest.fixture
-def case_file(tmp_path: Path) -> Path:
-    path = tmp_path / "small.toml"
-    path.write_text(CASE)
-    return path
 
 
 def sending(real: Callable[..., object], number: int, after: int) -> Callable[..., object]:
@@ -48,42 +41,40 @@ def sending(real: Callable[..., object], number: int, after: int) -> Callable[..
 
 @pytest.mark.parametrize("number", SIGNALS)
 def test_a_run_keeps_what_it_has(
-    number: int, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    number: int, small_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
     monkeypatch.setattr(simulate, "simulate", sending(simulate.simulate, number, 2))
     out = tmp_path / "out"
-    assert run(monkeypatch, "simulate", case_file, "--out", out, "--set", "record.interval=1 s", "--quiet") == 130
+    printed = cli("simulate", small_file, "--out", out, "--set", "record.interval=1 s", "--quiet", code=130)
     result = open_result(out)
     assert (result.status, result.message) == ("interrupted", "at 2 s")
     assert list(result.history["time_s"]) == pytest.approx([1.0, 2.0])
-    assert "interrupted: at 2 s" in capsys.readouterr().err
+    assert "interrupted: at 2 s" in printed.err
 
 
 @pytest.mark.parametrize("number", SIGNALS)
 @pytest.mark.parametrize("command", ["settling", "chart", "refine"])
 def test_a_command_without_results_ends_without_files(
-    command: str, number: int, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
+    command: str, number: int, small_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command,
 ) -> None:  # fmt: skip
     def settle(*_: object, **more: object) -> None:
         os.kill(os.getpid(), number)
 
     options = {
-        "settling": ("simulate", case_file, "--out", tmp_path / "out", "--quiet"),
-        "chart": ("chart", case_file, "--operation", "trip_in", "--depths", "700:750:10", "--out", tmp_path / "a.csv"),
-        "refine": ("refine", case_file, "--out", tmp_path / "fine.toml"),
+        "settling": ("simulate", small_file, "--out", tmp_path / "out", "--quiet"),
+        "chart": ("chart", small_file, "--operation", "trip_in", "--depths", "700:750:10", "--out", tmp_path / "a.csv"),
+        "refine": ("refine", small_file, "--out", tmp_path / "fine.toml"),
     }
     monkeypatch.setattr(sys.modules["fctd.simulation.simulate"], "settle", settle)
     monkeypatch.setattr(chart, "chart_rows", sending(chart.chart_rows, number, 2))
     monkeypatch.setattr(refine, "refine", sending(refine.refine, number, 1))
-    assert run(monkeypatch, *options[command]) == 130
-    assert "Traceback" not in capsys.readouterr().err
+    assert "Traceback" not in cli(*options[command], code=130).err
     assert [path.name for path in tmp_path.iterdir()] == ["small.toml"]
 
 
 @pytest.mark.parametrize("number", KILL)
 def test_a_second_signal_does_not_stop_the_writing_of_results(
-    number: int, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    number: int, small_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
     """A terminal that closes sends SIGHUP from the system and from the shell."""
     save = simulate.SimulationResult.save
@@ -95,13 +86,13 @@ def test_a_second_signal_does_not_stop_the_writing_of_results(
 
     monkeypatch.setattr(simulate, "simulate", sending(simulate.simulate, number, 1))
     monkeypatch.setattr(simulate.SimulationResult, "save", again)
-    assert run(monkeypatch, "simulate", case_file, "--out", tmp_path / "out", "--quiet") == 130
+    cli("simulate", small_file, "--out", tmp_path / "out", "--quiet", code=130)
     assert open_result(tmp_path / "out").status == "interrupted"
 
 
 @pytest.mark.parametrize("number", SIGNALS)
 def test_a_signal_while_results_are_written_waits(
-    number: int, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    number: int, small_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
     """The results of a whole run are not lost because it is stopped in its last tenth of a second."""
     save = simulate.SimulationResult.save
@@ -111,9 +102,9 @@ def test_a_signal_while_results_are_written_waits(
         return save(*arguments, **more)
 
     monkeypatch.setattr(simulate.SimulationResult, "save", stopped)
-    assert run(monkeypatch, "simulate", case_file, "--out", tmp_path / "out", "--quiet") == 130
+    printed = cli("simulate", small_file, "--out", tmp_path / "out", "--quiet", code=130)
     assert open_result(tmp_path / "out").status == "completed"
-    assert "Written: " in capsys.readouterr().out
+    assert "Written: " in printed.out
     assert [path.name for path in tmp_path.iterdir() if path.name.startswith(".")] == []
 
 
@@ -134,7 +125,7 @@ def test_signals_wait_for_their_handlers() -> None:
 
 
 @pytest.mark.slow
-def test_results_are_written_after_the_terminal_has_closed(case_file: Path, tmp_path: Path) -> None:
+def test_results_are_written_after_the_terminal_has_closed(small_file: Path, tmp_path: Path) -> None:
     """With its bar and its tables on that terminal."""
     code = (
         "import os, signal, time\nfrom fctd.cli import main, simulate as cli\nreal = cli.simulate\n"
@@ -147,7 +138,7 @@ def test_results_are_written_after_the_terminal_has_closed(case_file: Path, tmp_
         "cli.simulate = simulate\nmain.main()\n"
     )
     leader, follower = pty.openpty()
-    arguments = ["simulate", str(case_file), "--out", str(tmp_path / "out"), "--set", "record.interval=1 s"]
+    arguments = ["simulate", str(small_file), "--out", str(tmp_path / "out"), "--set", "record.interval=1 s"]
     started = subprocess.Popen(
         [sys.executable, "-c", code, *arguments], cwd=ROOT, stdin=follower, stdout=follower, stderr=follower,
         start_new_session=True, preexec_fn=lambda: os.close(os.open(os.ttyname(1), os.O_RDWR)),
@@ -187,10 +178,10 @@ def test_ctrl_c_stops_what_a_script_has_started_in_the_background() -> None:
         signal.signal(signal.SIGINT, before)
 
 
-def test_a_run_in_the_background_of_a_script_keeps_what_it_has(case_file: Path, tmp_path: Path) -> None:
+def test_a_run_in_the_background_of_a_script_keeps_what_it_has(small_file: Path, tmp_path: Path) -> None:
     """Stopped as scripts do."""
     out, going = tmp_path / "out", tmp_path / ".out-run" / "progress.json"
-    run = f"'{sys.executable}' -m fctd simulate {case_file} --out {out} --set operations[0].duration=1e5 --quiet"
+    run = f"'{sys.executable}' -m fctd simulate {small_file} --out {out} --set operations[0].duration=1e5 --quiet"
     script = f"{run} & until [ -e {going} ]; do sleep 0.1; done; kill -INT $!; wait $!"
     done = subprocess.run(["sh", "-c", script], cwd=ROOT, capture_output=True, text=True, timeout=60)
     assert done.returncode == 130, done.stderr

@@ -15,7 +15,8 @@ from fctd.cli.keeping import read_bytes
 from fctd.store import limits, save_interval
 from fctd.store.lock import FolderLock
 from fctd.store.run_folder import RunFolder, run_path
-from tests.cli.test_main import CASE, run
+from tests.cli.tiny import SMALL
+from tests.commands import run
 from tests.simulation.kept import same
 
 RUN = ("simulate", "small.toml", "--out", "out", "--quiet", "--csv", "--checkpoint-every", "0 s")
@@ -28,7 +29,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("survey.csv").write_text("md_m,inc_deg,azi_deg\n0,0,0\n300,0,0\n750,90,0\n900,90,0\n")
     stations = "stations = [[0, 0, 0], [300, 0, 0], [750, 90, 0], [900, 90, 0]]"
-    Path("small.toml").write_text(CASE.replace(stations, 'survey = "survey.csv"'))
+    Path("small.toml").write_text(SMALL.replace(stations, 'survey = "survey.csv"'))
     monkeypatch.setattr(save_interval, "SHARE", 1e9)
 
 

@@ -7,54 +7,15 @@ import subprocess
 import sys
 from pathlib import Path
 from typing import Any
+from unittest.mock import Mock
 
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from fctd.cli import main, simulate
+from fctd.cli import simulate
 from fctd.cli.interrupts import ends_program
-
-CASE = """
-name = "small"
-[wellbore]
-stations = [[0, 0, 0], [300, 0, 0], [750, 90, 0], [900, 90, 0]]
-overlap = "0.2 m"
-[[wellbore.intervals]]
-to_md = "900 m"
-diameter = "8.5 in"
-friction = 0.2
-[string]
-[[string.components]]
-name = "pipe"
-length = "800 m"
-outer_diameter = "5 in"
-inner_diameter = "4.276 in"
-segments = 32
-[mud]
-density = 0
-[[operations]]
-kind = "rotate_off_bottom"
-at_md = "800 m"
-duration = "4 s"
-rpm = 60
-ramp_time = "2 s"
-"""
-
-
-@pytest.fixture
-def case_file(tmp_path: Path) -> Path:
-    path = tmp_path / "small.toml"
-    path.write_text(CASE)
-    return path
-
-
-def run(monkeypatch: pytest.MonkeyPatch, *arguments: object) -> int:
-    """Exit code of ``fctd ARGUMENTS``."""
-    monkeypatch.setattr("sys.argv", ["fctd", *map(str, arguments)])
-    with pytest.raises(SystemExit) as stopped:
-        main.main()
-    return int(stopped.value.code or 0)
+from tests.commands import Command
 
 
 @pytest.mark.parametrize(
@@ -87,15 +48,13 @@ def run(monkeypatch: pytest.MonkeyPatch, *arguments: object) -> int:
 def test_bad_input_is_one_message_and_exit_code_2(
     change: str,
     expected: list[str],
-    case_file: Path,
+    small_file: Path,
     tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
+    cli: Command,
 ) -> None:
     out = tmp_path / "out"
-    assert run(monkeypatch, "simulate", case_file, "--set", change, "--out", out, "--quiet") == 2
-    message = capsys.readouterr().err
-    assert message.startswith(str(case_file))
+    message = cli("simulate", small_file, "--set", change, "--out", out, "--quiet", code=2).err
+    assert message.startswith(str(small_file))
     assert "Traceback" not in message
     assert "expected" in message
     for part in expected:
@@ -103,32 +62,27 @@ def test_bad_input_is_one_message_and_exit_code_2(
     assert not list(out.glob("*"))
 
 
-def test_a_missing_case_file(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(monkeypatch, "simulate", "nowhere.toml") == 2
-    assert "nowhere.toml" in capsys.readouterr().err
+def test_a_missing_small_file(cli: Command) -> None:
+    assert "nowhere.toml" in cli("simulate", "nowhere.toml", code=2).err
 
 
 @pytest.mark.skipif(os.name == "nt", reason="a current folder cannot be removed there")
 def test_a_current_folder_that_is_gone_is_named(
-    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    small_file: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
-    gone = case_file.parent / "gone"
+    gone = small_file.parent / "gone"
     gone.mkdir()
     monkeypatch.chdir(gone)
     gone.rmdir()
-    assert run(monkeypatch, "check", "../small.toml") == 2
-    assert "the current folder is no longer there" in capsys.readouterr().err
+    assert "the current folder is no longer there" in cli("check", "../small.toml", code=2).err
 
 
-def test_an_unknown_option_is_exit_code_2(
-    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert run(monkeypatch, "simulate", case_file, "--frction", "0.2") == 2
-    assert "--frction" in capsys.readouterr().err
+def test_an_unknown_option_is_exit_code_2(small_file: Path, cli: Command) -> None:
+    assert "--frction" in cli("simulate", small_file, "--frction", "0.2", code=2).err
 
 
 def test_with_a_full_disk_the_answer_is_still_printed(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    small_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
     write_table = pq.write_table
 
@@ -139,19 +93,17 @@ def test_with_a_full_disk_the_answer_is_still_printed(
 
     monkeypatch.setattr("pyarrow.parquet.write_table", full)
     out = tmp_path / "out"
-    assert run(monkeypatch, "simulate", case_file, "--out", out, "--quiet") == 2
-    captured = capsys.readouterr()
+    captured = cli("simulate", small_file, "--out", out, "--quiet", code=2)
     assert f'"{out}": expected a folder that can be written (No space left on device)' in captured.err
     assert [path.name for path in tmp_path.iterdir()] == ["small.toml"]
     assert "32 segments" in captured.out
 
 
-def test_interrupted_is_exit_code_130(case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def stopped(case: object, **more: object) -> object:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(simulate, "simulate", stopped)
-    assert run(monkeypatch, "simulate", case_file, "--out", tmp_path / "out", "--quiet") == 130
+def test_interrupted_is_exit_code_130(
+    small_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
+) -> None:
+    monkeypatch.setattr(simulate, "simulate", Mock(side_effect=KeyboardInterrupt))
+    cli("simulate", small_file, "--out", tmp_path / "out", "--quiet", code=130)
     assert [path.name for path in tmp_path.iterdir()] == ["small.toml"]
 
 

@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 
 from fctd.cli import monitor
-from tests.cli.test_main import run
+from tests.commands import Command
 from tests.monitoring.made import readings, series, shared_chart
 
 # That of tests.monitoring.made, whose chart the tests share.
@@ -52,13 +52,9 @@ def series_file(tmp_path: Path) -> Path:
     return path
 
 
-def test_a_table_a_picture_and_an_alarm(
-    case_file: Path, series_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    pytest.importorskip("matplotlib")
+def test_a_table_a_picture_and_an_alarm(case_file: Path, series_file: Path, cli: Command) -> None:
     out, plot = case_file.with_name("found.csv"), case_file.with_name("found.png")
-    assert run(monkeypatch, "monitor", case_file, series_file, "--out", out, "--plot", plot, "--units", "field") == 0
-    printed = capsys.readouterr().out
+    printed = cli("monitor", case_file, series_file, "--out", out, "--plot", plot, "--units", "field").out
     assert printed.count("alarm: from 2") == 1  # of feet
     assert "friction factor of open hole" in printed
     table = pd.read_csv(out)
@@ -67,14 +63,14 @@ def test_a_table_a_picture_and_an_alarm(
     assert plot.stat().st_size > 10_000
 
 
-def test_strict_makes_an_alarm_an_error(case_file: Path, series_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert run(monkeypatch, "monitor", case_file, series_file, "--quiet", "--strict") == 1
+def test_strict_makes_an_alarm_an_error(case_file: Path, series_file: Path, cli: Command) -> None:
+    cli("monitor", case_file, series_file, "--quiet", "--strict", code=1)
 
 
-def test_without_a_factor_the_exit_code_is_1(case_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_a_factor_the_exit_code_is_1(case_file: Path, cli: Command) -> None:
     path = case_file.with_name("drilling.csv")
     series().head(50).to_csv(path, index=False)
-    assert run(monkeypatch, "monitor", case_file, path) == 1
+    cli("monitor", case_file, path, code=1)
 
 
 @pytest.mark.parametrize(
@@ -97,25 +93,23 @@ def test_without_a_factor_the_exit_code_is_1(case_file: Path, monkeypatch: pytes
     ],
 )
 def test_wrong_input_is_named(
-    text: str | None, options: list[str], expected: str, case_file: Path, series_file: Path,
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
+    text: str | None, options: list[str], expected: str, case_file: Path, series_file: Path, cli: Command,
 ) -> None:  # fmt: skip
     if text is not None:
         series_file.write_text(text)
-    assert run(monkeypatch, "monitor", case_file, series_file, *options) == 2
-    message = capsys.readouterr().err
+    message = cli("monitor", case_file, series_file, *options, code=2).err
     assert expected in message
     assert "Traceback" not in message
 
 
-def test_the_series_is_not_overwritten(case_file: Path, series_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_series_is_not_overwritten(case_file: Path, series_file: Path, cli: Command) -> None:
     before = series_file.read_bytes()
-    assert run(monkeypatch, "monitor", case_file, series_file, "--out", series_file) == 2
+    cli("monitor", case_file, series_file, "--out", series_file, code=2)
     assert series_file.read_bytes() == before
 
 
 def test_a_growing_file_is_followed_until_ctrl_c(
-    case_file: Path, series_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    case_file: Path, series_file: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
     """The file grows by half a line more than a third at every look; the table is that of the whole file."""
     whole = series_file.read_text()
@@ -130,9 +124,9 @@ def test_a_growing_file_is_followed_until_ctrl_c(
 
     monkeypatch.setattr(monitor, "sleep", grow)
     followed, read = case_file.with_name("followed.csv"), case_file.with_name("read.csv")
-    assert run(monkeypatch, "monitor", case_file, series_file, "--follow", "--out", followed, "--quiet") == 130
-    alarms = capsys.readouterr().out.splitlines()[0]
-    assert run(monkeypatch, "monitor", case_file, series_file, "--out", read, "--quiet") == 0
-    assert capsys.readouterr().out.splitlines()[0] == alarms
+    alarms = cli(
+        "monitor", case_file, series_file, "--follow", "--out", followed, "--quiet", code=130
+    ).out.splitlines()[0]
+    assert cli("monitor", case_file, series_file, "--out", read, "--quiet").out.splitlines()[0] == alarms
     pd.testing.assert_frame_equal(pd.read_csv(followed), pd.read_csv(read))
     assert pd.read_csv(read)["friction"].notna().sum() > 30

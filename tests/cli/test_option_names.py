@@ -1,6 +1,7 @@
 """Refusals of the commands: options by their names, quantities in the units asked for."""
 
 from typing import Literal
+from unittest.mock import Mock
 
 import pytest
 
@@ -10,12 +11,8 @@ from fctd.cli.option_names import naming_options
 
 def refusal(error: InputError, units: Literal["si", "field"] = "si") -> str:
     """What a command says that raises an error; its library's ``bit_depth`` is the option ``--depths``."""
-
-    def command(units: str) -> None:
-        raise error
-
     with pytest.raises(InputError) as caught:
-        naming_options(command, {"bit_depth": "--depths"})(units=units)
+        naming_options(Mock(side_effect=error), {"bit_depth": "--depths"})(units=units)
     return str(caught.value)
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from fctd.cli.pictures import PICTURES
-from tests.cli.test_main import run
+from tests.commands import Command
 
 START = {".png": b"\x89PNG", ".svg": b"<?xml", ".pdf": b"%PDF", ".html": b"<!doctype html>"}
 
@@ -14,30 +14,24 @@ START = {".png": b"\x89PNG", ".svg": b"<?xml", ".pdf": b"%PDF", ".html": b"<!doc
     "suffix",
     [pytest.param(suffix, marks=pytest.mark.slow if suffix in {".svg", ".pdf"} else ()) for suffix in PICTURES],
 )
-def test_a_picture_is_as_its_suffix_says(
-    suffix: str, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    for package in ("matplotlib", "plotly"):
-        pytest.importorskip(package)
+def test_a_picture_is_as_its_suffix_says(suffix: str, case_file: Path, tmp_path: Path, cli: Command) -> None:
     rows = tmp_path / "rows.csv"
     rows.write_text("depth_m,operation,hookload_kN\n550,trip_in,100\n")
     chart, profile = tmp_path / f"chart{suffix}", tmp_path / f"profile{suffix.upper()}"
-    code = run(
-        monkeypatch, "chart", case_file, "--operation", "trip_in", "--depths", "500:td:300", "--load", "indicator",
+    cli(
+        "chart", case_file, "--operation", "trip_in", "--depths", "500:td:300", "--load", "indicator",
         "--side-force", "joint", "--measured", rows, "--plot", chart, "--plot-profile", profile, "--quiet",
     )  # fmt: skip
-    assert code == 0
     for path in (chart, profile):
         assert path.read_bytes().startswith(START[suffix])
 
 
-def test_out_is_a_picture_where_its_suffix_says_so(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    pytest.importorskip("matplotlib")
+def test_out_is_a_picture_where_its_suffix_says_so(case_file: Path, tmp_path: Path, cli: Command) -> None:
     given = ("equilibrium", case_file, "--operation", "trip_in", "--bit-depth", "500", "--quiet")
     picture = tmp_path / "profile.png"
-    assert run(monkeypatch, *given, "--out", picture) == 0
+    cli(*given, "--out", picture)
     assert picture.read_bytes().startswith(START[".png"])
-    assert run(monkeypatch, *given, "--out", picture, "--plot", tmp_path / "other.png") == 2
-    assert "a table, .csv or .parquet or .xlsx, beside the picture of --plot" in capsys.readouterr().err
+    assert (
+        "a table, .csv or .parquet or .xlsx, beside the picture of --plot"
+        in cli(*given, "--out", picture, "--plot", tmp_path / "other.png", code=2).err
+    )

@@ -15,22 +15,13 @@ from fctd.case.load import Case
 from fctd.cli import simulate
 from fctd.results.tables import TABLES, SimulationResult
 from fctd.simulation.simulate import Simulation
-from tests.cli.test_main import CASE, run
+from tests.cli.tiny import SMALL
+from tests.commands import Command
 
 
-@pytest.fixture
-def case_file(tmp_path: Path) -> Path:
-    path = tmp_path / "small.toml"
-    path.write_text(CASE)
-    return path
-
-
-def test_simulate_writes_tables_with_metadata(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_simulate_writes_tables_with_metadata(small_file: Path, tmp_path: Path, cli: Command) -> None:
     out = tmp_path / "out"
-    assert run(monkeypatch, "simulate", case_file, "--out", out, "--csv", "--quiet", "--friction", "0.3") == 0
-    printed = capsys.readouterr().out
+    printed = cli("simulate", small_file, "--out", out, "--csv", "--quiet", "--friction", "0.3").out
     assert "small: rotate_off_bottom" in printed
     assert "32 segments" in printed
     assert "mean ± swing" in printed
@@ -47,13 +38,10 @@ def test_simulate_writes_tables_with_metadata(
     assert metadata[b"status"] == b"completed"
 
 
-def test_simulate_in_field_units(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_simulate_in_field_units(small_file: Path, tmp_path: Path, cli: Command) -> None:
     """Screen and CSV files are in field units, what ``open_result`` reads is SI."""
     out = tmp_path / "out"
-    assert run(monkeypatch, "simulate", case_file, "--out", out, "--csv", "--quiet", "--units", "field") == 0
-    printed = capsys.readouterr().out
+    printed = cli("simulate", small_file, "--out", out, "--csv", "--quiet", "--units", "field").out
     assert "bit at 2624.7 ft" in printed
     assert re.search(r"hook load\s+klbf|hook load klbf", printed)
     history, table = open_result(out).history, pd.read_csv(out / "history.csv")
@@ -63,7 +51,7 @@ def test_simulate_in_field_units(
 
 
 def test_a_run_without_work_has_no_energy_error(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    small_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
     """Interrupted before the first record, the run has turned over no energy, and took no time."""
 
@@ -71,15 +59,12 @@ def test_a_run_without_work_has_no_energy_error(
         return Simulation(case).result()
 
     monkeypatch.setattr(simulate, "simulate", interrupted)
-    assert run(monkeypatch, "simulate", case_file, "--out", tmp_path / "out", "--quiet") == 130
-    printed = capsys.readouterr().out
+    printed = cli("simulate", small_file, "--out", tmp_path / "out", "--quiet", code=130).out
     assert "32 segments" in printed
     assert "nan" not in printed
 
 
-def test_an_unfinished_run_is_exit_code_1_and_keeps_its_rows(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_unfinished_run_is_exit_code_1_and_keeps_its_rows(small_file: Path, tmp_path: Path, cli: Command) -> None:
     out = tmp_path / "out"
     push = (
         "operations=[{kind = 'trip_in', from_md = 800, to_md = 880, speed = 2.0, ramp_time = 2}]",
@@ -89,45 +74,44 @@ def test_an_unfinished_run_is_exit_code_1_and_keeps_its_rows(
         "record.interval=0.2",
     )
     changes = [part for change in push for part in ("--set", change)]
-    assert run(monkeypatch, "simulate", case_file, *changes, "--out", out, "--quiet") == 1
-    assert "unstable: at" in capsys.readouterr().err
+    assert "unstable: at" in cli("simulate", small_file, *changes, "--out", out, "--quiet", code=1).err
     assert len(pd.read_parquet(out / "history.parquet")) > 0
 
 
-def test_results_never_take_the_place_of_the_survey(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_results_never_take_the_place_of_the_survey(small_file: Path, tmp_path: Path, cli: Command) -> None:
     survey = tmp_path / "history.csv"
     survey.write_text("md_m,inc_deg,azi_deg\n0,0,0\n1000,0,0\n")
     read = ("--set", "wellbore.stations=", "--set", f"wellbore.survey={survey}")
-    assert run(monkeypatch, "simulate", case_file, *read, "--out", tmp_path, "--csv", "--quiet") == 2
-    assert f'--out = "{survey}": expected another file than the case and its survey' in capsys.readouterr().err
+    assert (
+        f'--out = "{survey}": expected another file than the case and its survey'
+        in cli("simulate", small_file, *read, "--out", tmp_path, "--csv", "--quiet", code=2).err
+    )
     assert "1000,0,0" in survey.read_text()
 
 
 @pytest.mark.parametrize("name", ["energy.parquet", "profile.csv", "history.csv"])
-def test_results_never_take_the_place_of_the_case(
-    name: str, case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    out = case_file.with_name("out")
+def test_results_never_take_the_place_of_the_case(name: str, small_file: Path, cli: Command) -> None:
+    out = small_file.with_name("out")
     out.mkdir()
-    case = case_file.rename(out / name)
-    assert run(monkeypatch, "simulate", case, "--out", out, "--csv", "--quiet") == 2
-    assert f'--out = "{case}": expected another file than the case and its survey' in capsys.readouterr().err
-    assert case.read_text() == CASE
+    case = small_file.rename(out / name)
+    assert (
+        f'--out = "{case}": expected another file than the case and its survey'
+        in cli("simulate", case, "--out", out, "--csv", "--quiet", code=2).err
+    )
+    assert case.read_text() == SMALL
 
 
-def test_a_case_in_its_own_result_folder_stays(case_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_case_in_its_own_result_folder_stays(small_file: Path, cli: Command) -> None:
     """Also where a run was killed between its two renames, with the case in neither place."""
-    out = case_file.with_name("out")
+    out = small_file.with_name("out")
     out.mkdir()
-    case = case_file.rename(out / "energy.toml")
-    assert run(monkeypatch, "simulate", case, "--out", out, "--csv", "--quiet") == 0
+    case = small_file.rename(out / "energy.toml")
+    cli("simulate", case, "--out", out, "--csv", "--quiet")
     first = open_result(out)
     out.rename(out.with_name(".out-old-4194304"))
     first.save(out.with_name(".out-run-4194304"))
-    assert run(monkeypatch, "simulate", case, "--out", out, "--quiet") == 0
-    assert case.read_text() == CASE
+    cli("simulate", case, "--out", out, "--quiet")
+    assert case.read_text() == SMALL
     assert open_result(out).identity != first.identity
     assert {path.name for path in out.iterdir()} == {
         "energy.toml", "history.parquet", "profile.parquet", "energy.parquet", "operations.parquet",
@@ -147,29 +131,26 @@ def test_a_case_in_its_own_result_folder_stays(case_file: Path, monkeypatch: pyt
     ],
 )
 def test_a_folder_that_cannot_be_replaced_is_refused_before(
-    out: str, expected: str, case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    out: str, expected: str, small_file: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
-    monkeypatch.chdir(case_file.parent)
+    monkeypatch.chdir(small_file.parent)
     monkeypatch.setattr(simulate, "simulate", lambda *_, **__: pytest.fail("the case was computed"))
-    (case_file.parent / "taken").mkdir()
-    os.mkfifo(case_file.parent / "taken" / "profile.parquet")
-    assert run(monkeypatch, "simulate", case_file.name, "--out", out, "--quiet") == 2
-    message = capsys.readouterr().err
+    (small_file.parent / "taken").mkdir()
+    os.mkfifo(small_file.parent / "taken" / "profile.parquet")
+    message = cli("simulate", small_file.name, "--out", out, "--quiet", code=2).err
     assert message.startswith("--out = ")
     assert f"expected {expected}" in message
 
 
-def test_a_picture_of_the_run(case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("matplotlib")
+def test_a_picture_of_the_run(small_file: Path, tmp_path: Path, cli: Command) -> None:
     picture = tmp_path / "run.png"
-    assert run(monkeypatch, "simulate", case_file, "--out", tmp_path / "out", "--quiet", "--plot", picture) == 0
+    cli("simulate", small_file, "--out", tmp_path / "out", "--quiet", "--plot", picture)
     assert picture.read_bytes().startswith(b"\x89PNG")
 
 
 def test_a_picture_of_another_kind_is_refused_before(
-    case_file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    small_file: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
     monkeypatch.setattr(simulate, "simulate", lambda *_, **__: pytest.fail("the case was computed"))
-    assert run(monkeypatch, "simulate", case_file, "--plot", "run.html", "--quiet") == 2
-    assert "--plot" in (message := capsys.readouterr().err)
+    assert "--plot" in (message := cli("simulate", small_file, "--plot", "run.html", "--quiet", code=2).err)
     assert "a file name that ends in .png or .svg or .pdf" in message

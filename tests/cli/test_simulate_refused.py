@@ -5,10 +5,11 @@ from pathlib import Path
 import pytest
 
 from fctd.cli.options import BAD_INPUT
-from tests.cli.test_main import CASE, run
+from tests.cli.tiny import SMALL
+from tests.commands import Command
 
 MOVES = (
-    CASE.split("[[operations]]")[0]
+    SMALL.split("[[operations]]")[0]
     + """
 [rig]
 feed = "stands"
@@ -53,14 +54,12 @@ ROTATING, SLIDING, TRIP = {"kind": "drill_rotating", "more": "rpm = 60"}, {"kind
     ],
 )
 def test_what_no_rig_can_do(
-    operation: dict[str, str], tables: dict[str, str], said: list[str], tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
+    operation: dict[str, str], tables: dict[str, str], said: list[str], tmp_path: Path, cli: Command,
 ) -> None:  # fmt: skip
     path = tmp_path / "small.toml"
     path.write_text(MOVES.format(**({"more": ""} | operation)))
     changes = [part for key, value in tables.items() for part in ("--set", f"{key}={value}")]
-    assert run(monkeypatch, "simulate", path, "--out", tmp_path / "out", *changes) == BAD_INPUT
-    printed = " ".join(capsys.readouterr().err.split())
+    printed = " ".join(cli("simulate", path, "--out", tmp_path / "out", *changes, code=BAD_INPUT).err.split())
     assert all(text in printed for text in ["small.toml", *said]), printed
     assert "Traceback" not in printed
     assert not (tmp_path / "out").exists()

@@ -14,7 +14,8 @@ from fctd.sweep.design import sample_of
 from fctd.sweep.run import prepare
 from fctd.sweep.spec import read_sweep
 from tests.cli.test_keeping import CHART, RUN, killed
-from tests.cli.test_main import CASE, run
+from tests.cli.tiny import SMALL
+from tests.commands import run
 from validation.parts.small_sweep import sweep_file
 
 
@@ -22,7 +23,7 @@ from validation.parts.small_sweep import sweep_file
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(save_interval, "SHARE", 1e9)
-    Path("small.toml").write_text(CASE)
+    Path("small.toml").write_text(SMALL)
 
 
 def test_of_a_run_that_has_ended_and_of_one_that_has_not(

@@ -3,16 +3,17 @@
 import os
 import sys
 from pathlib import Path
+from unittest.mock import Mock
 
 import pandas as pd
 import pytest
 
-from tests.cli.test_main import run
 from tests.cli.tiny import CHART, POINT, settings
+from tests.commands import Command
 
 
 def test_a_file_that_fails_to_be_written_is_one_message(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
     """The disk fills up after the target was looked at: the loads are on the screen, the file is the one before."""
 
@@ -24,8 +25,7 @@ def test_a_file_that_fails_to_be_written_is_one_message(
     out = tmp_path / "profile.csv"
     out.write_text("old")
     options = POINT | {"--out": str(out)}
-    assert run(monkeypatch, "equilibrium", case_file, *(part for pair in options.items() for part in pair)) == 2
-    captured = capsys.readouterr()
+    captured = cli("equilibrium", case_file, *(part for pair in options.items() for part in pair), code=2)
     assert f'"{out}": expected a file that can be written (No space left on device)' in captured.err
     assert "hook load" in captured.out
     assert out.read_text() == "old"
@@ -33,47 +33,43 @@ def test_a_file_that_fails_to_be_written_is_one_message(
 
 @pytest.mark.parametrize("command", ["chart", "equilibrium"])
 def test_files_are_written_also_when_nobody_reads_the_screen(
-    command: str, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    command: str, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
     """``fctd chart … | head -1``: rich ends the program when its pipe is closed."""
-
-    def closed(*_: object, **__: object) -> None:
-        raise SystemExit(1)
-
-    monkeypatch.setattr("fctd.cli.options.screen.print", closed)
+    monkeypatch.setattr("fctd.cli.options.screen.print", Mock(side_effect=SystemExit(1)))
     options = (CHART if command == "chart" else POINT) | {"--out": str(tmp_path / "out.csv")}
-    assert run(monkeypatch, command, case_file, *(part for pair in options.items() for part in pair)) == 1
+    cli(command, case_file, *(part for pair in options.items() for part in pair), code=1)
     assert len(pd.read_csv(tmp_path / "out.csv")) > 0
 
 
 @pytest.mark.parametrize("command", ["chart", "equilibrium"])
-def test_the_survey_is_not_written_over(
-    command: str, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_survey_is_not_written_over(command: str, case_file: Path, tmp_path: Path, cli: Command) -> None:
     survey = tmp_path / "hole.csv"
     survey.write_text("md_m,inc_deg,azi_deg\n0,0,0\n900,0,0\n")
     options = (CHART if command == "chart" else POINT) | {"--out": str(tmp_path / "." / "hole.csv")}
     given = [*(part for pair in options.items() for part in pair), *settings("wellbore.stations=")]
-    assert run(monkeypatch, command, case_file, *given, *settings(f"wellbore.survey={survey}")) == 2
-    assert "another file than the case and its survey" in capsys.readouterr().err
+    assert (
+        "another file than the case and its survey"
+        in cli(command, case_file, *given, *settings(f"wellbore.survey={survey}"), code=2).err
+    )
     assert survey.read_text().startswith("md_m")
 
 
 @pytest.mark.parametrize("command", ["chart", "equilibrium"])
 @pytest.mark.parametrize("option", ["--out", "--plot"])
 def test_nor_by_a_side_file_or_a_picture(
-    option: str, command: str, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
+    option: str, command: str, case_file: Path, tmp_path: Path, cli: Command,
 ) -> None:  # fmt: skip
     """``chart.csv.json`` goes beside ``chart.csv``."""
-    pytest.importorskip("matplotlib")
     survey = tmp_path / {"--out": "hole.csv.json", "--plot": "hole.png"}[option]
     survey.write_text("md_m,inc_deg,azi_deg\n0,0,0\n900,0,0\n")
     options = (CHART if command == "chart" else POINT) | {"--out": str(tmp_path / "hole.csv")}
     options |= {"--plot": str(tmp_path / "hole.png")} if option == "--plot" else {}
     given = [*(part for pair in options.items() for part in pair), *settings("wellbore.stations=")]
-    assert run(monkeypatch, command, case_file, *given, *settings(f"wellbore.survey={survey}")) == 2
-    assert f'{option} = "{survey}": expected another file than the case and its survey' in capsys.readouterr().err
+    assert (
+        f'{option} = "{survey}": expected another file than the case and its survey'
+        in cli(command, case_file, *given, *settings(f"wellbore.survey={survey}"), code=2).err
+    )
     assert survey.read_text().startswith("md_m")
 
 
@@ -91,7 +87,7 @@ def test_nor_by_a_side_file_or_a_picture(
 )
 def test_a_target_that_cannot_be_written_is_refused_before(
     name: str, expected: str, command: str, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
+    cli: Command,
 ) -> None:  # fmt: skip
     os.mkfifo(tmp_path / "pipe.csv")
     os.mkfifo(tmp_path / "taken.csv.json")
@@ -99,8 +95,7 @@ def test_a_target_that_cannot_be_written_is_refused_before(
     for compute in ("chart.chart_rows", "equilibrium.equilibrium"):
         monkeypatch.setattr(f"fctd.cli.{compute}", lambda *_, **__: pytest.fail("the case was computed"))
     options = (CHART if command == "chart" else POINT) | {"--out": str(tmp_path / name)}
-    assert run(monkeypatch, command, case_file, *(part for pair in options.items() for part in pair)) == 2
-    message = capsys.readouterr().err
+    message = cli(command, case_file, *(part for pair in options.items() for part in pair), code=2).err
     assert message.startswith("--out = ")
     assert f"expected {expected}" in message
 
@@ -116,27 +111,24 @@ def test_a_target_that_cannot_be_written_is_refused_before(
 @pytest.mark.parametrize("command", ["chart", "equilibrium"])
 def test_without_its_package_a_file_is_refused_before_computing(
     option: str, file: str, package: str, extra: str, command: str, case_file: Path, tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch, cli: Command,
 ) -> None:  # fmt: skip
     monkeypatch.setitem(sys.modules, package, None)
     out = tmp_path / "chart.csv"
     options = (CHART if command == "chart" else POINT) | {"--out": str(out), option: str(tmp_path / file)}
-    assert run(monkeypatch, command, case_file, *(part for pair in options.items() for part in pair)) == 2
-    message = capsys.readouterr().err
+    message = cli(command, case_file, *(part for pair in options.items() for part in pair), code=2).err
     assert package in message
     assert extra in message
     assert not list(tmp_path.glob("chart*"))
 
 
 @pytest.mark.parametrize("command", ["chart", "equilibrium"])
-def test_a_workbook_has_the_table_and_its_origin(
-    command: str, case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    pytest.importorskip("xlsxwriter")
-    calamine = pytest.importorskip("python_calamine")
+def test_a_workbook_has_the_table_and_its_origin(command: str, case_file: Path, tmp_path: Path, cli: Command) -> None:
+    import python_calamine as calamine
+
     out = tmp_path / "table.xlsx"
     options = (CHART if command == "chart" else POINT) | {"--out": str(out), "--units": "field"}
-    assert run(monkeypatch, command, case_file, *(part for pair in options.items() for part in pair)) == 0
+    cli(command, case_file, *(part for pair in options.items() for part in pair))
     book = calamine.CalamineWorkbook.from_path(out)
     headers, *rows = book.get_sheet_by_name("table").to_python()
     assert {"chart": "hookload_klbf", "equilibrium": "effective_tension_klbf"}[command] in headers

@@ -22,7 +22,6 @@ NOTHING = (None, None, None)
 
 
 def test_a_sweep_is_written_and_resumed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("distributed")
     monkeypatch.chdir(tmp_path)
     command = ["sweep", str(sweep_file(tmp_path)), "--workers", "1"]
     done = CliRunner().invoke(app, command)
@@ -62,7 +61,6 @@ def test_rows_to_be_doubted_are_said_and_are_exit_code_1_however_often_it_is_ask
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Segments of 25 and 50 m are too long for waves of 60 m."""
-    pytest.importorskip("distributed")
     monkeypatch.chdir(tmp_path)
     waves = '[wellbore.tortuosity]\namplitude = "1 cm"\nwavelength = "60 m"\n'
     command = ["sweep", str(sweep_file(tmp_path, 'method = "random"\nsamples = 2', case=waves)), "--workers", "1"]
@@ -96,7 +94,6 @@ def test_options_say_where_a_sweep_runs() -> None:
 
 @pytest.mark.slow
 def test_a_lost_scheduler_is_told_without_a_traceback(tmp_path: Path) -> None:
-    pytest.importorskip("distributed")
     command = [sys.executable, "-m", "fctd", "sweep", str(sweep_file(tmp_path)), "--out", str(tmp_path / "out")]
     with clusters.cluster(tmp_path, preload=clusters.failing(tmp_path, pause=2.0)) as dask:
         dask.wait_for_workers(1)

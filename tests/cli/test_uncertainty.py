@@ -7,11 +7,12 @@ import pytest
 from typer.testing import CliRunner
 
 from fctd.case.errors import InputError
-from fctd.cli.main import app, run
+from fctd.cli.main import app
 from fctd.sweep.chunk import as_table
 from fctd.sweep.dataset import begin_dataset, open_dataset
 from fctd.sweep.run import prepare
 from fctd.sweep.spec import read_sweep
+from tests.commands import Command
 from validation.parts.small_sweep import sweep_file
 
 
@@ -31,7 +32,6 @@ def swept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_tables_and_pictures_are_written(swept: Path) -> None:
-    pytest.importorskip("matplotlib")
     pictures = ["--plot-bands", "bands.png", "--plot-tornado", "tornado.svg", "--plot-map", "map.png"]
     command = ["uncertainty", str(swept), "--out", "told", *pictures, "--map", "friction.open,mud.density"]
     done = CliRunner().invoke(app, command)
@@ -46,7 +46,6 @@ def test_tables_and_pictures_are_written(swept: Path) -> None:
 
 def test_field_units_are_those_of_tables_pictures_screen_and_depth(swept: Path) -> None:
     """The depths of the sweep are 600 and 900 m: 2953 ft is 900.07 m."""
-    pytest.importorskip("matplotlib")
     pictures = ["--plot-tornado", "tornado.svg", "--plot-map", "map.svg", "--map", "friction.open,mud.density"]
     units = ["--units", "field", "--bit-depth", "2953"]
     done = CliRunner().invoke(app, ["uncertainty", str(swept), "--out", "told", *pictures, *units])
@@ -66,7 +65,6 @@ def test_field_units_are_those_of_tables_pictures_screen_and_depth(swept: Path) 
 
 
 def test_pictures_that_cannot_be_drawn_are_refused_before_anything_is_told(swept: Path) -> None:
-    pytest.importorskip("matplotlib")
     command = ["uncertainty", str(swept), "--out", "told", "--plot-map", "a.png", "--map", "friction.open,mud.mass"]
     done = CliRunner().invoke(app, command)
     assert isinstance(done.exception, InputError)
@@ -85,15 +83,8 @@ def test_pictures_that_cannot_be_drawn_are_refused_before_anything_is_told(swept
         (["--plot-map", "a.png", "--map", "friction.open,mud.density,status"], "a column of the results"),
     ],
 )
-def test_what_cannot_be_told_is_refused(
-    options: list[str], words: str, swept: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    pytest.importorskip("matplotlib")
-    monkeypatch.setattr("sys.argv", ["fctd", "uncertainty", str(swept), *options])
-    with pytest.raises(SystemExit) as stopped:
-        run(app)
-    assert stopped.value.code == 2
-    assert words in " ".join(capsys.readouterr().err.split())
+def test_what_cannot_be_told_is_refused(options: list[str], words: str, swept: Path, cli: Command) -> None:
+    assert words in " ".join(cli("uncertainty", swept, *options, code=2).err.split())
 
 
 def test_a_limit_of_another_column_names_file_and_key(swept: Path) -> None:
@@ -105,7 +96,6 @@ def test_a_limit_of_another_column_names_file_and_key(swept: Path) -> None:
 
 
 def test_bands_of_one_depth_are_refused_with_the_kind_of_work(swept: Path) -> None:
-    pytest.importorskip("matplotlib")
     dataset = open_dataset(Path("swept-sweep"))
     rows = dataset.rows()[["sample", "operation", "bit_depth_m", "hookload_N", "buckling", "status"]]
     dataset.parts[0].unlink()
@@ -116,11 +106,6 @@ def test_bands_of_one_depth_are_refused_with_the_kind_of_work(swept: Path) -> No
     assert str(refused.exception).startswith(said)
 
 
-def test_the_folder_of_another_sweep_is_refused(
-    swept: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_folder_of_another_sweep_is_refused(swept: Path, cli: Command) -> None:
     swept.write_text(swept.read_text(encoding="utf-8").replace("seed = 7", "seed = 8"), encoding="utf-8")
-    monkeypatch.setattr("sys.argv", ["fctd", "uncertainty", str(swept)])
-    with pytest.raises(SystemExit):
-        run(app)
-    assert "the folder of this sweep" in " ".join(capsys.readouterr().err.split())
+    assert "the folder of this sweep" in " ".join(cli("uncertainty", swept, code=2).err.split())

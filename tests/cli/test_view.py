@@ -4,67 +4,57 @@ from pathlib import Path
 
 import pytest
 
-pytest.importorskip("plotly")
-
 from fctd.cli import chart as chart_of
 from fctd.store import save_interval
 from fctd.store.run_folder import run_path
 from tests.cli.test_keeping import CHART, RUN, killed
-from tests.cli.test_main import CASE, run
-
-
-@pytest.fixture
-def case_file(tmp_path: Path) -> Path:
-    path = tmp_path / "small.toml"
-    path.write_text(CASE)
-    return path
+from tests.commands import Command
 
 
 def test_a_case_and_its_run_become_pages(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    small_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
     monkeypatch.chdir(tmp_path)
     given = ("--operation", "trip_in", "--depths", "600:800:100", "--set", "string.components[0].length=850 m")
-    assert run(monkeypatch, "view", case_file, *given, "--units", "si", "--quiet") == 0
-    assert "Written: small-view.html" in capsys.readouterr().out
+    assert "Written: small-view.html" in cli("view", small_file, *given, "--units", "si", "--quiet").out
     assert "bit at 700.0 m" in Path("small-view.html").read_text(encoding="utf-8")
-    assert run(monkeypatch, "simulate", case_file, "--out", "run", "--quiet") == 0
-    assert run(monkeypatch, "view", "run", "--out", "run.html", "--colour", "stress") == 0
+    cli("simulate", small_file, "--out", "run", "--quiet")
+    cli("view", "run", "--out", "run.html", "--colour", "stress")
     assert "rotating off bottom, bit at 800.0 m" in Path("run.html").read_text(encoding="utf-8")
 
 
 def test_depths_without_a_string_are_named(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    small_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
     """On the screen and on the page; as a chart with such rows, it is exit code 1."""
     monkeypatch.chdir(tmp_path)
     given = ("--operation", "trip_in", "--depths", "700:2700:1000", "--quiet")
-    assert run(monkeypatch, "view", case_file, *given) == 1
+    printed = cli("view", small_file, *given, code=1)
     told = "no string with the bit at 1700, 2700 m"
-    assert told in capsys.readouterr().err
+    assert told in printed.err
     assert told in Path("small-view.html").read_text(encoding="utf-8")
 
 
 def test_a_run_that_has_not_ended(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    small_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
     """What it has kept is shown, and a whole result before it; the run goes on afterwards as if nobody had looked."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(save_interval, "SHARE", 1e9)
     killed(monkeypatch, RUN)
     before = {path.name: path.read_bytes() for path in run_path(Path("out")).iterdir()}
-    assert run(monkeypatch, "view", "out", "--out", "out.html") == 0
+    cli("view", "out", "--out", "out.html")
     assert "rotating off bottom, bit at 800.0 m" in Path("out.html").read_text(encoding="utf-8")
     assert {path.name: path.read_bytes() for path in run_path(Path("out")).iterdir()} == before
-    assert run(monkeypatch, "simulate", "--resume", "out", "--quiet") == 0
+    cli("simulate", "--resume", "out", "--quiet")
     killed(monkeypatch, RUN)
-    capsys.readouterr()
-    assert run(monkeypatch, "view", "out", "--out", "out.html") == 0
-    assert "this is the result before; there is a run that has not ended: 3 of 4 s are kept" in capsys.readouterr().err
+    assert (
+        "this is the result before; there is a run that has not ended: 3 of 4 s are kept"
+        in cli("view", "out", "--out", "out.html").err
+    )
     chart = (*CHART, "--checkpoint-every", "0 s", "--quiet")
     killed(monkeypatch, chart, after=9, module=chart_of)
-    assert run(monkeypatch, "view", "chart.csv") == 2
-    assert "this is one of fctd chart" in capsys.readouterr().err
+    assert "this is one of fctd chart" in cli("view", "chart.csv", code=2).err
 
 
 @pytest.mark.parametrize(
@@ -80,21 +70,16 @@ def test_a_run_that_has_not_ended(
     ],
 )
 def test_wrong_options_are_refused(
-    given: tuple[str, str], expected: list[str], case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
+    given: tuple[str, str], expected: list[str], small_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+    cli: Command,
 ) -> None:  # fmt: skip
     monkeypatch.chdir(tmp_path)
-    assert run(monkeypatch, "view", case_file, *given, "--quiet") == 2
-    message = capsys.readouterr().err
+    message = cli("view", small_file, *given, "--quiet", code=2).err
     for text in expected:
         assert text in message
     assert [path.name for path in tmp_path.iterdir()] == ["small.toml"]
 
 
-def test_options_of_a_case_are_refused_for_a_run(
-    case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert run(monkeypatch, "view", tmp_path, "--depths", "1:2:1") == 2
-    assert "the run is already computed" in capsys.readouterr().err
-    assert run(monkeypatch, "view", tmp_path) == 2
-    assert "the folder of a result of fctd simulate" in capsys.readouterr().err
+def test_options_of_a_case_are_refused_for_a_run(small_file: Path, tmp_path: Path, cli: Command) -> None:
+    assert "the run is already computed" in cli("view", tmp_path, "--depths", "1:2:1", code=2).err
+    assert "the folder of a result of fctd simulate" in cli("view", tmp_path, code=2).err

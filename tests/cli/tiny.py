@@ -1,4 +1,4 @@
-"""What the tests of the steady commands share: small cases as texts, and options."""
+"""What the tests of the commands share: small cases as texts, and options."""
 
 CASE = """
 name = "tiny"
@@ -16,6 +16,32 @@ inner_diameter = "4.276 in"
 segment_length = "40 m"
 [mud]
 density = 0
+"""
+# With an operation to run in time.
+SMALL = """
+name = "small"
+[wellbore]
+stations = [[0, 0, 0], [300, 0, 0], [750, 90, 0], [900, 90, 0]]
+overlap = "0.2 m"
+[[wellbore.intervals]]
+to_md = "900 m"
+diameter = "8.5 in"
+friction = 0.2
+[string]
+[[string.components]]
+name = "pipe"
+length = "800 m"
+outer_diameter = "5 in"
+inner_diameter = "4.276 in"
+segments = 32
+[mud]
+density = 0
+[[operations]]
+kind = "rotate_off_bottom"
+at_md = "800 m"
+duration = "4 s"
+rpm = 60
+ramp_time = "2 s"
 """
 # 5 inch pipe in a level hole, compressed to 2.6 times its sinusoidal limit.
 LEVEL = """

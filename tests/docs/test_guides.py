@@ -135,7 +135,6 @@ def exit_code_0() -> Iterator[None]:
 
 def need_what_it_names(command: str) -> None:
     """Skip a command whose optional package is missing."""
-    pytest.importorskip("matplotlib")
     for package in re.findall(r"--(?:contact|engine) (\w+)", command):
         pytest.importorskip(package)
 
@@ -180,8 +179,6 @@ def survey_in_feet() -> bytes:
 
 
 def survey_in_a_workbook() -> bytes:
-    pytest.importorskip("xlsxwriter")
-    pytest.importorskip("python_calamine")
     return survey_files.workbook({"Notes": [["Well A-1"]], "Survey": survey_files.SHEET})
 
 
@@ -207,7 +204,6 @@ def test_commands_run_one_after_the_other(
     document: Path, suffix: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Word for word, but for the suffix of the survey, in an empty folder with a survey in feet to 2,000 ft."""
-    pytest.importorskip("matplotlib")
     monkeypatch.chdir(tmp_path)
     survey = f"survey.{suffix}"
     content = SURVEYS[suffix]()
@@ -252,9 +248,6 @@ def run_blocks(document: Path, capsys: pytest.CaptureFixture[str]) -> None:
     ids=name,
 )
 def test_the_python_blocks_run(document: Path, checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    pytest.importorskip("matplotlib")
-    if "mujoco" in "".join(blocks(document, "python")):
-        pytest.importorskip("mujoco")
     run_blocks(document, capsys)
 
 
@@ -302,7 +295,6 @@ def test_studies_are_called_by_their_names() -> None:
 
 
 def test_pictures_are_small_and_those_of_the_command() -> None:
-    pytest.importorskip("matplotlib")
     from docs import pictures, tutorial
 
     files = {path.stem: path for path in (ROOT / "docs" / "pictures").iterdir()}
@@ -315,7 +307,6 @@ def test_pictures_are_small_and_those_of_the_command() -> None:
 
 @pytest.mark.slow
 def test_a_picture_is_drawn(tmp_path: Path) -> None:
-    pytest.importorskip("matplotlib")
     from docs import pictures
 
     assert pictures.draw("overview", tmp_path).stat().st_size > 10_000

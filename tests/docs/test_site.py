@@ -9,10 +9,6 @@ from urllib.parse import unquote, urlsplit
 
 import pytest
 
-pytest.importorskip("sphinx")
-pytest.importorskip("furo")
-pytest.importorskip("myst_parser")
-
 import fctd
 from docs.site.docstrings import escaped
 from docs.site.pages import as_page

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from tests.browsers import browser, needs_browser, opened, overflow
+from tests.browsers import needs_browser, opened, overflow
 
 from .test_site import dead, outside
 
@@ -19,7 +19,7 @@ def page() -> Iterator[Any]:
     """A window on the first page; in the end no page has complained or asked for anything."""
     if not (SITE / "index.html").exists():
         pytest.skip("no docs site: make docs")
-    with browser() as found, opened(found, SITE / "index.html") as (shown, _):
+    with opened(SITE / "index.html") as (shown, _):
         yield shown
 
 

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from fctd.arrays import Array
 from fctd.mechanics import bit, state, topdrive
 from fctd.mechanics.rock import DRAG_BIT, GIVEN_LOADS, Rock
 from fctd.mechanics.topdrive import Motion
-from tests.bodies import AXIS, FORCE, ON_LOWER, ON_UPPER, VELOCITY, Array, at, place, put, set_body
+from tests.bodies import AXIS, FORCE, ON_LOWER, ON_UPPER, VELOCITY, at, place, put, set_body
 from tests.compiled import kept
 
 press_bit, drill = kept(bit.press_bit), kept(bit.drill)

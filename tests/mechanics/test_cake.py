@@ -5,9 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from fctd.arrays import Array
 from fctd.mechanics import cake, contact, state
 from fctd.mechanics.state import Laws
-from tests.bodies import AXIS, SPIN, TO_WALL, VELOCITY, Array, at, put, set_body
+from tests.bodies import AXIS, SPIN, TO_WALL, VELOCITY, at, put, set_body
 from tests.compiled import kept
 
 sealed_width = kept(cake.sealed_width)

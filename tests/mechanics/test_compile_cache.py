@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from types import SimpleNamespace
+from unittest.mock import Mock
 
 import pytest
 from numba.core import event
@@ -45,11 +46,9 @@ def test_code_is_read_back(store: Store, file: Path) -> None:
 
 def test_stored_code_needs_no_registries(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
     """numba's registries of types and functions, most of a second, are for compiling alone."""
-
-    def refuse(_: CPUContext) -> None:
-        raise AssertionError("the registries are loaded")
-
-    monkeypatch.setattr(CPUContext, "load_additional_registries", refuse)
+    monkeypatch.setattr(
+        CPUContext, "load_additional_registries", Mock(side_effect=AssertionError("the registries are loaded"))
+    )
     assert hits(store, twice, 3.0) == 1
     with pytest.raises(AssertionError, match="registries"):
         jit.entry(thrice, store)(1.5)
@@ -99,10 +98,7 @@ def test_code_that_another_user_may_have_written_is_not_run(store: Store, file: 
 
 
 def test_an_error_in_sound_code_is_not_taken_for_damage(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
-    def broken(*_: object) -> None:
-        raise EOFError("of our own")
-
-    monkeypatch.setattr(compile_cache.CompileResult, "_rebuild", broken)
+    monkeypatch.setattr(compile_cache.CompileResult, "_rebuild", Mock(side_effect=EOFError("of our own")))
     with pytest.raises(EOFError, match="of our own"):
         hits(store, twice, 3.0)
 

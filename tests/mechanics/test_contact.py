@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 from fctd import build_wellbore
+from fctd.arrays import Array
 from fctd.mechanics import contact, state
 from fctd.mechanics.energy import penetration
 from fctd.model.wellbore import Wellbore
-from tests.bodies import AXIS, PLACE, TO_WALL, Array, put
+from tests.bodies import AXIS, PLACE, TO_WALL, put
 from tests.cases import make_case
 from tests.compiled import kept
 

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from fctd.arrays import Array
 from fctd.mechanics import derrick, state
 from fctd.mechanics.topdrive import GRAVITY
-from tests.bodies import AXIS, Array, place, put
+from tests.bodies import AXIS, place, put
 from tests.compiled import kept
 
 part_immersed = kept(derrick.part_immersed)

@@ -8,11 +8,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
+from fctd.arrays import Array
 from fctd.mechanics import dynamics, friction, state
 from fctd.mechanics.law_names import CODES
 from fctd.mechanics.laws import coulomb, paper
 from fctd.mechanics.state import Laws
-from tests.bodies import SPIN, TO_WALL, VELOCITY, Array, at, place, put, set_body
+from tests.bodies import SPIN, TO_WALL, VELOCITY, at, place, put, set_body
 from tests.compiled import kept
 
 update_velocities = kept(dynamics.update_velocities)

@@ -5,10 +5,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from fctd.arrays import Array
 from fctd.mechanics import dynamics, state
 from fctd.mechanics.law_names import CODES
 from fctd.mechanics.state import Laws
-from tests.bodies import FORCE, ON_LOWER, SPIN, TO_WALL, VELOCITY, Array, at, put, set_body
+from tests.bodies import FORCE, ON_LOWER, SPIN, TO_WALL, VELOCITY, at, put, set_body
 from tests.compiled import kept
 
 update_velocities = kept(dynamics.update_velocities)

@@ -4,12 +4,11 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.mechanics import readings, state, topdrive
 from tests.compiled import kept
 
-Array = NDArray[np.float64]
 read_step, drain_swing = kept(readings.read_step), kept(readings.drain_swing)
 
 

@@ -3,11 +3,12 @@
 import numpy as np
 import pytest
 
+from fctd.arrays import Array
 from fctd.mechanics import dynamics, state, topdrive
 from fctd.mechanics.energy import energy_of
 from fctd.mechanics.state import Laws
 from fctd.mechanics.wall_law import put_stiffness, tangent_over_linear
-from tests.bodies import TO_WALL, VELOCITY, Array, at, put, set_body
+from tests.bodies import TO_WALL, VELOCITY, at, put, set_body
 from tests.compiled import kept
 
 update_velocities = kept(dynamics.update_velocities)

@@ -66,20 +66,6 @@ def test_cylinder_length_follows_the_chord_tolerance() -> None:
     assert length**2 / (8 * 450 / (np.pi / 2)) == pytest.approx(0.002, rel=0.02)
 
 
-def test_intervals_set_size_and_friction_and_the_boundary_is_a_piece_end() -> None:
-    intervals = [
-        {"to_md": 512.5, "diameter": 0.32, "friction": 0.1},
-        {"to_md": 1000, "diameter": 0.2159, "friction": 0.3, "stiffness": 5e6},
-    ]
-    for geometry in ("cylinders", "arcs"):
-        hole = hole_of([[0, 0, 0], [400, 0, 0], [1000, 40, 0]], intervals=intervals, geometry=geometry)
-        assert 512.5 in hole.md
-        walls = hole.walls(hole.at(np.array([300.0, 512.0, 514.0]))[0])
-        np.testing.assert_allclose(walls.radius, [0.16, 0.16, 0.10795])
-        np.testing.assert_allclose(walls.stiffness, [1e7, 1e7, 5e6])
-        np.testing.assert_allclose(walls.friction, [0.1, 0.1, 0.3])
-
-
 @pytest.mark.parametrize(("geometry", "station"), [("cylinders", 505.0), ("arcs", 505.0), ("arcs", 500.1)])
 def test_the_wall_leads_from_one_size_of_hole_to_the_next(geometry: str, station: float) -> None:
     """At a shoe nothing jumps: radius, stiffness and friction change over the length of the overlap."""
@@ -184,13 +170,6 @@ def test_pieces_that_do_not_cover_the_hole_are_a_defect(length: float, overlap: 
     for md in (0.999 * hole.md, moved):
         with pytest.raises(AssertionError, match="the axis of the hole is longer than its measured depth"):
             replace(hole, md=md)
-
-
-def test_contact_angle_convention() -> None:
-    """High side up, right is east when drilling north; within 0.1 degree of vertical the high side is north."""
-    high, right = hole_frame(np.array([[1.0, 0, 0], [0, 0, 1.0]]))
-    np.testing.assert_allclose(high, [[0, 0, -1], [1, 0, 0]], atol=1e-12)
-    np.testing.assert_allclose(right, [[0, 1, 0], [0, 1, 0]], atol=1e-12)
 
 
 def test_overlap_longer_than_a_cylinder_is_refused() -> None:

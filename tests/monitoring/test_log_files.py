@@ -51,7 +51,6 @@ def test_other_xml_is_refused(text: str, match: str) -> None:
 
 
 def test_las(expected: pd.DataFrame) -> None:
-    pytest.importorskip("lasio")
     curves = "".join(f"{name}.{unit} :\n" for name, unit in zip(NAMES, UNITS, strict=True))
     data = "\n".join(line.replace(",", " ") for line in LINES)
     head = "~VERSION\nVERS. 2.0 :\nWRAP. NO :\n~WELL\nSTRT.s 0 :\nSTOP.s 5 :\nSTEP.s 5 :\nNULL. -999.25 :\n~CURVE\n"

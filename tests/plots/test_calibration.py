@@ -4,8 +4,6 @@ from dataclasses import replace
 
 import pytest
 
-pytest.importorskip("matplotlib")
-
 from fctd import plots
 from fctd.calibration.calibrate import calibrate
 from fctd.calibration.predict import predict_rows

@@ -5,9 +5,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pytest
-
-pytest.importorskip("matplotlib")
-
 from matplotlib.text import Annotation
 
 from fctd import plots

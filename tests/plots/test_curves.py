@@ -4,8 +4,6 @@ import numpy as np
 import pandas as pd
 import pytest
 
-pytest.importorskip("matplotlib")
-
 from fctd import plots
 from fctd.plots.palette import BUCKLED, LOOKS
 from tests.plots.made import chart, curves, legend_of, lines, locked_chart, well

@@ -1,10 +1,7 @@
 """Labels at the ends of curves: within the panel, clear of each other and of each other's lines."""
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
-pytest.importorskip("matplotlib")
 
 from fctd.plots.labels import AIR, CLEAR, GAP, MARKER, SAME, place, width_of
 

@@ -2,8 +2,6 @@
 
 import pytest
 
-pytest.importorskip("matplotlib")
-
 from fctd.monitoring.monitor import monitor
 from fctd.plots.monitor import monitor_figure
 from tests.monitoring.made import readings, series, shared_chart, well

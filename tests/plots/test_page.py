@@ -6,9 +6,6 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-import pytest
-
-pytest.importorskip("plotly")
 
 from fctd import plots
 from fctd.case.operations import KINDS

@@ -1,17 +1,13 @@
 """Pages of charts and profiles in a real browser: at every width their panels are readable and inside the window."""
 
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
-
-pytest.importorskip("plotly")
 
 from fctd import plots
 from fctd.case.operations import KINDS
 from fctd.plots.tracks import TRACKS
-from tests.browsers import browser, needs_browser, opened, overflow
+from tests.browsers import needs_browser, opened, overflow
 from tests.plots.made import chart, points, well
 
 pytestmark = needs_browser
@@ -28,12 +24,6 @@ AXES = """() => {
 
 
 @pytest.fixture(scope="module")
-def chromium() -> Iterator[Any]:
-    with browser() as found:
-        yield found
-
-
-@pytest.fixture(scope="module")
 def files(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     """Two groups of curves, and eight tracks."""
     folder = tmp_path_factory.mktemp("pages")
@@ -45,9 +35,9 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
 
 
 @pytest.mark.parametrize("name", ["chart", "profile"])
-def test_panels_are_readable_at_every_width(chromium: Any, files: dict[str, Path], name: str) -> None:
+def test_panels_are_readable_at_every_width(files: dict[str, Path], name: str) -> None:
     count = {"chart": 4, "profile": len(TRACKS)}[name]
-    with opened(chromium, files[name]) as (shown, _):
+    with opened(files[name]) as (shown, _):
         heights = {}
         for width in (1280, 400, 1920):
             shown.set_viewport_size({"width": width, "height": 800})
@@ -66,8 +56,8 @@ def test_panels_are_readable_at_every_width(chromium: Any, files: dict[str, Path
         assert shown.evaluate("document.querySelector('.infolayer .legend').getBoundingClientRect().right") <= 1920
 
 
-def test_the_heading_is_text(chromium: Any, files: dict[str, Path]) -> None:
-    with opened(chromium, files["chart"], 400) as (shown, _):
+def test_the_heading_is_text(files: dict[str, Path]) -> None:
+    with opened(files["chart"], 400) as (shown, _):
         assert shown.locator("h1").inner_text().startswith("<a href='https://example.org'>well</a> & $x$")
         assert shown.title().startswith("<a href=")
         assert shown.locator("a[href*=example]").count() == 0

@@ -7,8 +7,6 @@ from typing import Literal
 import numpy as np
 import pytest
 
-pytest.importorskip("matplotlib")
-
 from fctd import plots, simulate
 from fctd.results.tables import SimulationResult
 from tests.cases import make_case, pipe, rotation, trip

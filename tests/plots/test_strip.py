@@ -1,9 +1,5 @@
 """The strip of states: where each string is buckled, and its status, over depth."""
 
-import pytest
-
-pytest.importorskip("matplotlib")
-
 from matplotlib.colors import to_hex
 
 from fctd import plots

@@ -3,9 +3,6 @@
 from pathlib import Path
 
 import pytest
-
-pytest.importorskip("matplotlib")
-
 from matplotlib.lines import Line2D
 from matplotlib.text import Text
 

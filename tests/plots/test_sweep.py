@@ -8,8 +8,6 @@ import pandas as pd
 import pytest
 from scipy import stats
 
-pytest.importorskip("matplotlib")
-
 from fctd import plots
 from fctd.case.errors import InputError
 from fctd.sweep.chunk import as_table
@@ -80,7 +78,6 @@ def test_a_tornado_has_its_bars_in_order(tmp_path: Path) -> None:
 
 def test_effects_of_morris_have_the_unit_of_the_result(tmp_path: Path) -> None:
     """The hook load is 900 kN (1 + friction): a step of 2/3 is from the eighth to five eighths of its distribution."""
-    pytest.importorskip("SALib")
     found = made(tmp_path, 'method = "morris"\nsamples = 8\n')
     (si,), (field,) = (plots.tornado_figure(found, units=units).axes for units in ("si", "field"))
     assert si.get_title(loc="left") == "hook load: mean absolute effect (Morris), kN"

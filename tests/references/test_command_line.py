@@ -1,6 +1,7 @@
 """``python -m references`` from the command line: the list, a run, messages, exit codes."""
 
 from pathlib import Path
+from unittest.mock import Mock
 
 import pandas as pd
 import pyarrow.parquet as pq
@@ -79,10 +80,7 @@ def test_a_missing_package_is_exit_code_2_and_is_listed(
 
 
 def test_interrupted_is_exit_code_130(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    def stopped(*_: object, **__: object) -> None:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(command, "simulate_file", stopped)
+    monkeypatch.setattr(command, "simulate_file", Mock(side_effect=KeyboardInterrupt))
     assert call(monkeypatch, "simulate", CASE, "--contact", "cylinders", "--out", tmp_path) == 130
 
 

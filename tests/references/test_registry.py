@@ -1,12 +1,10 @@
 """Registries: what is not there is named, with what to do about it."""
 
-import sys
-
 import pytest
 
 from fctd.case.errors import InputError
 from references import contact, engines
-from references.registry import FOUND, Registry, version_of
+from references.registry import Registry, version_of
 
 OPTIONAL = [("fcl", contact.REGISTRY), ("coal", contact.REGISTRY), ("mujoco", engines.REGISTRY)]
 
@@ -39,11 +37,3 @@ def test_an_unknown_name_is_answered_with_the_nearest(wrong: str, right: str, re
 def test_every_entry_is_a_class_of_its_name(registry: Registry) -> None:
     for name in registry.entries:
         assert registry.find(name).name == name
-
-
-def test_an_entry_that_is_asked_for_can_be_seen() -> None:
-    seen: list[str] = []
-    # Hooks stay for the life of the process; this one does next to nothing.
-    sys.addaudithook(lambda event, arguments: seen.append(arguments[0]) if event == FOUND else None)
-    contact.method_class("arcs")
-    assert seen == ["references.contact.own"]

@@ -46,3 +46,8 @@ def study_page(tmp_path, name="overlap"):
 def words_of(html):
     """The text of the page: without tags, white space collapsed."""
     return re.sub(r"\s+", " ", re.sub(r"<style>.*?</style>|<[^>]+>", " ", html, flags=re.DOTALL))
+
+
+def missing(text, *phrases):
+    """The phrases that do not stand in a text."""
+    return [phrase for phrase in phrases if phrase not in text]

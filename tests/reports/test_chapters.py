@@ -5,9 +5,6 @@ from dataclasses import replace
 
 import pytest
 
-pytest.importorskip("jinja2")
-pytest.importorskip("matplotlib")
-
 from reports import chapters, figures
 from reports.chapters import Sentence
 from reports.figures.leading import LEADING
@@ -26,7 +23,7 @@ def test_chapters_name_studies_once_and_pictures_that_there_are():
     for address in addresses:
         study, _, name = address.partition("/")
         assert study in STUDIES
-        assert not name or name in {figure.name for figure in figures.of_study(study)}
+        assert not name or name in {figure.name for figure in figures.by_study()[study]}
     assert [each.figure for each in found.paper] == list(range(1, 14))
     assert all(len(chapter.sentence) == 2 for chapter in found.chapter)
     assert {study for chapter in found.chapter for each in chapter.sentence for study, _ in each.numbers} <= set(
@@ -54,4 +51,4 @@ def test_pictures_of_the_first_screen_draw(each):
     ax = canvas.axes[0]
     assert ax.get_lines()
     assert all(", " in label for label in (ax.get_xlabel(), ax.get_ylabel()))
-    assert each.more in {figure.name for figure in figures.of_study(each.study)}
+    assert each.more in {figure.name for figure in figures.by_study()[each.study]}

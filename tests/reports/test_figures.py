@@ -2,31 +2,29 @@
 
 import itertools
 
+import matplotlib as mpl
 import numpy as np
 import pandas as pd
 import pytest
 
-pytest.importorskip("matplotlib")
-
-import matplotlib as mpl
-
 from reports import figures
 from reports.figures import style
+from validation.harness.registry import STUDIES
 
 from . import synthetic
 
-ALL = [(study, figure) for study in figures.MODULES for figure in figures.of_study(study)]
+ALL = [(study, figure) for study, those in figures.by_study().items() for figure in those]
 
 
 def test_names_make_distinct_files():
     names = [(study, figure.name) for study, figure in ALL]
     assert len(set(names)) == len(names)
-    assert set(figures.MODULES) == {study for study, _ in names}
+    assert figures.by_study().keys() <= STUDIES.keys()
 
 
 def test_torque_is_drawn_in_kilonewton_metres():
     tables = synthetic.STUDIES["paper_well"]()
-    (figure,) = [figure for figure in figures.of_study("paper_well") if figure.name == "torque"]
+    (figure,) = [figure for figure in figures.by_study()["paper_well"] if figure.name == "torque"]
     drawn = figure.draw(tables).axes[0].get_lines()
     assert len(drawn) == 4
     paper = tables["trip_in"].query("variant == 'paper-well'")

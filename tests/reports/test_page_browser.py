@@ -1,23 +1,18 @@
 """The report in a real browser: first screen, widths, sorting, and the way from a claim to its evidence."""
 
 import re
-from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
 from html.parser import HTMLParser
 from pathlib import Path
-from typing import Any
 
 import pytest
-
-pytest.importorskip("jinja2")
-pytest.importorskip("matplotlib")
 
 from reports import chapters, figures, page
 from reports.__main__ import OUT
 from reports.figures.leading import LEADING
 from reports.sections import FRAME, LETTERS
-from tests.browsers import browser, needs_browser, opened, overflow
+from tests.browsers import needs_browser, opened, overflow
 from tests.reports.pages import BLANK, judged
 from validation.claims.ledger import CLAIMS, read_ledger
 from validation.harness import store
@@ -59,7 +54,7 @@ def made(folder: Path) -> tuple[Path, Path]:
     first = next(iter(names["overlap"]))
     ledger.write_text("".join(CLAIM.format(k, k % 4, first, 0.1 if k % 3 else 1.0) for k in range(35)))
     for study, checks in names.items():
-        if study in figures.MODULES and study not in DRAWN:
+        if study in figures.by_study() and study not in DRAWN:
             continue  # as if it had not been run
         tables = synthetic.STUDIES[study]() if study in DRAWN else {}
         record = replace(BLANK, study=study, question=f"Does {study} answer a question of this length, and how?")
@@ -91,14 +86,8 @@ def site(report: tuple[Path, Path]) -> Path:
     return report[0]
 
 
-@pytest.fixture(scope="module")
-def chromium() -> Iterator[Any]:
-    with browser() as found:
-        yield found
-
-
-def test_verdict_and_pictures_lie_in_the_first_screen(chromium: Any, site: Path) -> None:
-    with opened(chromium, site / "index.html") as (shown, _):
+def test_verdict_and_pictures_lie_in_the_first_screen(site: Path) -> None:
+    with opened(site / "index.html") as (shown, _):
         for part in ("h1", "#verdict", ".leading figure:nth-child(1) img", ".leading figure:nth-child(2) img",
                      ".leading figure:nth-child(3) img", ".machine"):  # fmt: skip
             box = shown.locator(part).first.bounding_box()
@@ -115,11 +104,11 @@ def test_verdict_and_pictures_lie_in_the_first_screen(chromium: Any, site: Path)
         assert nav["y"] == 0
 
 
-def test_no_page_is_wider_than_its_window(chromium: Any, site: Path) -> None:
+def test_no_page_is_wider_than_its_window(site: Path) -> None:
     pages = sorted(site.rglob("*.html"))
     assert len(pages) > len(STUDIES)
     wide: dict[tuple[str, int | str], int] = {}
-    with opened(chromium, pages[0]) as (shown, _):
+    with opened(pages[0]) as (shown, _):
         for path in pages:
             shown.goto(path.resolve().as_uri())
             shown.evaluate("for (const fold of document.querySelectorAll('details')) fold.open = true")
@@ -133,10 +122,10 @@ def test_no_page_is_wider_than_its_window(chromium: Any, site: Path) -> None:
     assert {at: by for at, by in wide.items() if by > 0} == {}
 
 
-def test_letters_of_figures_can_be_read_at_every_width(chromium: Any, site: Path) -> None:
+def test_letters_of_figures_can_be_read_at_every_width(site: Path) -> None:
     """Ten pixels are the height of the smallest, whatever the window; a wide figure scrolls in its frame."""
     small, seen = {}, 0
-    with opened(chromium, site / "index.html") as (shown, _):
+    with opened(site / "index.html") as (shown, _):
         for path in [site / "index.html", *sorted((site / "studies").glob("*.html"))]:
             shown.goto(path.resolve().as_uri())
             for width in (400, 1280):
@@ -208,9 +197,9 @@ def test_the_evidence_of_every_claim_is_three_clicks_away(report: tuple[Path, Pa
     assert seen >= len(claims)
 
 
-def test_tables_sort_by_a_heading(chromium: Any, site: Path) -> None:
+def test_tables_sort_by_a_heading(site: Path) -> None:
     """Texts by letters, numbers as they are printed by size, and back again."""
-    with opened(chromium, site / "index.html") as (shown, _):
+    with opened(site / "index.html") as (shown, _):
         head = shown.locator("#claims th").nth(2)
         column = "Array.from(document.querySelectorAll('#claims tbody tr'), (row) => row.cells[2].textContent.trim())"
         head.click()
@@ -249,8 +238,8 @@ def printed(text: str) -> float | None:
         return None
 
 
-def test_a_link_into_a_folded_part_opens_it_and_paper_has_all(chromium: Any, site: Path) -> None:
-    with opened(chromium, site / "index.html") as (shown, _):
+def test_a_link_into_a_folded_part_opens_it_and_paper_has_all(site: Path) -> None:
+    with opened(site / "index.html") as (shown, _):
         assert shown.locator("details[open]").count() == 0
         shown.evaluate("dispatchEvent(new Event('beforeprint'))")
         assert shown.locator("details:not([open])").count() == 0

@@ -10,7 +10,7 @@ import pytest
 
 from fctd import open_result
 from fctd.results import notes
-from tests.cli.test_main import run
+from tests.commands import run
 
 CASE = """
 name = "turn"

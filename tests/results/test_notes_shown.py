@@ -11,7 +11,7 @@ import tomlkit
 from fctd import Case, open_result, simulate
 from fctd.results.notes import MEANINGS
 from tests.cases import pipe, rotation, trip
-from tests.cli.test_main import run
+from tests.commands import run
 from validation.cases import load
 from validation.cases import trip as moved
 

@@ -17,7 +17,8 @@ from fctd.cli import equilibrium, refine, simulate
 from fctd.results.status import RefineStatus, RunStatus, SteadyStatus
 from fctd.store.tables import write_table
 from tests.cases import make_case, rotation
-from tests.cli.test_main import CASE, run
+from tests.cli.tiny import SMALL
+from tests.commands import run
 
 ALL = list(chain(SteadyStatus, RunStatus, RefineStatus))
 # What a script relies on: the exit code of the command, and whether its loads are those of a string; with the reason.
@@ -79,7 +80,7 @@ def test_exit_code_and_loads(
     module, arguments, file = COMMANDS[command]
     result = replace(result_of(command), status=status, message="at 5 s")
     monkeypatch.setattr(module, command, lambda *_, **__: result)
-    (tmp_path / "case.toml").write_text(CASE)
+    (tmp_path / "case.toml").write_text(SMALL)
     out = tmp_path / file.split("/")[0]
     assert run(monkeypatch, command, tmp_path / "case.toml", *arguments, "--out", out) == code, reason
     assert (tmp_path / file).exists() == (loads or command == "simulate"), reason

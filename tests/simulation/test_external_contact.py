@@ -4,15 +4,13 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from fctd import Case, InputError, simulate
+from fctd.arrays import Array
 from fctd.mechanics import state
 from fctd.model.wellbore import Contacts, build_wellbore, find_contacts
 from fctd.simulation.preparation import prepare
 from tests.cases import make_case, pipe, rotation
-
-Array = NDArray[np.float64]
 
 STATIONS = [[0, 0, 0], [100, 0, 0], [400, 60, 30], [600, 60, 30]]
 

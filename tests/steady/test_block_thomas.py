@@ -4,11 +4,9 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.steady.block_thomas import SIZE, eliminate, negative_pivots, solve_with_pivoting
-
-Array = NDArray[np.float64]
 
 
 def system(n: int, seed: int) -> tuple[Array, Array, Array, Array]:

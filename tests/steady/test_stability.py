@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from fctd import equilibrium
+from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.mechanics import dynamics, state
 from fctd.mechanics.energy import energy_of
@@ -18,8 +18,6 @@ from fctd.steady.problem import FULL, Problem
 from fctd.steady.stability import fastest_mode, push_aside
 from tests.cases import make_case, pipe
 from tests.steady.buckled import level_case, problem_of
-
-Array = NDArray[np.float64]
 
 
 def hanging_case(weight_on_bit: float, **more: object) -> Case:

@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.mechanics import dynamics, joints, state
@@ -21,7 +21,6 @@ from fctd.steady.tangent import Steady, assemble
 from tests.cases import make_case, pipe
 from tests.compiled import kept
 
-Array = NDArray[np.float64]
 update_joint_loads, update_velocities = kept(joints.update_joint_loads), kept(dynamics.update_velocities)
 BUILD = [[0, 0, 30], [200, 0, 30], [500, 60, 60], [800, 85, 100]]
 

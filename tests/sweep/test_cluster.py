@@ -26,11 +26,10 @@ from fctd.sweep.spec import read_sweep
 from validation.parts import clusters
 from validation.parts.small_sweep import sweep_file
 
-pytest.importorskip("distributed")
-
 
 def test_a_local_sweep_listens_on_the_loopback_alone() -> None:
-    psutil = pytest.importorskip("psutil")
+    import psutil
+
     with connected(ClusterChoice(workers=2)) as client:
         assert worker_count(client) == 2
         assert encrypted(client)

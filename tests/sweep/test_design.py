@@ -38,7 +38,6 @@ def test_a_list_takes_values_side_by_side() -> None:
 
 @pytest.mark.parametrize("method", ["random", "latin_hypercube", "sobol", "halton", "saltelli", "morris"])
 def test_a_seed_gives_the_same_samples_again_and_another_seed_others(method: str) -> None:
-    pytest.importorskip("SALib")
     parameters = [UNIFORM, {"key": "friction", "distribution": "normal", "mean": 0.3, "sd": 0.1}]
     one, two, other = (samples_of(spec_of(method, parameters, 16, seed=seed)) for seed in (1, 1, 2))
     pd.testing.assert_frame_equal(one, two)
@@ -85,7 +84,6 @@ def test_correlated_normal_pairs_have_their_coefficient(coefficient: float) -> N
 
 def test_points_of_morris_are_the_middles_of_four_cells() -> None:
     """No distribution is asked for its ends; each step of a trajectory goes half-way along one axis."""
-    pytest.importorskip("SALib")
     spec = spec_of("morris", [UNIFORM, {"key": "friction", "low": 0, "high": 1, "distribution": "uniform"}], 20)
     points = morris_points(spec)
     np.testing.assert_allclose(np.unique(points.round(12)), [0.125, 0.375, 0.625, 0.875])

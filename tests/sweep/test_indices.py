@@ -5,8 +5,6 @@ import pandas as pd
 import pytest
 from scipy import stats
 
-pytest.importorskip("SALib")
-
 from fctd.case.errors import InputError
 from fctd.sweep.design import samples_of
 from fctd.sweep.indices import Index, indices_of

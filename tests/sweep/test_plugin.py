@@ -4,8 +4,6 @@ from pathlib import Path
 
 import pytest
 
-pytest.importorskip("distributed")
-
 from fctd.sweep.cluster import ClusterChoice, connected
 from fctd.sweep.design import Sample
 from fctd.sweep.plugin import Carrier, run_chunk, warm_up

@@ -20,7 +20,6 @@ from fctd.sweep.spec import read_sweep
 from validation.parts.clusters import failing
 from validation.parts.small_sweep import PARAMETERS, WORK, about, sweep_file
 
-pytest.importorskip("distributed")
 ONE = ClusterChoice(workers=1)
 
 
@@ -43,7 +42,8 @@ def test_a_sweep_has_the_rows_of_its_samples_and_a_second_call_computes_nothing(
 
 @pytest.mark.slow
 def test_hanging_and_crashing_samples_are_rows_and_the_others_have_answers(tmp_path: Path) -> None:
-    dask = pytest.importorskip("dask")
+    import dask
+
     spec = read_sweep(sweep_file(tmp_path, 'method = "sobol"\nsamples = 12\ntime_limit = "1 s"\n'))
     with dask.config.set({"distributed.worker.preload": [str(failing(tmp_path, hang=(3,), crash=(8,)))]}):
         found = sweep(spec, tmp_path / "out", ONE)

@@ -104,7 +104,6 @@ def error_of_median(count: int, sd: float) -> float:
 @pytest.mark.slow
 def test_sobol_indices_of_a_linear_case_are_its_shares_of_the_variance(tmp_path: Path) -> None:
     """The weight indicator adds the block's weight to a hook load that is linear in the friction factor."""
-    pytest.importorskip("SALib")
     spec, dataset = swept(tmp_path, 'method = "saltelli"\nsamples = 256')
     found = assess(dataset, spec)
     _, slope = of_friction(spec, dataset)
@@ -118,7 +117,6 @@ def test_sobol_indices_of_a_linear_case_are_its_shares_of_the_variance(tmp_path:
 
 def test_error_bars_of_saltelli_are_those_of_its_independent_samples(tmp_path: Path) -> None:
     """Blocks of four, of which the two in the middle mix the values of the first and the last."""
-    pytest.importorskip("SALib")
     spec, dataset = swept(tmp_path, 'method = "saltelli"\nsamples = 16')
     found = assess(dataset, spec)
     ends = found.rows[found.rows["sample"] % 4 % 3 == 0]

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from pathlib import Path
+from unittest.mock import Mock
 
 import numpy as np
 import pandas as pd
@@ -94,11 +95,8 @@ def test_a_run_needs_operations(tmp_path: Path) -> None:
     ],
 )
 def test_every_work_asks_the_clock(spec: dict[str, object], tmp_path: Path) -> None:
-    def too_late() -> None:
-        raise TooLongError
-
     with pytest.raises(TooLongError):
-        rows(load_case(case_file(tmp_path, RUN)), too_late, **spec)
+        rows(load_case(case_file(tmp_path, RUN)), Mock(side_effect=TooLongError), **spec)
 
 
 def test_depths_are_a_list_or_written(tmp_path: Path) -> None:

@@ -49,11 +49,10 @@ def register(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, empty_registry: No
         *,
         reproduce: bool = True,
         needs: tuple[str, ...] = (),
-        uses: tuple[str, ...] = (),
         timed: bool = False,
     ) -> None:
         module = ModuleType(f"toy_{name}")
-        module.STUDY = Study(name, f"Is {name} right?", run, reproduce, needs, uses, timed)
+        module.STUDY = Study(name, f"Is {name} right?", run, reproduce, needs, timed)
         monkeypatch.setitem(sys.modules, module.__name__, module)
         registry.STUDIES[name] = module.__name__
 

@@ -3,8 +3,6 @@
 import numpy as np
 import pytest
 
-pytest.importorskip("plotly")
-
 from fctd.case.errors import InputError
 from fctd.view.figure import view_figure
 from tests.view.made import DEPTHS, strings

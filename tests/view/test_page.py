@@ -8,8 +8,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-pytest.importorskip("plotly")
-
 from fctd.case.errors import InputError
 from fctd.view import page
 from tests.view.made import strings

@@ -10,13 +10,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-pytest.importorskip("plotly")
-
 from fctd.view.page import save_view
 from fctd.view.quantities import QUANTITIES
 from fctd.view.scene import Look, panel_data, scene_data
-from fctd.view.still import save_still
-from tests.browsers import browser, needs_browser, opened, overflow, pixels
+from fctd.view.still import open_browser, save_still
+from tests.browsers import needs_browser, opened, overflow, pixels
 from tests.view.made import strings
 
 pytestmark = needs_browser
@@ -46,7 +44,7 @@ def page_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def view(page_file: Path) -> Iterator[Any]:
     """The page in a window of 1280 × 800, which all tests use one after the other."""
-    with browser() as chromium, opened(chromium, page_file) as (page, _):
+    with opened(page_file) as (page, _):
         ready(page)
         yield page
 
@@ -178,7 +176,7 @@ def test_nothing_is_wider_than_the_page_and_names_are_text(page: Any, width: int
 
 def without_webgl(path: Path) -> str:
     """What the page says in a browser that has none, after it has failed to be ready."""
-    with browser("--disable-gpu", "--disable-3d-apis") as found:
+    with open_browser("--disable-gpu", "--disable-3d-apis") as found:
         page = found.new_page()
         page.goto(path.resolve().as_uri())
         page.wait_for_function("!document.getElementById('fault').hidden")

@@ -4,7 +4,6 @@ from pathlib import Path
 from typing import Any
 
 from fctd import Case, load_case
-from validation.harness.files import declare
 
 FOLDER = Path(__file__).parent
 
@@ -12,10 +11,7 @@ FOLDER = Path(__file__).parent
 def load(name: str, **overrides: Any) -> Case:
     """A case of this folder by file name without suffix; ``__`` in a keyword stands for a dot."""
     changes = {key.replace("__", "."): value for key, value in overrides.items()}
-    case = load_case(declare(FOLDER / f"{name}.toml"), changes)
-    if case.wellbore.survey is not None:
-        declare(case.wellbore.survey)
-    return case
+    return load_case(FOLDER / f"{name}.toml", changes)
 
 
 def rotation(at: float, duration: float, ramp: float, rpm: float = 60.0) -> list[dict[str, Any]]:

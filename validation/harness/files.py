@@ -1,33 +1,53 @@
-"""The files that a study reads: whoever opens one declares it, so that its digest is kept with the result."""
+"""The files that a study reads: they belong to the inputs of its result."""
 
 import hashlib
-from collections.abc import Iterator
+import os
+import sys
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from contextvars import ContextVar
+from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
+from typing import Any
 
 ABSENT = "absent"
+# Sources are followed by their imports; compiled code follows from sources.
+NO_INPUTS = {".py", ".pyc", ".nbi", ".nbc"}
+NO_FOLDERS = {".venv", ".git", "__pycache__"}
 
-_declared: ContextVar[dict[Path, str] | None] = ContextVar("declared", default=None)
+
+@dataclass
+class Read:
+    """Files of the folders that this process opens for reading, file -> digest when it was opened first."""
+
+    folders: tuple[Path, ...]
+    files: dict[Path, str] = field(default_factory=dict)
 
 
-def declare(path: Path) -> Path:
-    """Note that the study being run reads this file; returns the path."""
-    found = _declared.get()
-    if found is not None:
-        found.setdefault(path.resolve(), digest(path))
-    return path
+_read: Read | None = None
 
 
 @contextmanager
-def declared() -> Iterator[dict[Path, str]]:
-    """Gathers the files that are declared meanwhile, file -> digest."""
-    found: dict[Path, str] = {}
-    token = _declared.set(found)
+def reading(*folders: Path) -> Iterator[Read]:
+    """Gathers the files of these folders that are read meanwhile."""
+    global _read
+    _install_hook()
+    _read = Read(tuple(folder.resolve() for folder in folders))
     try:
-        yield found
+        yield _read
     finally:
-        _declared.reset(token)
+        _read = None
+
+
+def watched() -> tuple[Path, ...]:
+    """The folders that are watched now, for a process that does a part of the work."""
+    return _read.folders if _read is not None else ()
+
+
+def also_read(files: Mapping[Path, str]) -> None:
+    """Add what such a process has read."""
+    if _read is not None:
+        _read.files = {**files, **_read.files}
 
 
 def digest(path: Path) -> str:
@@ -41,3 +61,23 @@ def digest(path: Path) -> str:
 def digest_of(content: bytes) -> str:
     """The same of bytes."""
     return hashlib.sha256(content).hexdigest()[:16]
+
+
+@cache
+def _install_hook() -> None:
+    """An audit hook stays for the life of the process, so there is one."""
+    sys.addaudithook(_on_event)
+
+
+def _on_event(event: str, arguments: tuple[Any, ...]) -> None:
+    if _read is None or event != "open":
+        return
+    opened, _, flags = arguments
+    if not isinstance(opened, str | os.PathLike) or flags & (os.O_WRONLY | os.O_RDWR):
+        return
+    path = Path(os.path.realpath(os.fspath(opened)))
+    known = path in _read.files or path.suffix in NO_INPUTS or NO_FOLDERS & set(path.parts)
+    # A name that is opened in an open folder, as by shutil.rmtree, says nothing of where it lies.
+    if not known and any(path.is_relative_to(folder) for folder in _read.folders) and path.is_file():
+        _read.files[path] = ABSENT  # known, as the digest opens the file once more
+        _read.files[path] = digest(path)

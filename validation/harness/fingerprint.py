@@ -1,14 +1,15 @@
 """The inputs of a result: a study is repeated when, and only when, one of them has changed.
 
-The code: the study's module, the registry entries that it declares, and every module of the project that these import.
-The files that are declared while it runs.  The packages of engine and suite, and the processor.  ``expected.toml`` is
-no input: it changes verdicts, not numbers.
+The code: the study's module, and every module of the project that it imports or that a registry names, "module:class".
+The files that are read while it runs.  The packages of engine and suite, and the processor.  ``expected.toml`` is no
+input: it changes verdicts, not numbers.
 """
 
 import ast
 import json
 import os
 import platform
+import re
 import tomllib
 from dataclasses import asdict, dataclass, field
 from functools import cache
@@ -27,13 +28,15 @@ from validation.harness.study import ROOT
 LENGTH = "quick or full"
 # What studies are made of.
 PACKAGES = ("fctd", "references", "validation")
+# An entry of a registry, "module:class".
+REGISTERED = re.compile(rb'"([A-Za-z_][\w.]*):[A-Za-z_]\w*"')
 
 
 @dataclass
 class Inputs:
     """All inputs of a result, each with a digest or a version.
 
-    code : module's file -> digest.  files : file declared -> digest.  around : packages, processor, quick or full.
+    code : module's file -> digest.  files : file read -> digest.  around : packages, processor, quick or full.
     """
 
     code: dict[str, str]
@@ -45,7 +48,8 @@ class Inputs:
         files_now = {name: digest(root / name) for name in kept.files}  # an absolute name stays one
         pairs = ((kept.around, self.around), (kept.files, files_now), (kept.code, self.code))
         for before, now in pairs:
-            for name in sorted(before.keys() | now.keys()):
+            # What is no longer used follows from another change.
+            for name in (*sorted(now), *sorted(before.keys() - now.keys())):
                 if before.get(name) != now.get(name):
                     return name
         return ""
@@ -108,23 +112,22 @@ class Sources:
         self._graph = grimp.build_graph(*packages, cache_dir=None)
         # All of them now: what is edited while studies run is repeated by the next run.
         files = {name: file for name in self._graph.modules if (file := self.file(name))}
-        self._digests = {
-            name: (self.name_of(file), _digest_of_source(file.read_bytes())) for name, file in files.items()
+        texts = {name: file.read_bytes() for name, file in files.items()}
+        self._digests = {name: (self.name_of(files[name]), _digest_of_source(text)) for name, text in texts.items()}
+        self._registered = {
+            name: {found.decode() for found in REGISTERED.findall(text)} for name, text in texts.items()
         }
 
     def used_by(self, *modules: str) -> dict[str, str]:
-        """File -> digest of modules and of all that they import, wherever the import statement stands.
-
-        A name may be "module:class", as in registries.
-        """
+        """File -> digest of modules and of all that they import or name in a registry, wherever that stands."""
         found: set[str] = set()
-        waiting = {module.partition(":")[0] for module in modules}
+        waiting = set(modules)
         while waiting:
             name = waiting.pop()
             if name in found or name not in self._graph.modules:
                 continue
             found.add(name)
-            waiting |= self._graph.find_modules_directly_imported_by(name)
+            waiting |= self._graph.find_modules_directly_imported_by(name) | self._registered.get(name, set())
             waiting.add(name.rpartition(".")[0])  # importing a.b runs a/__init__.py
         return dict(self._digests[name] for name in sorted(found) if name in self._digests)
 

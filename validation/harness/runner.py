@@ -9,7 +9,6 @@ import tomllib
 import traceback
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Sized
-from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from functools import cache
@@ -22,13 +21,13 @@ from rich.text import Text
 
 from fctd.case.errors import InputError
 from fctd.case.text import counted, printable_lines
-from validation.harness import audit, fingerprint, store
-from validation.harness.files import declared
+from validation.harness import fingerprint, store
+from validation.harness.files import reading
 from validation.harness.fingerprint import Inputs, Sources
 from validation.harness.registry import STUDIES
 from validation.harness.side_by_side import apart, each
 from validation.harness.store import Judged, Provenance, Record, Standing
-from validation.harness.study import NEEDS, ROOT, Context, Outcome, Study, T, one_by_one, silent
+from validation.harness.study import NEEDS, ROOT, Context, Outcome, Study, T, silent
 
 EXPECTED = ROOT / "validation" / "expected.toml"
 
@@ -64,29 +63,12 @@ def load(name: str) -> Study:
     return study
 
 
-def question_of(name: str) -> str:
-    """The study's question; empty where the study cannot be loaded, which its run records."""
+def loaded(name: str) -> Study | None:
+    """The study; None where it cannot be loaded: it is run all the same, so that its failure is recorded and seen."""
     try:
-        return load(name).question
+        return load(name)
     except Exception:
-        return ""
-
-
-def is_reproduced(name: str) -> bool:
-    """Whether ``--reproduce`` runs the study."""
-    try:
-        return load(name).reproduce
-    except Exception:
-        # A study that cannot be loaded is run all the same, so that its failure is recorded and seen.
-        return True
-
-
-def is_timed(name: str) -> bool:
-    """Whether nothing may run beside the study."""
-    try:
-        return load(name).timed
-    except Exception:
-        return False  # it is run, and its failure recorded
+        return None
 
 
 def check_results(folder: Path) -> None:
@@ -123,17 +105,12 @@ def read_expected(path: Path) -> Expected:
 
 @dataclass(frozen=True)
 class Run:
-    """What holds for all studies of a run.
-
-    force : repeat also what is up to date.  audited : watch what each study reads and imports; it fails where its
-    fingerprint lacks any of that.
-    """
+    """What holds for all studies of a run; force : repeat also what is up to date."""
 
     results: Path
     sources: Sources
     origin: Provenance
     force: bool
-    audited: bool
 
 
 @dataclass(frozen=True)
@@ -159,7 +136,6 @@ def run_all(
     *,
     quick: bool,
     force: bool = False,
-    audited: bool = False,
     processes: int = 1,
     data: Path | None,
     expected: Expected,
@@ -169,21 +145,19 @@ def run_all(
 ) -> int:
     """Run and store each study named, unless its result is up to date; return the exit code.
 
-    force : repeat those as well.  audited : the same, each study watched (see ``Run``).  processes : in which studies
-    run side by side that time nothing; the others run alone afterwards.  The code is 0, 1 for worse than recorded, 130
-    when interrupted.
+    force : repeat those as well.  processes : in which studies run side by side that time nothing; the others run alone
+    afterwards.  The code is 0, 1 for worse than recorded, 130 when interrupted.
     """
-    rules = Run(results, sources, store.provenance(), force or audited, audited)
+    rules = Run(results, sources, store.provenance(), force)
     around = fingerprint.surroundings(quick, sources.root)
     finished: list[StudyRun] = []
     text, bar = TextColumn("{task.description}", markup=False), BarColumn(bar_width=24)
     columns = (SpinnerColumn(), text, bar, MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bars:
         context = Context(quick=quick, data=data, progress=Bars(bars))
-        beside = [name for name in names if processes > 1 and not is_timed(name)]
-        alone = [name for name in names if name not in beside]
-        # An audit sees what happens in its own process.
-        spread = replace(context, progress=silent, apart=one_by_one if audited else apart)
+        alone = [name for name in names if processes == 1 or ((study := loaded(name)) is not None and study.timed)]
+        beside = [name for name in names if name not in alone]
+        spread = replace(context, progress=silent, apart=apart)
 
         def done_in(its: Context) -> Callable[[str], StudyRun]:
             return lambda name: run_one(name, its, expected.get(name, {}), around, rules)
@@ -238,7 +212,7 @@ def run_one(
     try:
         study = load(name)
         blank = replace(blank, question=study.question)
-        now = Inputs(rules.sources.used_by(STUDIES[name], *study.uses), dict(around))
+        now = Inputs(rules.sources.used_by(STUDIES[name]), dict(around))
         if "data" in study.needs:
             now.around[DATA] = str(context.data)
         else:
@@ -293,34 +267,29 @@ def changes(names: Iterable[str], results: Path, sources: Sources) -> dict[str, 
     for name in names:
         if (before := fingerprint.read(results / name)) is None:
             continue
-        try:
-            code = sources.used_by(STUDIES[name], *load(name).uses)
-        except Exception:
-            # What it declares cannot be asked, for want of a package or by an edit: the rest tells which.
-            code = before.code | sources.used_by(STUDIES[name])
         around = surroundings(before.around.get(fingerprint.LENGTH) == "quick", sources.root)
         # The folder of the data is no input here; the files that were read are.
         around = around | {key: value for key, value in before.around.items() if key == DATA}
-        if changed := Inputs(code, around).changed_since(before, sources.root):
+        if changed := Inputs(sources.used_by(STUDIES[name]), around).changed_since(before, sources.root):
             found[name] = changed
     return found
 
 
 def _run(study: Study, context: Context, code: Mapping[str, str], rules: Run) -> tuple[Outcome, dict[str, str]]:
-    """Run a study; also gives the files that it declared, file -> digest.
+    """Run a study; also gives the files that it read, file -> digest.
 
-    Raises RuntimeError where it is audited and its fingerprint lacks what it read or imported.
+    Raises RuntimeError where it imported a module of the project to which no import statement and no registry leads.
     """
-    sources = rules.sources
-    folders = (sources.root, *([context.data] if context.data else []))
-    with declared() as files, audit.watched(*folders) if rules.audited else nullcontext() as seen:
+    sources, loaded = rules.sources, set(sys.modules)
+    with reading(sources.root, *([context.data] if context.data else [])) as read:
         outcome = study.run(context)
-    if seen is not None and (lacking := seen.undeclared(files, code, sources)):
+    files = {name: file for name in sys.modules.keys() - loaded if (file := sources.file(name))}
+    if lacking := sorted(name for name, file in files.items() if sources.name_of(file) not in code):
         raise RuntimeError(
-            f"{', '.join(lacking)}: used by {study.name} and not in its fingerprint, so that a change would not repeat "
-            "it; declare a file by validation.harness.files.declare, a registry entry by Study(uses=...)"
+            f"{', '.join(lacking)}: imported by {study.name} under a name made as it runs, so that a change would not "
+            'repeat it: import it by a statement, or name it in a registry, "module:class"'
         )
-    return outcome, {sources.name_of(file): digest for file, digest in files.items()}
+    return outcome, {sources.name_of(file): digest for file, digest in read.files.items()}
 
 
 def _finished(blank: Record, outcome: Outcome, recorded: Mapping[str, str]) -> Record:

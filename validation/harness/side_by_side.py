@@ -6,9 +6,12 @@ import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
+from functools import partial
 from multiprocessing import active_children, get_all_start_methods, get_context
+from pathlib import Path
 from typing import Any
 
+from validation.harness import files
 from validation.harness.study import A, T
 
 LOOK = 0.5  # [s] between two looks whether the first process is there
@@ -63,4 +66,13 @@ def apart(function: Callable[[A], T], arguments: Sequence[A]) -> list[T]:
     """
     count = min(workers(), len(arguments))
     with ProcessPoolExecutor(count, get_context("spawn"), _begin, (os.getpid(),)) as pool:
-        return list(pool.map(function, arguments))
+        found = list(pool.map(partial(_reading, files.watched(), function), arguments))
+    for _, read in found:
+        files.also_read(read)
+    return [result for result, _ in found]
+
+
+def _reading(folders: tuple[Path, ...], function: Callable[[A], T], argument: A) -> tuple[T, dict[Path, str]]:
+    """The result of a function, and what it has read."""
+    with files.reading(*folders) as read:
+        return function(argument), read.files

@@ -2,10 +2,11 @@
 
 import math
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import wraps
 from pathlib import Path
-from typing import Literal, Protocol, TypeVar
+from typing import Any, Literal, ParamSpec, Protocol, TypeVar
 
 import numpy as np
 import pandas as pd
@@ -20,6 +21,8 @@ Kind = Literal["at_most", "at_least", "within"]
 Need = Literal["data"]
 T = TypeVar("T")
 A = TypeVar("A")
+P = ParamSpec("P")
+Rows = Iterator[dict[str, Any]]  # of a table, by its columns
 
 NEEDS: dict[Need, str] = {
     "data": (
@@ -97,6 +100,16 @@ class Outcome:
             raise ValueError("two checks share a name; expected.toml needs different names")
 
 
+def table_of_rows(rows: Callable[P, Rows]) -> Callable[P, pd.DataFrame]:
+    """A function that yields rows, as one that returns the table of them."""
+
+    @wraps(rows)
+    def of_rows(*given: P.args, **options: P.kwargs) -> pd.DataFrame:
+        return pd.DataFrame(list(rows(*given, **options)))
+
+    return of_rows
+
+
 def left_out(missing: Sequence[str]) -> list[str]:
     """The note on packages that are not installed and how to install them; empty where none is missing."""
     if not missing:
@@ -153,8 +166,7 @@ class Study:
 
     ``reproduce`` : whether ``make reproduce`` runs it: where a claim of the paper rests on it, or the first page of the
     report. ``timed`` : whether a check or a figure of it is a time, so that nothing may run beside it. ``needs`` : what
-    must be available; otherwise the study is skipped with a message. ``uses`` : the registry entries that it uses,
-    "module:class", to which no import statement leads.
+    must be available; otherwise the study is skipped with a message.
     """
 
     name: str
@@ -162,5 +174,4 @@ class Study:
     run: Callable[[Context], Outcome]
     reproduce: bool = False
     needs: tuple[Need, ...] = ()
-    uses: tuple[str, ...] = ()
     timed: bool = False

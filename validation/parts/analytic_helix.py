@@ -6,7 +6,7 @@ import pandas as pd
 
 from fctd import Case, Equilibrium, equilibrium
 from references.buckling import helix
-from validation.harness.study import Check
+from validation.harness.study import Check, Rows, table_of_rows
 from validation.parts.buckled_pipe import BELOW_SURFACE, BUCKLING, OPERATION, Rig
 from validation.parts.resolved_rows import DEPTH, JOINT, WEIGHT, horizontal_well
 
@@ -20,9 +20,10 @@ def analytic(case: Case, bit_depth: float) -> Equilibrium:
     return equilibrium(Case.model_validate(case.model_dump(exclude_defaults=True) | changes), OPERATION, bit_depth)
 
 
-def pushed_rows(times_onset: float, friction: float, shares: Sequence[float]) -> pd.DataFrame:
+@table_of_rows
+def pushed_rows(times_onset: float, friction: float, shares: Sequence[float]) -> Rows:
     """Push at the top of a level pipe that slides through shares of the lock-up length, with the force and without."""
-    force, rows = times_onset * BUCKLING.onset, []
+    force = times_onset * BUCKLING.onset
     for share in shares:
         length = share * helix.lock_up_length(BUCKLING, force, friction)
         rig, bit = Rig(length, JOINT, friction=friction), {"bit": {"weight_on_bit": force}}
@@ -30,34 +31,28 @@ def pushed_rows(times_onset: float, friction: float, shares: Sequence[float]) ->
         points = equilibrium(case, OPERATION, BELOW_SURFACE + length), analytic(case, BELOW_SURFACE + length)
         without, push = (-point.hookload for point in points)
         law = helix.pushed_force(BUCKLING, force, friction, length)
-        rows.append(
-            {
-                "length_m": length, "share_of_lock_up_percent": 100 * share, "status": str(points[1].status),
-                "push_kN": push / 1e3, "reciprocal_kN": law / 1e3, "off_percent": 100 * (push / law - 1),
-                "push_without_kN": without / 1e3, "without_off_percent": 100 * (without / law - 1),
-            }
-        )  # fmt: skip
-    return pd.DataFrame(rows)
+        yield {
+            "length_m": length, "share_of_lock_up_percent": 100 * share, "status": str(points[1].status),
+            "push_kN": push / 1e3, "reciprocal_kN": law / 1e3, "off_percent": 100 * (push / law - 1),
+            "push_without_kN": without / 1e3, "without_off_percent": 100 * (without / law - 1),
+        }  # fmt: skip
 
 
-def well_rows() -> pd.DataFrame:
+@table_of_rows
+def well_rows() -> Rows:
     """Hook load of the horizontal well without the force, with it and resolved; errors in % of the string's weight."""
-    rows = []
     for friction in FRICTIONS:
         fine = equilibrium(horizontal_well(SEGMENTS[0], "resolve", friction), OPERATION, DEPTH).hookload
         for segment in SEGMENTS:
             case = horizontal_well(segment, "detect", friction)
             without, point = equilibrium(case, OPERATION, DEPTH).hookload, analytic(case, DEPTH)
-            rows.append(
-                {
-                    "friction": friction, "segment_m": segment, "status": str(point.status),
-                    "hookload_resolved_kN": fine / 1e3, "hookload_kN": point.hookload / 1e3,
-                    "off_percent_of_weight": 100 * (point.hookload - fine) / WEIGHT,
-                    "hookload_without_kN": without / 1e3,
-                    "without_off_percent_of_weight": 100 * (without - fine) / WEIGHT,
-                }
-            )  # fmt: skip
-    return pd.DataFrame(rows)
+            yield {
+                "friction": friction, "segment_m": segment, "status": str(point.status),
+                "hookload_resolved_kN": fine / 1e3, "hookload_kN": point.hookload / 1e3,
+                "off_percent_of_weight": 100 * (point.hookload - fine) / WEIGHT,
+                "hookload_without_kN": without / 1e3,
+                "without_off_percent_of_weight": 100 * (without - fine) / WEIGHT,
+            }  # fmt: skip
 
 
 def checks(tables: dict[str, pd.DataFrame]) -> list[Check]:

@@ -5,9 +5,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from fctd import Case, Equilibrium
+from fctd.arrays import Array
 from fctd.case.string import ComponentSpec
 from fctd.mechanics import state
 from fctd.mechanics.rotations import rotation_columns
@@ -22,7 +22,6 @@ from fctd.steady.relaxation import Creep
 from references.beams.cosserat import Bit, rest
 from references.buckling.onset import Pipe
 
-Array = NDArray[np.float64]
 Along = Callable[[Array], Array]
 
 # 5 in pipe in 8½ in hole.

@@ -18,10 +18,10 @@ import typer
 from numpy.typing import NDArray
 
 from fctd import Case, Wellbore, build_wellbore
+from fctd.arrays import Array
 from fctd.mechanics import contact, state
 from fctd.mechanics.dynamics import padded_columns
 
-Array = NDArray[np.float64]
 Search = Callable[[Array, NDArray[np.int64], int, int, Array, int], None]  # that of ``contact.update_walls``
 
 GEOMETRIES = ("cylinders", "arcs")

@@ -1,6 +1,6 @@
 """Settings of the other engines, chosen without FCTD's loads: Coulomb's law for contact, a ladder for the step."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,7 @@ from references.engines.best_step import best_step, ladder
 from references.engines.friction_law import Sliding, lean_of_two_directions, sliding
 from references.engines.mujoco import IMPEDANCE
 from validation.cases import load, rotation
-from validation.harness.study import Check
+from validation.harness.study import Check, Rows, table_of_rows
 
 # Engine, configuration, its name and options.  PyElastica has no wall of its own.
 FRICTION: tuple[tuple[str, str, dict[str, Any]], ...] = (
@@ -30,24 +30,21 @@ SPIN_UP, SECONDS = Window(0.0, 10.0), 4.0
 RUNGS = {"FCTD": ("fctd", 3), "Bullet": ("bullet", 3), "MuJoCo": ("mujoco", 3), "PyElastica": ("elastica", 5)}
 
 
-def friction(azimuths: tuple[float, ...], missing: list[str]) -> pd.DataFrame:
+@table_of_rows
+def friction(azimuths: tuple[float, ...], missing: list[str]) -> Rows:
     """Friction of a pipe turning in a straight hole in every engine, over azimuths of the hole [deg]."""
-    rows = []
     for azimuth in azimuths:
         for label, name, options in FRICTION:
             if label.partition(",")[0] in missing:
                 continue
             found = sliding(name, azimuth, **options)
             fixed = "axes" in options
-            rows.append(
-                {
-                    "engine": label,
-                    "azimuth_deg": azimuth,
-                    **_cells(found),
-                    "two_directions_lean_deg": np.degrees(lean_of_two_directions(azimuth)) if fixed else np.nan,
-                }
-            )
-    return pd.DataFrame(rows)
+            yield {
+                "engine": label,
+                "azimuth_deg": azimuth,
+                **_cells(found),
+                "two_directions_lean_deg": np.degrees(lean_of_two_directions(azimuth)) if fixed else np.nan,
+            }
 
 
 def _cells(found: Sliding) -> dict[str, Any]:
@@ -102,14 +99,13 @@ def steps(names: tuple[str, ...]) -> pd.DataFrame:
     return pd.concat(tables, ignore_index=True)
 
 
-def friction_checks(table: pd.DataFrame, missing: list[str]) -> list[Check]:
+def friction_checks(table: pd.DataFrame, missing: list[str]) -> Iterator[Check]:
     """Best configurations obey Coulomb's law; Bullet's lean off its axes follows from its two directions."""
-    made = []
     for label in ("Bullet", "MuJoCo"):
         if label in missing:
             continue
         own = table[table["engine"] == label]
-        made += [
+        yield from [
             Check(f"{label}: friction of a pipe turning in a straight hole over μN",
                   float(own["share_of_mu_n"].min()), (0.98, 1.005), "within", "", "Coulomb's law: 1"),
             Check(f"{label}: angle between that friction and the sliding", float(own["lean_deg"].abs().max()), 0.5,
@@ -118,12 +114,9 @@ def friction_checks(table: pd.DataFrame, missing: list[str]) -> list[Check]:
     fixed = table[table["engine"] == "Bullet, global axes"]
     if len(fixed):
         wrong = (fixed["lean_deg"] - fixed["two_directions_lean_deg"]).abs().max()
-        made.append(
-            Check("Bullet, global axes: angle of friction to the sliding against that of two fixed directions",
-                  float(wrong), 2.0, "at_most", "deg",
-                  "effective masses along north and east; the angle is up to 32 deg")
-        )  # fmt: skip
-    return made
+        yield Check("Bullet, global axes: angle of friction to the sliding against that of two fixed directions",
+                    float(wrong), 2.0, "at_most", "deg",
+                    "effective masses along north and east; the angle is up to 32 deg")  # fmt: skip
 
 
 def impedance_check(table: pd.DataFrame) -> Check:
@@ -134,28 +127,25 @@ def impedance_check(table: pd.DataFrame) -> Check:
                  "stiffest wall, then nearest to MuJoCo's default, with friction within 0.5 % of μN")  # fmt: skip
 
 
-def step_checks(table: pd.DataFrame, own_steps: Mapping[str, float]) -> list[Check]:
+def step_checks(table: pd.DataFrame, own_steps: Mapping[str, float]) -> Iterator[Check]:
     """Each engine runs at the best step of its ladder, and agrees with FCTD when it spins up the string from rest.
 
     own_steps [ms] : of the engines' runs of the same chain.
     """
-    made = []
     for label, step in own_steps.items():
         best = table[(table["engine"] == label) & table["best"]]
         ratio = step / float(best["step_ms"].iloc[0]) if len(best) else np.nan
-        made.append(
-            Check(f"{label}: its own step over the best of its ladder", ratio, (0.7, 1.42), "within", "",
-                  "largest step that halves from FCTD's own, passes the checks and is within 1 % of the next finer")
-        )  # fmt: skip
+        yield Check(f"{label}: its own step over the best of its ladder", ratio, (0.7, 1.42), "within", "",
+                    "largest step that halves from FCTD's own, passes the checks and is within 1 % of the next finer"
+                    )  # fmt: skip
         if label != "FCTD":
             hookload, torque = (
                 float(best[column].abs().iloc[0]) if len(best) else np.nan
                 for column in ("hookload_off_percent", "torque_off_percent")
             )
-            made += [
+            yield from [
                 Check(f"{label}: spun up from rest, hook load against FCTD's over the same window", hookload, 1.0,
                       "at_most", "%", "as from the same state in motion"),
                 Check(f"{label}: spun up from rest, torque against FCTD's over the same window", torque, 5.0, "at_most",
                       "%", "as from the same state in motion"),
             ]  # fmt: skip
-    return made

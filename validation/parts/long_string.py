@@ -3,16 +3,14 @@
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from fctd import Case
+from fctd.arrays import Array
 from fctd.mechanics import state, waves
 from fctd.model.section import section_of
 from fctd.simulation.preparation import prepare
 from validation.cases import load
-
-Array = NDArray[np.float64]
 
 BIT = 2450.0
 PIPE = 37.5  # [m], the paper's own segments of pipe below the long one

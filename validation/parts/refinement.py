@@ -12,7 +12,7 @@ from fctd.model.layouts import Components, graded, is_long, uniform, with_compon
 from fctd.model.operations import steady_rates
 from fctd.steady.equilibrium import Solver
 from fctd.steady.levels import relative_difference
-from validation.harness.study import Check, Context, Outcome
+from validation.harness.study import Check, Context, Outcome, Rows, table_of_rows
 
 # A case, a bit depth [m] and the length of the shortest segments [m] to components.
 Layout = Callable[[Case, float, float], Components]
@@ -43,28 +43,24 @@ def finer(case: Case) -> Case:
     return with_components(case, tuple(pieces)).model_copy(update={"wellbore": hole.model_copy(update=update)})
 
 
-def land(name: str, case: Case, bit: float, tolerance: float, grade: bool) -> list[dict[str, Any]]:
+def land(name: str, case: Case, bit: float, tolerance: float, grade: bool) -> Rows:
     """Refine for three operations at once; the difference of each from a run with segments a quarter as long."""
     refined = refine(case, tolerance, OPERATIONS, bit, graded=grade)
-    rows = []
     for kind in OPERATIONS:
         point, fine = (equilibrium(c, kind, bit) for c in (refined.case, finer(refined.case)))
         hookload, torque = relative_difference(point, fine, steady_rates(case, kind).spin)
-        rows.append(
-            {
-                "well": name,
-                "asked": "graded" if grade else "uniform",
-                "layout": refined.layout,
-                "tolerance_percent": 100 * tolerance,
-                "operation": kind,
-                "status": refined.status if fine.answered else f"finer: {fine.status}",
-                "segments": refined.segments,
-                "estimate_percent": 100 * refined.error,
-                "hookload_off_percent": 100 * hookload if fine.answered else float("nan"),
-                "torque_off_percent": 100 * torque if fine.answered else float("nan"),
-            }
-        )
-    return rows
+        yield {
+            "well": name,
+            "asked": "graded" if grade else "uniform",
+            "layout": refined.layout,
+            "tolerance_percent": 100 * tolerance,
+            "operation": kind,
+            "status": refined.status if fine.answered else f"finer: {fine.status}",
+            "segments": refined.segments,
+            "estimate_percent": 100 * refined.error,
+            "hookload_off_percent": 100 * hookload if fine.answered else float("nan"),
+            "torque_off_percent": 100 * torque if fine.answered else float("nan"),
+        }
 
 
 def in_arcs(case: Case) -> Case:
@@ -72,7 +68,7 @@ def in_arcs(case: Case) -> Case:
     return case.model_copy(update={"wellbore": case.wellbore.model_copy(update={"geometry": "arcs"})})
 
 
-def compare(name: str, case: Case, bit: float, shares: tuple[float, ...]) -> list[dict[str, Any]]:
+def compare(name: str, case: Case, bit: float, shares: tuple[float, ...]) -> Rows:
     """Errors of graded and uniform strings of equal counts, turning and picking up, in the exact hole.
 
     The ladder of a share is its index among ``LADDERS``.
@@ -80,23 +76,19 @@ def compare(name: str, case: Case, bit: float, shares: tuple[float, ...]) -> lis
     case = in_arcs(case)
     total = bit - case.string.top_md
     exact = loads(case, uniform, bit, total / REFERENCE)
-    rows = []
     for share in shares:
         cut = loads(case, graded, bit, total / share)
         even = loads(case, uniform, bit, total / cut[0])
         for layout, (count, torque, hookload) in (("graded", cut), ("uniform", even)):
-            rows.append(
-                {
-                    "well": name,
-                    "layout": layout,
-                    "share": share,
-                    "ladder": SHARES.index(share) % LADDERS,
-                    "segments": count,
-                    "torque_percent": 100 * abs(torque / exact[1] - 1),
-                    "hookload_percent": 100 * abs(hookload / exact[2] - 1),
-                }
-            )
-    return rows
+            yield {
+                "well": name,
+                "layout": layout,
+                "share": share,
+                "ladder": SHARES.index(share) % LADDERS,
+                "segments": count,
+                "torque_percent": 100 * abs(torque / exact[1] - 1),
+                "hookload_percent": 100 * abs(hookload / exact[2] - 1),
+            }
 
 
 def loads(case: Case, layout: Layout, bit: float, length: float) -> tuple[int, float, float]:
@@ -110,21 +102,20 @@ def loads(case: Case, layout: Layout, bit: float, length: float) -> tuple[int, f
     return count, turning.surface_torque, lifting.hookload
 
 
-def gains(strings: pd.DataFrame) -> pd.DataFrame:
+@table_of_rows
+def gains(strings: pd.DataFrame) -> Rows:
     """Error of the graded string over that of the uniform one of as many segments: geometric mean over the counts.
 
     Errors pass through zero by chance, so a string counts with the largest error of its own and all longer counts.
     The positions of joints still matter, so each ladder of counts has its ratio: their mean, least and most.
     """
-    rows = []
     for name, of_well in strings.groupby("well", sort=False):
         row: dict[str, Any] = {"well": name}
         for quantity in ("torque", "hookload"):
             ratios = np.array([_gain(ladder, f"{quantity}_percent") for _, ladder in of_well.groupby("ladder")])
             row[f"{quantity}_ratio"] = float(np.exp(np.log(ratios).mean()))
             row |= {f"{quantity}_least": ratios.min(), f"{quantity}_most": ratios.max()}
-        rows.append(row)
-    return pd.DataFrame(rows)
+        yield row
 
 
 def _gain(ladder: pd.DataFrame, column: str) -> float:
@@ -135,7 +126,8 @@ def _gain(ladder: pd.DataFrame, column: str) -> float:
 
 def judge(cases: dict[str, tuple[Case, float]], context: Context, *notes: str) -> Outcome:
     """Every well, tolerance and layout; then both layouts at equal counts."""
-    landed, strings = [], []
+    landed: list[dict[str, Any]] = []
+    strings: list[dict[str, Any]] = []
     for name, (case, bit) in context.progress(list(cases.items()), "wells"):
         for tolerance in TOLERANCES[:1] if context.quick else TOLERANCES:
             for grade in (False, True):

@@ -7,7 +7,7 @@ import pandas as pd
 
 from fctd import Case, Equilibrium, equilibrium
 from references.buckling import helix, mitchell
-from validation.harness.study import Check
+from validation.harness.study import Check, Rows, table_of_rows
 from validation.parts.buckled_pipe import BELOW_SURFACE, BUCKLING, MUD, OPERATION, PIPE, SECTION, Rig, turns_of, wave_of
 
 JOINT = 9.0  # [m]: a joint of drill pipe, which cannot bend as the waves do
@@ -27,9 +27,9 @@ def resolved(rig: Rig, force: float) -> Equilibrium:
     return equilibrium(case, OPERATION, BELOW_SURFACE + rig.length)
 
 
-def level_rows(waved: float, wound: float) -> pd.DataFrame:
+@table_of_rows
+def level_rows(waved: float, wound: float) -> Rows:
     """Rows of a level pipe at two times the onset, of snaking and of a helix, against Mitchell's equation."""
-    rows = []
     for ratio in (waved, wound):
         force = ratio * BUCKLING.onset
         point = resolved(Rig(LENGTH, JOINT), force)
@@ -39,14 +39,11 @@ def level_rows(waved: float, wound: float) -> pd.DataFrame:
             found, exact = turns.wall_force, helix.wall_force(BUCKLING, force)
         elif point.shape == "snaking" and wave is not None:
             found, exact = wave.amplitude, _amplitude(force, wave.half_wave)
-        rows.append(
-            {
-                "times_onset": ratio, "status": str(point.status), "shape": point.shape,
-                "measured": "wall force, N/m" if point.shape == "helix" else "amplitude, °",
-                "found": found, "expected": exact, "off_percent": 100 * (found / exact - 1),
-            }
-        )  # fmt: skip
-    return pd.DataFrame(rows)
+        yield {
+            "times_onset": ratio, "status": str(point.status), "shape": point.shape,
+            "measured": "wall force, N/m" if point.shape == "helix" else "amplitude, °",
+            "found": found, "expected": exact, "off_percent": 100 * (found / exact - 1),
+        }  # fmt: skip
 
 
 def pushed_row(times_onset: float, friction: float, share: float) -> pd.DataFrame:

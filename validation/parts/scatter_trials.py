@@ -12,12 +12,11 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.calibration.scatter import At, DayFit, draw, fit_days, with_friction
 from fctd.calibration.setup import ScatterPrior
 from fctd.calibration.unknowns import Prior, Unknown
 from validation.harness.study import Check, Context
-
-Array = NDArray[np.float64]
 
 TRIALS: Final = 400
 # Of 400 trials, those of 95 % intervals that hold the truth lie in this range in 99.7 % of studies (binomial).

@@ -3,15 +3,13 @@
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fctd import Case
+from fctd.arrays import Array
 from fctd.mechanics import state
 from fctd.mechanics.topdrive import Motion
 from fctd.model.operations import rad_per_s
 from fctd.simulation.preparation import prepare
-
-Array = NDArray[np.float64]
 
 RAMP, SAMPLE = 20.0, 0.05  # of rotation and of bit loads [s]
 

@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.calibration.calibrate import calibrate
 from fctd.calibration.fit import fit as fit_rows
 from fctd.calibration.fit import residuals_of, weights_of
@@ -25,7 +25,6 @@ from fctd.calibration.unknowns import find_unknowns
 from fctd.case.load import Case
 from fctd.model.operations import rad_per_s
 from validation.cases import FOLDER
-from validation.harness.files import declare
 from validation.harness.study import data_folder
 from validation.parts.volve_f4 import FIT_B, SERIES_STRING
 from validation.parts.volve_f4_rows import cases, report_rows, series_rows
@@ -34,7 +33,6 @@ SETUPS = FOLDER / "volve_f4"
 FROZEN = SETUPS / "frozen.json"
 # Rotation speeds of the two groups of bins, within a tenth [rev/min].
 SLOW, FAST = 60.0, 130.0
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -58,7 +56,7 @@ class Frozen:
 
 def setup_of(name: str, held: Mapping[str, tuple[float, float]] | None = None) -> Setup:
     """A setup of the well; held : priors, mean and standard deviation [SI], that take the place of its own."""
-    setup = read_setup(declare(SETUPS / f"{name}.toml"))
+    setup = read_setup(SETUPS / f"{name}.toml")
     unknowns = dict(setup.unknowns)
     for key, (mean, sd) in (held or {}).items():
         own = unknowns.get(key, UnknownSpec())
@@ -129,7 +127,7 @@ def frozen() -> dict[str, Frozen]:
     """The fits on record."""
     if not FROZEN.is_file():
         return {}
-    stored = json.loads(declare(FROZEN).read_text(encoding="utf-8"))
+    stored = json.loads(FROZEN.read_text(encoding="utf-8"))
     return {
         name: Frozen(one["values"], np.array(one["covariance"]), tuple(one["rows"])) for name, one in stored.items()
     }

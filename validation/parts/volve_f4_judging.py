@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from scipy.stats import norm
 
+from fctd.arrays import Array
 from fctd.calibration.forward import Evaluation, Forward
 from fctd.calibration.rows import Row
 from fctd.calibration.setup import Setup
@@ -19,8 +19,6 @@ from fctd.calibration.unknowns import find_unknowns
 from fctd.case.load import Case
 from validation.parts.volve_f4 import BANDS
 from validation.parts.volve_f4_fits import Frozen
-
-Array = NDArray[np.float64]
 
 
 class Judged(NamedTuple):

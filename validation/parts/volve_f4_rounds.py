@@ -4,12 +4,10 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-import pandas as pd
-
 from fctd.calibration.rows import Row
 from fctd.case.load import Case
 from fctd.case.string import ComponentSpec
-from validation.harness.study import Context
+from validation.harness.study import Context, Rows, table_of_rows
 from validation.parts.volve_f4 import ABSOLUTE, FIT_B, JUDGED_B
 from validation.parts.volve_f4_fits import Frozen, fit, freeze, setup_of_b
 from validation.parts.volve_f4_judging import predict
@@ -21,7 +19,8 @@ SLOW = 0.05
 LIGHT = 31.1
 
 
-def second_round(context: Context, data: Path, strings: Mapping[str, Case], rig: Frozen) -> pd.DataFrame:
+@table_of_rows
+def second_round(context: Context, data: Path, strings: Mapping[str, Case], rig: Frozen) -> Rows:
     """A row for each change: cased friction, cost of the fit, and what it does to the judged rows."""
     rows = report_rows(data, strings, FIT_B)
     changes: dict[str, tuple[Mapping[str, Case], Sequence[Row]]] = {
@@ -32,7 +31,6 @@ def second_round(context: Context, data: Path, strings: Mapping[str, Case], rig:
         f"5 in pipe of {LIGHT:g} kg/m": (_changed(strings, _light), rows),
         f"row F4-13r reams at {SLOW:g} m/s": (strings, rows),
     }
-    found = []
     for name in context.progress(changes, "second round"):
         changed, measured = changes[name]
         setup = setup_of_b(rig)
@@ -43,19 +41,16 @@ def second_round(context: Context, data: Path, strings: Mapping[str, Case], rig:
             judged = [_slower(row) for row in judged]
         table = predict(changed, judged, setup, fitted, ABSOLUTE)
         spreads, weights = table[table["quantity"] == "half spread"], table[table["quantity"] != "half spread"]
-        found.append(
-            {
-                "change": name, "friction_cased": fitted.best["friction.cased"],
-                "standard_deviation": fitted.deviations["friction.cased"],
-                "largest_residual_sd": float(one.residuals["in_noise"].abs().max()),
-                "bias_hookload_kN": fitted.best["bias.hookload.report"] / 1e3,
-                "cost": one.fit.cost,
-                "spreads_in_95": f"{int(spreads['in_95'].sum())} of {len(spreads)}",
-                "weights_in_95": f"{int(weights['in_95'].sum())} of {len(weights)}",
-                "largest_distance_percent": float(spreads["distance_percent"].max()),
-            }
-        )  # fmt: skip
-    return pd.DataFrame(found)
+        yield {
+            "change": name, "friction_cased": fitted.best["friction.cased"],
+            "standard_deviation": fitted.deviations["friction.cased"],
+            "largest_residual_sd": float(one.residuals["in_noise"].abs().max()),
+            "bias_hookload_kN": fitted.best["bias.hookload.report"] / 1e3,
+            "cost": one.fit.cost,
+            "spreads_in_95": f"{int(spreads['in_95'].sum())} of {len(spreads)}",
+            "weights_in_95": f"{int(weights['in_95'].sum())} of {len(weights)}",
+            "largest_distance_percent": float(spreads["distance_percent"].max()),
+        }  # fmt: skip
 
 
 def _slower(row: Row) -> Row:

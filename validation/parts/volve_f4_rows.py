@@ -12,7 +12,6 @@ from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.model.operations import SteadyRates, steady_rates
 from validation.cases import load
-from validation.harness.files import declare
 from validation.parts.volve_f4 import SERIES_STRING, STRINGS
 
 FOLDER = "volve-15-9-F-4"
@@ -45,7 +44,7 @@ def cases(data: Path) -> dict[str, Case]:
 
 def report_rows(data: Path, strings: Mapping[str, Case], ids: Sequence[str]) -> list[Row]:
     """The readings of these rows of the daily reports, and of no other row."""
-    table = pd.read_csv(declare(data / FOLDER / REPORTS), dtype=str, keep_default_na=False).set_index("id").loc[[*ids]]
+    table = pd.read_csv(data / FOLDER / REPORTS, dtype=str, keep_default_na=False).set_index("id").loc[[*ids]]
     return [row for key, cells in table.iterrows() for row in _report(str(key), cells, strings)]
 
 
@@ -79,7 +78,7 @@ def _range(low: str, high: str, unit: float) -> Range | None:
 
 def series_rows(data: Path, strings: Mapping[str, Case]) -> list[Row]:
     """The medians of the bins of the series."""
-    bins = pd.read_csv(declare(data / FOLDER / BINS))
+    bins = pd.read_csv(data / FOLDER / BINS)
     speeds, case = _speeds(data), strings[SERIES_STRING]
     found = []
     for cells in bins.to_dict("records"):
@@ -110,7 +109,7 @@ def _median(cells: Mapping[Any, Any], load: str, unit: float) -> Range:
 
 def _speeds(data: Path) -> dict[str, float]:
     """Speed of the block [m/s] in the moving modes of the series: median of its samples off bottom."""
-    samples = pd.read_csv(declare(data / FOLDER / SAMPLES))
+    samples = pd.read_csv(data / FOLDER / SAMPLES)
     clock = pd.to_datetime(samples["date"])
     after = clock.diff().dt.total_seconds().to_numpy()[1:]
     hole, bit, block, rpm = (

@@ -4,7 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from fctd.calibration.forward import Array, Forward, StringLoads
+from fctd.arrays import Array
+from fctd.calibration.forward import Forward, StringLoads
 from fctd.calibration.rows import Row
 from fctd.case.load import Case
 from fctd.model.operations import rad_per_s

@@ -7,29 +7,26 @@ from fctd import torque_drag
 from fctd.steady.torque_drag import with_friction
 from references.soft_string.integration import soft_string
 from validation.cases import load
-from validation.harness.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 
 OPERATIONS = ("trip_in", "trip_out", "rotate_off_bottom")
 FACTORS = (0.1, 0.2, 0.3)
 CHECKED = 2450.0  # [m], where the soft string is computed as well
 
 
-def by_soft_string(chart: pd.DataFrame) -> pd.DataFrame:
+@table_of_rows
+def by_soft_string(chart: pd.DataFrame) -> Rows:
     """Hook load at the deepest bit depth by the soft string and from the chart."""
-    rows = []
     deepest = chart[chart["bit_depth_m"] == CHECKED]
     for kind, factor, stiff in zip(deepest["operation"], deepest["friction"], deepest["hookload_N"], strict=True):
         soft = soft_string(with_friction(load("paper_well"), factor), kind, CHECKED).hookload
-        rows.append(
-            {
-                "operation": kind,
-                "friction": factor,
-                "hookload_kN": stiff / 1e3,
-                "soft_hookload_kN": soft / 1e3,
-                "difference_percent": 100 * (stiff / soft - 1),
-            }
-        )
-    return pd.DataFrame(rows)
+        yield {
+            "operation": kind,
+            "friction": factor,
+            "hookload_kN": stiff / 1e3,
+            "soft_hookload_kN": soft / 1e3,
+            "difference_percent": 100 * (stiff / soft - 1),
+        }
 
 
 def run(context: Context) -> Outcome:

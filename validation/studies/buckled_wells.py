@@ -20,7 +20,7 @@ from fctd.results.status import SteadyStatus
 from fctd.steady.equilibrium import Solver
 from fctd.steady.torque_drag import with_friction
 from validation.cases.wells import real_well
-from validation.harness.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts import random_wells
 from validation.parts.buckled_pipe import OPERATION
 from validation.parts.resolved_rows import DEPTH, WEIGHT, horizontal_well
@@ -163,54 +163,48 @@ def resolved_rows(
     return pd.DataFrame(rows), pd.DataFrame(limits), locked
 
 
-def slid(context: Context, locked: list[Locked]) -> pd.DataFrame:
+@table_of_rows
+def slid(context: Context, locked: list[Locked]) -> Rows:
     """Locked strings in time, on both sides of their limit and with their resolved segments.
 
     The stepper has no bit on bottom: those of the locked strings that trip in, with the fewest segments.
     """
     tripped = [row for row in locked if row.point.operation == "trip_in"]
-    rows = []
     for case, point, at in context.progress(sorted(tripped, key=lambda row: len(row.point.profile))[:SLID], "stepper"):
         md = point.profile["md_m"].to_numpy()
         lengths = np.diff(md, prepend=2 * md[0] - md[1])
         cut = layouts.with_components(case, layouts.resolved(case, point.bit_depth, md, lengths))
         for share in (BELOW, ABOVE):
             found = slide(scaled(cut, share * at), point.operation, point.bit_depth)
-            rows.append(
-                {
-                    "well": case.name, "bit_depth_m": point.bit_depth, "segments": len(md) - 1,
-                    "share_of_limit_percent": 100 * share, "status": found.status,
-                    "bit_follows_percent": 100 * found.share, "push_weights": found.push,
-                    "ends": "slides" if found.slides else "stalls",
-                }
-            )  # fmt: skip
-    return pd.DataFrame(rows)
+            yield {
+                "well": case.name, "bit_depth_m": point.bit_depth, "segments": len(md) - 1,
+                "share_of_limit_percent": 100 * share, "status": found.status,
+                "bit_follows_percent": 100 * found.share, "push_weights": found.push,
+                "ends": "slides" if found.slides else "stalls",
+            }  # fmt: skip
 
 
-def halved() -> pd.DataFrame:
+@table_of_rows
+def halved() -> Rows:
     """The horizontal well at shares of its friction at lock-up, with the resolved segments and with their halves."""
     beyond = resolving(horizontal_well(20.0, "resolve", BEYOND_LOCK_UP), resolve_work=AMPLE)
     first = solve(beyond, OPERATION, DEPTH)
     locked = first.locked_up_at * BEYOND_LOCK_UP
-    rows = []
     for friction in (*(share * locked for share in HALVED), BEYOND_LOCK_UP):
         case = with_friction(beyond, friction)
         point = solve(case, OPERATION, DEPTH)
         md = point.profile["md_m"].to_numpy()
         half = 0.5 * np.diff(md, prepend=2 * md[0] - md[1])
         other = solve(layouts.with_components(case, layouts.resolved(case, DEPTH, md, half)), OPERATION, DEPTH)
-        rows.append(
-            {
-                "friction": friction, "share_of_lock_up_percent": 100 * friction / locked,
-                "segments": len(md) - 1, "halved_segments": len(other.profile) - 1,
-                "shape": point.shape, "halved_shape": other.shape,
-                "hookload_kN": point.hookload / 1e3, "halved_hookload_kN": other.hookload / 1e3,
-                "off_percent_of_weight": 100 * (other.hookload - point.hookload) / WEIGHT,
-                "locked_up_friction": friction * point.locked_up_at,
-                "halved_locked_up_friction": friction * other.locked_up_at,
-            }
-        )  # fmt: skip
-    return pd.DataFrame(rows)
+        yield {
+            "friction": friction, "share_of_lock_up_percent": 100 * friction / locked,
+            "segments": len(md) - 1, "halved_segments": len(other.profile) - 1,
+            "shape": point.shape, "halved_shape": other.shape,
+            "hookload_kN": point.hookload / 1e3, "halved_hookload_kN": other.hookload / 1e3,
+            "off_percent_of_weight": 100 * (other.hookload - point.hookload) / WEIGHT,
+            "locked_up_friction": friction * point.locked_up_at,
+            "halved_locked_up_friction": friction * other.locked_up_at,
+        }  # fmt: skip
 
 
 def run(context: Context) -> Outcome:

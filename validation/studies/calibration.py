@@ -17,7 +17,7 @@ from fctd.calibration.setup import Setup
 from fctd.calibration.unknowns import find_unknowns, parse_fits, with_values
 from fctd.model.operations import SteadyRates, rad_per_s, steady_rates
 from references.soft_string.integration import soft_string
-from validation.harness.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts.scatter_fit import twelve_rows
 from validation.parts.scatter_trials import HELD, TRIALS, trials
 
@@ -144,10 +144,10 @@ def recovery(context: Context, case: Case) -> tuple[pd.DataFrame, pd.DataFrame, 
     return table, summary, pd.concat(predictions, ignore_index=True)
 
 
-def flags(case: Case) -> pd.DataFrame:
+@table_of_rows
+def flags(case: Case) -> Rows:
     """Planted pairs and identifiable sets, and what is flagged in each."""
     rows = blank_rows(case)
-    table = []
     planted = [(pair, [*pair, *others], names) for pair, others, names in PAIRS]
     planted.append(((ALONE[0],), [ALONE[0], *ALONE[1]], ALONE[2]))  # type: ignore[arg-type]
     whole = [((), unknowns, names or [row.id for row in rows]) for unknowns, names in SETS]
@@ -157,14 +157,11 @@ def flags(case: Case) -> pd.DataFrame:
         forward = forward_of(case, read(blank.rows, blank, blank.evaluate(at).value), unknowns)
         found = undetermined(forward, forward.evaluate(at), range(len(names)))
         flagged = [set(one.names) for one in found]
-        table.append(
-            {
-                "unknowns": ", ".join(unknowns), "rows": ", ".join(names), "planted": " and ".join(expected) or "none",
-                "flagged": "; ".join(map(str, found)) or "none",
-                "right": any(set(expected) <= one for one in flagged) if expected else not found,
-            }
-        )  # fmt: skip
-    return pd.DataFrame(table)
+        yield {
+            "unknowns": ", ".join(unknowns), "rows": ", ".join(names), "planted": " and ".join(expected) or "none",
+            "flagged": "; ".join(map(str, found)) or "none",
+            "right": any(set(expected) <= one for one in flagged) if expected else not found,
+        }  # fmt: skip
 
 
 def soft_readings(case: Case, rows: Sequence[Row]) -> dict[tuple[str, str], float]:

@@ -5,17 +5,14 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from fctd import Case, InputError, build_wellbore, find_contacts
-from references import contact, engines
+from references import contact
 from references.contact import traps
 from references.timing.footprint import footprint
 from references.timing.stopwatch import machine_table, race
 from validation.cases import load
-from validation.harness.study import Check, Context, Outcome, Study, left_out
-
-Array = NDArray[np.float64]
+from validation.harness.study import Check, Context, Outcome, Rows, Study, left_out, table_of_rows
 
 RADIUS = 0.051  # contact radius of the pipe [m]
 HOLE = 0.1556  # hole radius [m]
@@ -79,12 +76,11 @@ def points_in(case: Case, count: int) -> pd.DataFrame:
     return pd.concat(parts, ignore_index=True)
 
 
-def errors_of(method: contact.ContactMethod, points: pd.DataFrame, case: Case) -> list[dict[str, Any]]:
+def errors_of(method: contact.ContactMethod, points: pd.DataFrame, case: Case) -> Rows:
     """A row for each region: contacts missed and false, errors of penetration and normal, and their bounds."""
     places = np.ascontiguousarray(points[["x", "y", "z"]])
     exact = find_contacts(build_wellbore(case), places, RADIUS)
     hits = method.query(places, np.full(len(places), RADIUS))
-    rows = []
     for region, chosen in points.groupby("region", sort=False).indices.items():
         depth, turn = method.error_bound(0.0 if region == "straight" else 1 / 286.479)
         truth, found = exact.penetration[chosen], hits.penetration[chosen]
@@ -95,22 +91,19 @@ def errors_of(method: contact.ContactMethod, points: pd.DataFrame, case: Case) -
         turned = np.degrees(turn + np.arcsin(np.minimum(depth / points["offset"].to_numpy()[chosen][known], 1)))
         # NaN, no answer, counts as a miss.
         missed, false = (truth > 0) & ~(found > 0), (truth <= 0) & (found > 0)
-        rows.append(
-            {
-                "region": region,
-                "points": len(chosen),
-                "missed_percent": 100 * float(missed.mean()),
-                "false_percent": 100 * float(false.mean()),
-                "deepest_missed_mm": 1e3 * float(truth[missed].max(initial=0.0)),
-                "max_penetration_error_mm": 1e3 * float(np.abs(error).max()),
-                "rms_penetration_error_mm": 1e3 * float(np.sqrt((error**2).mean())),
-                "bound_mm": 1e3 * depth,
-                "max_angle_error_deg": float(direction.max()),
-                "angle_over_bound": float((direction / np.maximum(turned, 1e-4)).max()),
-                "max_md_error_m": float(np.nanmax(np.abs(hits.md - exact.md)[chosen])),
-            }
-        )
-    return rows
+        yield {
+            "region": region,
+            "points": len(chosen),
+            "missed_percent": 100 * float(missed.mean()),
+            "false_percent": 100 * float(false.mean()),
+            "deepest_missed_mm": 1e3 * float(truth[missed].max(initial=0.0)),
+            "max_penetration_error_mm": 1e3 * float(np.abs(error).max()),
+            "rms_penetration_error_mm": 1e3 * float(np.sqrt((error**2).mean())),
+            "bound_mm": 1e3 * depth,
+            "max_angle_error_deg": float(direction.max()),
+            "angle_over_bound": float((direction / np.maximum(turned, 1e-4)).max()),
+            "max_md_error_m": float(np.nanmax(np.abs(hits.md - exact.md)[chosen])),
+        }
 
 
 def built(context: Context, case: Case) -> tuple[dict[str, contact.ContactMethod], list[dict[str, str]], list[str]]:
@@ -140,15 +133,12 @@ def costs(methods: dict[str, contact.ContactMethod], points: pd.DataFrame, round
     return cost
 
 
-def footprints(context: Context, case: Case, names: list[str]) -> pd.DataFrame:
+@table_of_rows
+def footprints(context: Context, case: Case, names: list[str]) -> Rows:
     """Memory and time of building each method at its own defaults; cylinders and arcs are the engine's own."""
-    rows = []
     for name in context.progress(names, "memory"):
         memory, seconds = footprint(name, case)
-        rows.append(
-            {"method": name, "pieces": contact.build(name, case).pieces, "memory_MB": memory, "build_s": seconds}
-        )
-    return pd.DataFrame(rows)
+        yield {"method": name, "pieces": contact.build(name, case).pieces, "memory_MB": memory, "build_s": seconds}
 
 
 def tried(missing: list[str]) -> pd.DataFrame:
@@ -249,7 +239,6 @@ STUDY = Study(
     "contact_accuracy",
     "How accurate is each contact method, and what does it cost per point?",
     run,
-    uses=(*contact.METHODS.values(), *engines.ENGINES.values()),
     reproduce=True,
     timed=True,
 )

@@ -10,12 +10,12 @@ import pandas as pd
 from fctd import Case, simulate
 from fctd.mechanics.topdrive import Motion
 from fctd.simulation.run import Run
-from references import contact, engines
+from references import contact
 from references.contact.for_loop import advance_with_for_loop
 from references.timing.stopwatch import machine_table, race, units_for
 from references.timing.workloads import NoWall, asking, copy_of, moving, without_wall
 from validation.cases import load, rotation, trip
-from validation.harness.study import Check, Context, Outcome, Study, left_out
+from validation.harness.study import Check, Context, Outcome, Rows, Study, left_out, table_of_rows
 from validation.parts.methods import FULL_ONLY, TOO_SLOW
 from validation.parts.windows import last_seconds
 
@@ -82,17 +82,17 @@ def costs(segments: int, asked: Mapping[str, tuple[str, dict[str, Any]]], rounds
     return table.assign(segments=segments, step_s=start.step)
 
 
-def facets(quick: bool) -> pd.DataFrame:
+@table_of_rows
+def facets(quick: bool) -> Rows:
     """The curved chain rotating against meshes of more and more facets: torque over the number of facets."""
     case = load("curved_chain", operations=rotation(BIT, 8.0 if quick else 30.0, ramp=3.0), record__interval=0.25)
     window = 3.0 if quick else 15.0
     own = last_seconds(simulate(case), window)
-    rows = [{"wall": "cylinders", "facets": np.nan, "wedge_percent": 0.0} | _loads(own, own)]
+    yield {"wall": "cylinders", "facets": np.nan, "wedge_percent": 0.0} | _loads(own, own)
     for count in (24,) if quick else (12, 24, 48, 96):
         method = contact.build("coal", case, facets=count)
         end = last_seconds(simulate(case, contact=method), window)
-        rows.append({"wall": "mesh", "facets": count, "wedge_percent": wedge(count)} | _loads(end, own))
-    return pd.DataFrame(rows)
+        yield {"wall": "mesh", "facets": count, "wedge_percent": wedge(count)} | _loads(end, own)
 
 
 def counted() -> pd.DataFrame:
@@ -159,15 +159,14 @@ def figure_13(context: Context, method: str) -> dict[str, pd.DataFrame]:
     return {"figure_13": pd.DataFrame(rows), "trip": trip_in, "times": pd.DataFrame(times)}
 
 
-def torques(methods: Iterable[str], duration: float) -> pd.DataFrame:
+@table_of_rows
+def torques(methods: Iterable[str], duration: float) -> Rows:
     """The curved chain rotating against every method's wall; differences to the engine's own cylinders."""
     case = load("curved_chain", operations=rotation(BIT, duration, ramp=3.0), record__interval=0.25)
     own = last_seconds(simulate(case), 3.0)
-    rows = []
     for name in methods:
         end = last_seconds(simulate(case, contact=contact.build(name, case)), 3.0)
-        rows.append({"method": name} | _loads(end, own))
-    return pd.DataFrame(rows)
+        yield {"method": name} | _loads(end, own)
 
 
 def trip_of(start: float, end: float) -> Case:
@@ -268,7 +267,6 @@ STUDY = Study(
     "contact_swap",
     "What does the contact method cost in the loop, and does the torque depend on it?",
     run,
-    uses=(*contact.METHODS.values(), *engines.ENGINES.values()),
     reproduce=True,
     timed=True,
 )

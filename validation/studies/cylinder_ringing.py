@@ -8,16 +8,14 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from fctd import simulate, torque_drag
+from fctd.arrays import Array
 from fctd.simulation.preparation import prepare
 from fctd.simulation.ringing import Ringing, expected_ringing
 from validation.cases import load, trip
 from validation.harness.study import Check, Context, Outcome, Study
 from validation.parts.windows import completed
-
-Array = NDArray[np.float64]
 
 OWN = "the case's own"
 ARCS, COLLARS, SLOW = "arcs", "19 collars of 10.5 m", "0.25 m/s"

@@ -3,7 +3,6 @@
 from typing import Any
 
 import numpy as np
-import pandas as pd
 
 from fctd import Case
 from fctd.model.operations import rad_per_s, steady_rates
@@ -14,7 +13,7 @@ from references.soft_string.closed_forms import hold
 from references.soft_string.integration import soft_string
 from references.soft_string.sliding import motion_of, split_friction
 from validation.cases import load
-from validation.harness.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 
 LAWS = ("paper", "coulomb")
 BIT = 2450.0
@@ -52,9 +51,9 @@ def straight(law: str) -> Case:
     )  # fmt: skip
 
 
-def in_straight_hole(ratios: np.ndarray) -> pd.DataFrame:
+@table_of_rows
+def in_straight_hole(ratios: np.ndarray) -> Rows:
     """Pulled and turned at every ratio of axial to tangential speed: solver and closed form."""
-    rows = []
     for law in LAWS:
         case = straight(law)
         section, solver = section_of(case.string.components[0], case.mud.density), Solver(case)
@@ -67,35 +66,32 @@ def in_straight_hole(ratios: np.ndarray) -> pd.DataFrame:
                 0.0, friction.drag, weight=section.weight, length=LENGTH, inclination=float(np.radians(INCLINATION))
             )
             drag, torque = climb.tension_above - hanging, section.contact_radius * friction.turning * climb.load
-            rows.append(
-                {
-                    "law": law,
-                    "axial_over_tangential": float(ratio),
-                    "drag_kN": (point.hookload - hanging) / 1e3,
-                    "drag_closed_form_kN": drag / 1e3,
-                    "torque_kN_m": point.surface_torque / 1e3,
-                    "torque_closed_form_kN_m": torque / 1e3,
-                    # Where one of the two is nearly zero, its difference is compared with the full value.
-                    "off_percent": 100
-                    * max(
-                        abs(point.hookload - hanging - drag) / (MU * climb.load),
-                        abs(point.surface_torque - torque) / (section.contact_radius * MU * climb.load),
-                    ),
-                    # Resultant friction of both directions over the limit of Coulomb's law.
-                    "friction_over_mu_N": float(np.hypot(drag, torque / section.contact_radius))
-                    / (MU * friction.normal * climb.load),
-                }
-            )
-    return pd.DataFrame(rows)
+            yield {
+                "law": law,
+                "axial_over_tangential": float(ratio),
+                "drag_kN": (point.hookload - hanging) / 1e3,
+                "drag_closed_form_kN": drag / 1e3,
+                "torque_kN_m": point.surface_torque / 1e3,
+                "torque_closed_form_kN_m": torque / 1e3,
+                # Where one of the two is nearly zero, its difference is compared with the full value.
+                "off_percent": 100
+                * max(
+                    abs(point.hookload - hanging - drag) / (MU * climb.load),
+                    abs(point.surface_torque - torque) / (section.contact_radius * MU * climb.load),
+                ),
+                # Resultant friction of both directions over the limit of Coulomb's law.
+                "friction_over_mu_N": float(np.hypot(drag, torque / section.contact_radius))
+                / (MU * friction.normal * climb.load),
+            }
 
 
-def as_done() -> pd.DataFrame:
+@table_of_rows
+def as_done() -> Rows:
     """Operations of the paper's well under both laws, by the stiff and by the soft string."""
     drilling = {"bit__weight_on_bit": "50 kN", "bit__torque": "3 kN*m"}
     cases = {law: load("paper_well", contact__friction_law=law, **drilling) for law in LAWS}
     solvers = {law: Solver(case) for law, case in cases.items()}
     free = {law: _solve(solvers[law], "rotate_off_bottom", 0.0, 60.0).hookload for law in LAWS}
-    rows = []
     for kind, speed, rpm in DONE:
         row: dict[str, Any] = {"operation": kind, "speed_m_s": speed, "rpm": rpm}
         on_bottom = 50e3 if kind.startswith("drill") else 0.0
@@ -116,8 +112,7 @@ def as_done() -> pd.DataFrame:
             for load_, unit in (("hookload", "kN"), ("torque", "kN_m")):
                 ratio = ratio_of(row[f"{model}{load_}_paper_{unit}"], row[f"{model}{load_}_coulomb_{unit}"])
                 row[f"{model}{load_}_off_percent"] = 100 * (ratio - 1)
-        rows.append(row)
-    return pd.DataFrame(rows)
+        yield row
 
 
 def _solve(solver: Solver, kind: str, speed: float, rpm: float) -> Equilibrium:

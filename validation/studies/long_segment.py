@@ -4,17 +4,15 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from fctd import equilibrium, simulate
+from fctd.arrays import Array
 from fctd.model.operations import rad_per_s
 from references.soft_string.torsion import twisted
 from validation.cases import rotation, trip
-from validation.harness.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts.long_string import BIT, MODES, PIPE, chain_frequencies, continuous_frequencies, the_case
 from validation.parts.windows import completed
-
-Array = NDArray[np.float64]
 
 CHANGE = 1.0  # percent: what counts as "no change" here
 RAMPS = (2.0, 20.0)  # [s]
@@ -27,9 +25,9 @@ STEADY = [("trip_in", 0.0), ("trip_out", 0.0), ("rotate_off_bottom", 0.0)] + [
 ]
 
 
-def steady(depths: tuple[float, ...]) -> pd.DataFrame:
+@table_of_rows
+def steady(depths: tuple[float, ...]) -> Rows:
     """Steady loads of both strings."""
-    rows = []
     for depth in depths:
         for kind, weight in STEADY:
             row: dict[str, Any] = {"operation": kind, "bit_depth_m": depth, "weight_on_bit_kN": weight / 1e3}
@@ -49,8 +47,7 @@ def steady(depths: tuple[float, ...]) -> pd.DataFrame:
             )
             # The long segment ends at the first contact point of its string.
             row["least_tension_of_long_kN"] = float(long.profile["effective_tension_N"].iloc[1]) / 1e3
-            rows.append(row)
-    return pd.DataFrame(rows)
+            yield row
 
 
 def frequencies() -> pd.DataFrame:
@@ -108,9 +105,9 @@ def twisting(ramps: tuple[float, ...]) -> dict[float, float]:
     return found
 
 
-def start_up_differences(histories: pd.DataFrame) -> pd.DataFrame:
+@table_of_rows
+def start_up_differences(histories: pd.DataFrame) -> Rows:
     """Largest difference from the finest string within the start-up, over the span of its reading."""
-    rows = []
     for (kind, ramp), both in histories.groupby(["operation", "ramp_s"], sort=False):
         column = "surface_torque_N_m" if kind == "rotate_off_bottom" else "hookload_N"
         parts = {name: part[column].to_numpy() for name, part in both.groupby("vertical")}
@@ -120,8 +117,7 @@ def start_up_differences(histories: pd.DataFrame) -> pd.DataFrame:
         for name in ("long", "cut"):
             row[f"{name}_difference_percent"] = 100 * float(np.abs(parts[name] - truth).max()) / span
             row[f"{name}_mean_difference_percent"] = 100 * abs(parts[name].mean() - truth.mean()) / span
-        rows.append(row)
-    return pd.DataFrame(rows)
+        yield row
 
 
 def run(context: Context) -> Outcome:

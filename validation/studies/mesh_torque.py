@@ -62,6 +62,5 @@ STUDY = Study(
     "mesh_torque",
     "Does the torque off bottom depend on the contact method?",
     run,
-    uses=(contact.METHODS[METHOD],),
     reproduce=True,
 )

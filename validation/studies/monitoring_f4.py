@@ -11,8 +11,7 @@ from fctd import Case
 from fctd.monitoring.monitor import Monitor, result_of
 from fctd.monitoring.series import read_series
 from fctd.monitoring.stretches import Mode
-from validation.harness.files import declare
-from validation.harness.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 
 MODES: dict[str, Mode] = {
     "in_slips": "in_slips", "rot_static": "rotating", "rot_up": "rotating_up", "rot_dn": "rotating_down",
@@ -31,7 +30,7 @@ def f4(folder: Path) -> Case:
     rev/min, as the data's notes say; the friction of the casing, 0.12, is a guess.  None of them enters the medians of
     stretches, but for the limit of slips, half way between block and string.
     """
-    stations = pd.read_csv(declare(folder / "survey.csv"))[["md_m", "inc_deg", "azi_deg"]].to_numpy().tolist()
+    stations = pd.read_csv(folder / "survey.csv")[["md_m", "inc_deg", "azi_deg"]].to_numpy().tolist()
     intervals = [
         {"to_md": 1351, "diameter": "12.415 in", "friction": 0.12, "kind": "cased"},
         {"to_md": 2770, "diameter": "12.25 in", "friction": 0.25, "kind": "open"},
@@ -56,14 +55,14 @@ def run(context: Context) -> Outcome:
     assert context.data is not None  # the runner has checked that the data are there
     folder = context.data / "volve-15-9-F-4"
     watch = Monitor(f4(folder))
-    series = read_series(declare(folder / "timeseries_12.25in_2007-10-23.csv"))
+    series = read_series(folder / "timeseries_12.25in_2007-10-23.csv")
     watch.feed(series)
     watch.finish()
     pooled: dict[tuple[str, float], list[np.ndarray]] = defaultdict(list)
     for found in watch.found:
         for row in found.stretch.rows:
             pooled[found.stretch.mode, BIN * np.floor(row[0] / BIN)].append(row)
-    bins = pd.read_csv(declare(folder / "offbottom_bins_25m.csv"))
+    bins = pd.read_csv(folder / "offbottom_bins_25m.csv")
     rows = [_compared(one, pooled) for _, one in bins[bins["mode"].isin(list(MODES))].iterrows()]
     table = pd.DataFrame(rows)
     within = float(table["within"].mean())
@@ -94,22 +93,19 @@ def run(context: Context) -> Outcome:
     )  # fmt: skip
 
 
-def _by_distance(series: pd.DataFrame, table: pd.DataFrame) -> pd.DataFrame:
+@table_of_rows
+def _by_distance(series: pd.DataFrame, table: pd.DataFrame) -> Rows:
     """Rows with standing block and 20 rev/min or more in missed bins, by the least distance off bottom [m]."""
     missed = table.loc[~table["within"] & (table["mode"] == "rotating"), "bit_depth_from_m"]
     speed = series["block_position_m"].diff() / series["time_s"].diff()
     standing = series[(series["rpm"] >= 20) & (speed.abs() < 0.01)]
     off = standing["hole_depth_m"] - standing["bit_depth_m"]
-    rows = []
     for start in missed:
         inside = (standing["bit_depth_m"] >= start) & (standing["bit_depth_m"] < start + BIN)
         for least in (0.1, 0.3, 0.5, 0.8, 1.0):
             here = standing[inside & (off > least)]
-            rows.append(
-                {"bit_depth_from_m": start, "off_bottom_m": least, "rows": len(here), "rpm": here["rpm"].median(),
-                 "torque_kN_m": here["drive_torque_N_m"].median() / 1e3}
-            )  # fmt: skip
-    return pd.DataFrame(rows)
+            yield {"bit_depth_from_m": start, "off_bottom_m": least, "rows": len(here), "rpm": here["rpm"].median(),
+             "torque_kN_m": here["drive_torque_N_m"].median() / 1e3}  # fmt: skip
 
 
 def _compared(one: "pd.Series[Any]", pooled: dict[tuple[str, float], list[np.ndarray]]) -> dict[str, object]:

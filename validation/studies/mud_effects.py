@@ -4,7 +4,6 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from fctd import Case, equilibrium, simulate
 from fctd.mechanics.topdrive import GRAVITY
@@ -13,11 +12,9 @@ from fctd.model.mud import resistance
 from fctd.model.section import section_of
 from references.soft_string.integration import soft_string
 from validation.cases import load, rotation
-from validation.harness.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts.long_string import PIPE, chain_frequencies, continuous_frequencies, the_case
 from validation.parts.windows import completed, last_seconds
-
-Array = NDArray[np.float64]
 
 BIT = 2450.0
 HANGING = 1700.0  # [m]: all of the string in vertical hole
@@ -41,25 +38,22 @@ def displaced(case: Case, mud: float) -> float:
     return weight + mud * GRAVITY * float(pressed @ top[1:])
 
 
-def hanging() -> pd.DataFrame:
+@table_of_rows
+def hanging() -> Rows:
     """A string in vertical hole: hook load by the solver, by the stepper, and from pressures; in three muds."""
-    rows = []
     for mud in DENSITIES:
         operations = rotation(HANGING, 5.0, ramp=1.0, rpm=0.1)
         case = load("paper_well", mud__density=mud, operations=operations, record__interval=0.25)
         exact = displaced(case, mud)
         solved = equilibrium(case, "rotate_off_bottom", HANGING).hookload
         stepped = float(last_seconds(simulate(case), 3.0)["hookload_N"])
-        rows.append(
-            {
-                "mud_kg_per_m3": mud,
-                "by_pressures_kN": exact / 1e3,
-                "steady_kN": solved / 1e3,
-                "stepped_kN": stepped / 1e3,
-                "off": max(abs(solved / exact - 1), abs(stepped / exact - 1)),
-            }
-        )
-    return pd.DataFrame(rows)
+        yield {
+            "mud_kg_per_m3": mud,
+            "by_pressures_kN": exact / 1e3,
+            "steady_kN": solved / 1e3,
+            "stepped_kN": stepped / 1e3,
+            "off": max(abs(solved / exact - 1), abs(stepped / exact - 1)),
+        }
 
 
 def buoyed() -> pd.DataFrame:

@@ -10,15 +10,13 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from references.buckling import helix, mitchell
 from references.buckling.onset import FREE_END, half_wave, snaking_limit
-from validation.harness.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts import analytic_helix, resolved_rows
 from validation.parts.buckled_pipe import BUCKLING, Rig, Turns, UnsettledError, energy, middle, turns_of, wave_of
 
-Array = NDArray[np.float64]
 Number = Any  # a number, or a column of them
 
 ONSET = BUCKLING.onset
@@ -96,33 +94,30 @@ def snaking(segment: float) -> pd.DataFrame:
     return table.assign(wall_force_off_percent=_percent(table["wall_force_N_per_m"], table["mitchell_N_per_m"]))
 
 
-def helices(segment: float, ratios: Sequence[float]) -> pd.DataFrame:
+@table_of_rows
+def helices(segment: float, ratios: Sequence[float]) -> Rows:
     """Helices of a level pipe, each laid with θ' = √(F/2EI) and settled, against the closed forms."""
-    rows = []
     rig = Rig(LONG, segment)
     for ratio in ratios:
         force = ratio * ONSET
         rig.wind(force)
         turns = _helix_of(turns_of(rig.settle(force).profile), ratio)
         level = mitchell.helix(BUCKLING, force)
-        rows.append(
-            {
-                "times_onset": ratio,
-                "pitch_m": turns.pitch,
-                "pitch_off_percent": _percent(turns.pitch, helix.pitch(BUCKLING, force)),
-                "pitch_off_mitchell_percent": _percent(turns.pitch, level.length),
-                "wall_force_N_per_m": turns.wall_force,
-                "wall_force_off_percent": _percent(turns.wall_force, helix.wall_force(BUCKLING, force)),
-                "moment_kN_m": turns.moment / 1e3,
-                "moment_off_percent": _percent(turns.moment, helix.bending_moment(BUCKLING, force)),
-            }
-        )
-    return pd.DataFrame(rows)
+        yield {
+            "times_onset": ratio,
+            "pitch_m": turns.pitch,
+            "pitch_off_percent": _percent(turns.pitch, helix.pitch(BUCKLING, force)),
+            "pitch_off_mitchell_percent": _percent(turns.pitch, level.length),
+            "wall_force_N_per_m": turns.wall_force,
+            "wall_force_off_percent": _percent(turns.wall_force, helix.wall_force(BUCKLING, force)),
+            "moment_kN_m": turns.moment / 1e3,
+            "moment_off_percent": _percent(turns.moment, helix.bending_moment(BUCKLING, force)),
+        }
 
 
-def energies(segment: float, ratios: Sequence[float]) -> pd.DataFrame:
+@table_of_rows
+def energies(segment: float, ratios: Sequence[float]) -> Rows:
     """Energy a metre of the helix over that of snaking, each laid at its length of least energy."""
-    rows = []
     for ratio in ratios:
         rig, force = Rig(LONG, segment), ratio * ONSET
         rig.wind(force)
@@ -131,16 +126,13 @@ def energies(segment: float, ratios: Sequence[float]) -> pd.DataFrame:
         rig.lay(force, shape.waves)
         waved = energy(rig, rig.settle(force))
         exact = mitchell.helix(BUCKLING, force).energy - shape.energy
-        rows.append(
-            {"times_onset": ratio, "helix_over_snaking_J_per_m": (wound - waved) / LONG, "mitchell_J_per_m": exact}
-        )
-    return pd.DataFrame(rows)
+        yield {"times_onset": ratio, "helix_over_snaking_J_per_m": (wound - waved) / LONG, "mitchell_J_per_m": exact}
 
 
-def paths(segment: float, step: float) -> pd.DataFrame:
+@table_of_rows
+def paths(segment: float, step: float) -> Rows:
     """A level pipe loaded from straight, unloaded from there, and unloaded from a helix at the highest load."""
     up = np.arange(1.1, HIGHEST + 0.5 * step, step)
-    rows = []
     rig = Rig(LENGTH, segment)
     rig.lay_straight(up[0] * ONSET)
     for name, ratios in (("loading", up), ("unloading", up[::-1]), ("unloading from a helix", up[::-1])):
@@ -150,20 +142,18 @@ def paths(segment: float, step: float) -> pd.DataFrame:
             profile = rig.settle(ratio * ONSET).profile
             part = middle(profile)
             turns, wave = turns_of(profile), wave_of(profile)
-            rows.append(
-                {
-                    "path": name, "times_onset": ratio,
-                    "shape": "helix" if turns is not None else "snaking" if wave is not None else "other",
-                    "wall_force_over_weight": part["contact_force_N"].mean() / (segment * BUCKLING.weight),
-                    "off_wall_percent": 100 * (part["contact_force_N"] <= 0).mean(),
-                }
-            )  # fmt: skip
-    return pd.DataFrame(rows)
+            yield {
+                "path": name, "times_onset": ratio,
+                "shape": "helix" if turns is not None else "snaking" if wave is not None else "other",
+                "wall_force_over_weight": part["contact_force_N"].mean() / (segment * BUCKLING.weight),
+                "off_wall_percent": 100 * (part["contact_force_N"] <= 0).mean(),
+            }  # fmt: skip
 
 
-def pushed(segment: float) -> pd.DataFrame:
+@table_of_rows
+def pushed(segment: float) -> Rows:
     """Push at the top of a helix that slides through a level hole, at three shares of the lock-up length."""
-    force, rows = PUSHED * ONSET, []
+    force = PUSHED * ONSET
     whole = helix.lock_up_length(BUCKLING, force, FRICTION)
     for share in SHARES:
         length = share * whole
@@ -171,14 +161,11 @@ def pushed(segment: float) -> pd.DataFrame:
         rig.wind(force, lambda above: force / (1 - np.minimum(above, 0.9 * whole) / whole))
         push = -rig.settle(force).hookload
         law, tan = (form(BUCKLING, force, FRICTION, length) for form in (helix.pushed_force, helix.pushed_force_tan))
-        rows.append(
-            {
-                "length_m": length, "share_of_lock_up_percent": 100 * share, "push_kN": push / 1e3,
-                "reciprocal_kN": law / 1e3, "off_percent": _percent(push, law),
-                "tan_kN": tan / 1e3, "tan_off_percent": _percent(tan, push),
-            }
-        )  # fmt: skip
-    return pd.DataFrame(rows)
+        yield {
+            "length_m": length, "share_of_lock_up_percent": 100 * share, "push_kN": push / 1e3,
+            "reciprocal_kN": law / 1e3, "off_percent": _percent(push, law),
+            "tan_kN": tan / 1e3, "tan_off_percent": _percent(tan, push),
+        }  # fmt: skip
 
 
 def hanging(segment: float, weights: Sequence[float]) -> pd.DataFrame:
@@ -197,9 +184,10 @@ def hanging(segment: float, weights: Sequence[float]) -> pd.DataFrame:
     return _compared(pd.DataFrame(rows), "shortening_mm", "exact_mm")
 
 
-def second_route() -> pd.DataFrame:
+@table_of_rows
+def second_route() -> Rows:
     """Snaking that leaves the wall, by the engine and as a rod of PyElastica, both from the same straight segments."""
-    rows, half = [], ROD_LENGTH / ROD_WAVES
+    half = ROD_LENGTH / ROD_WAVES
     for ratio in ROD:
         rig, force = Rig(ROD_LENGTH, ROD_SEGMENT), ratio * ONSET
         rig.lay(force, mitchell.snaking(BUCKLING, force, half).waves, np.zeros_like)
@@ -208,15 +196,12 @@ def second_route() -> pd.DataFrame:
             wave, part = wave_of(profile), middle(profile)
             if wave is None:
                 raise UnsettledError(f"no snaking at {ratio:g} times the onset, {name}")
-            rows.append(
-                {
-                    "times_onset": ratio, "route": name, "amplitude_deg": wave.amplitude,
-                    "half_wave_m": wave.half_wave, "off_wall_percent": 100 * (part["contact_force_N"] <= 0).mean(),
-                    "wall_force_N_per_m": part["contact_force_N"].mean() / ROD_SEGMENT,
-                    "shortening_mm": 1e3 * (ROD_LENGTH - np.ptp(profile["md_m"])),
-                }
-            )  # fmt: skip
-    return pd.DataFrame(rows)
+            yield {
+                "times_onset": ratio, "route": name, "amplitude_deg": wave.amplitude,
+                "half_wave_m": wave.half_wave, "off_wall_percent": 100 * (part["contact_force_N"] <= 0).mean(),
+                "wall_force_N_per_m": part["contact_force_N"].mean() / ROD_SEGMENT,
+                "shortening_mm": 1e3 * (ROD_LENGTH - np.ptp(profile["md_m"])),
+            }  # fmt: skip
 
 
 def convergence() -> pd.DataFrame:

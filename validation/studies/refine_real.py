@@ -11,7 +11,7 @@ from fctd import Case
 from fctd.model.layouts import Components, uniform
 from validation.cases import load
 from validation.cases.wells import real_well
-from validation.harness.study import Context, Outcome, Study
+from validation.harness.study import Context, Outcome, Rows, Study
 from validation.parts.refinement import REFERENCE, in_arcs, judge, loads
 
 COUNTS = (40, 80, 160, 320, 640)
@@ -35,20 +35,18 @@ def wells(context: Context) -> dict[str, tuple[Case, float]]:
     }
 
 
-def scatter(name: str, case: Case, bit: float, counts: tuple[int, ...]) -> list[dict[str, Any]]:
+def scatter(name: str, case: Case, bit: float, counts: tuple[int, ...]) -> Rows:
     """Errors of uniform strings, mean and standard deviation as their joints are shifted by eighths of a segment."""
     case = in_arcs(case)
     total = bit - case.string.top_md
     exact = np.array(loads(case, uniform, bit, total / REFERENCE)[1:])
-    rows = []
     for count in counts:
         found = [loads(case, partial(_shifted, by=shift), bit, total / count)[1:] for shift in SHIFTS]
         off = 100 * (np.array(found) / exact - 1)
         row: dict[str, Any] = {"well": name, "segments": count}
         for column, quantity in zip(off.T, ("torque", "hookload"), strict=True):
             row |= {f"{quantity}_off_percent": column.mean(), f"{quantity}_scatter_percent": column.std(ddof=1)}
-        rows.append(row)
-    return rows
+        yield row
 
 
 def _shifted(case: Case, bit_depth: float, length: float, *, by: float) -> Components:

@@ -13,7 +13,7 @@ from fctd.model.operations import steady_rates
 from fctd.steady.batch import Row, hole_of, solve_batch
 from fctd.steady.equilibrium import Solver
 from fctd.steady.problem import Workspace
-from validation.harness.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts.plausible_rows import LESS, REPEATED, Drawn, drawn
 from validation.parts.stepped_rows import MOVING, step
 
@@ -86,7 +86,8 @@ def falling(rows: pd.DataFrame) -> int:
     return int(wrong.sum())
 
 
-def stepped(context: Context, rows: pd.DataFrame) -> pd.DataFrame:
+@table_of_rows
+def stepped(context: Context, rows: pd.DataFrame) -> Rows:
     """A sample of rows in time, converged ones and ones without a steady shape, in wells of arcs.
 
     A string that slides over the seams of cylinders rings, which is no motion of the string's own.
@@ -94,20 +95,16 @@ def stepped(context: Context, rows: pd.DataFrame) -> pd.DataFrame:
     whole = rows[(rows["friction_share"] == 1) & (rows["geometry"] == "arcs")]
     kinds = [whole[whole["status"] == status] for status in ("converged", "unstable")]
     sample = pd.concat([of.sample(min(STEPPED, len(of)), random_state=SEED) for of in kinds])
-    found = []
     for row in context.progress(list(sample.itertuples()), "rows in time"):
         string = drawn(SEED, int(str(row.string)))
         kind = str(row.operation)
         end = step(Case.model_validate(string.case), kind, string.bit_depth, string.rates[kind])
-        found.append(
-            {
-                "string": row.string, "operation": kind, "bit_depth_m": row.bit_depth_m, "status": row.status,
-                "hookload_kN": row.hookload_kN, "stepped_hookload_kN": end.hookload / 1e3,
-                "sideways_percent": 100 * end.sideways, "stepper": "moves" if end.moves else "stays",
-                "run": end.status, "reason": row.reason,
-            }
-        )  # fmt: skip
-    return pd.DataFrame(found)
+        yield {
+            "string": row.string, "operation": kind, "bit_depth_m": row.bit_depth_m, "status": row.status,
+            "hookload_kN": row.hookload_kN, "stepped_hookload_kN": end.hookload / 1e3,
+            "sideways_percent": 100 * end.sideways, "stepper": "moves" if end.moves else "stays",
+            "run": end.status, "reason": row.reason,
+        }  # fmt: skip
 
 
 def checks_in_time(in_time: pd.DataFrame) -> list[Check]:

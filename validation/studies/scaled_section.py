@@ -5,21 +5,19 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from fctd import Case, build_wellbore, equilibrium, simulate
+from fctd.arrays import Array
 from fctd.model.wellbore import hole_frame
 from references.beams.case import beam_of, top_of
 from references.beams.dynamics import Lowered, generalised_alpha, lower
 from references.beams.elements import Beam
 from references.beams.planar_hole import PlanarHole
 from validation.cases import load, trip
-from validation.harness.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts.turn_and_build import turn_and_build
 from validation.parts.windows import completed
-
-Array = NDArray[np.float64]
 
 # The finite elements' parameters, frozen before any difference was computed (see scaled_section.toml).
 ELEMENT = 0.15  # [m]
@@ -334,35 +332,33 @@ def _at(segments: pd.DataFrame, count: int, column: str) -> float:
     return float(segments[segments["segments"] == count][column].iloc[0])
 
 
+@table_of_rows
 def _same_points(
     context: Context, models: dict[tuple[int, str], Comparable], counts: tuple[int, ...], clearance: float
-) -> pd.DataFrame:
+) -> Rows:
     """Each model against equilibria of finite elements as long as its segments, with the wall at their ends."""
-    rows = []
     for count in context.progress(counts, "same points"):
         case = load("scaled_section", string__components__0__segments=count)
         ends = _above_bit(case)
         truth, _ = finite_elements(case, beam_of(case, ends[1], ends[-1], True), case.record.interval, still=True)
         both = differences(models[count, case.wellbore.geometry], truth, clearance)
         kept = ("displacement_max_percent", "displacement_rms_percent", "displacement_bit_percent")
-        rows.append({"segments": count, **{name: both[name] for name in kept}})
-    return pd.DataFrame(rows)
+        yield {"segments": count, **{name: both[name] for name in kept}}
 
 
-def steady_differences(counts: tuple[int, ...], truth: Comparable, clearance: float) -> pd.DataFrame:
+@table_of_rows
+def steady_differences(counts: tuple[int, ...], truth: Comparable, clearance: float) -> Rows:
     """The steady solver's string at the end of the run against finite elements through equilibria.
 
     A second route to the displacement: neither model steps through time.
     """
-    rows = []
     for count in counts:
         case = load("scaled_section", string__components__0__segments=count)
         point = equilibrium(case, "trip_in", case.operations[0].end_md)
         if point.status != "converged":
             raise RuntimeError(f"{count} segments at rest: {point.status}, {point.message}")
         away = displacements(shape_of(case, point.profile.iloc[1:]), truth.string, clearance)
-        rows.append({"segments": count, **away})
-    return pd.DataFrame(rows)
+        yield {"segments": count, **away}
 
 
 def _slow_limit(

@@ -6,18 +6,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from fctd import Case, Equilibrium, simulate
+from fctd.arrays import Array
 from fctd.model import survey
 from fctd.model.operations import steady_rates
 from fctd.steady.equilibrium import Solver
 from validation.cases import load, rotation
 from validation.cases.segmented_wells import WELLS, Well
-from validation.harness.study import Check, Context, Outcome, Study, log_slope
+from validation.harness.study import Check, Context, Outcome, Rows, Study, log_slope, table_of_rows
 from validation.parts.windows import last_seconds
-
-Array = NDArray[np.float64]
 
 # About half an octave apart, the paper's 60 among them; the reference is eight times the last.
 COUNTS = (5, 7, 10, 15, 20, 30, 40, 60, 80, 120, 160, 240, 320, 480, 640)
@@ -119,7 +117,8 @@ def errors(found: Answer, exact: Answer) -> dict[str, float]:
     }
 
 
-def count_segments(name: str, counts: Sequence[int], finest: Sequence[int], repeats: int) -> pd.DataFrame:
+@table_of_rows
+def count_segments(name: str, counts: Sequence[int], finest: Sequence[int], repeats: int) -> Rows:
     """Errors of each count against the finest that has an answer; ``doubt`` is the change from half of that."""
     of, hole = WELLS[name], {"geometry": "arcs"}
     exact, reference = None, 0
@@ -131,12 +130,11 @@ def count_segments(name: str, counts: Sequence[int], finest: Sequence[int], repe
     half = answer(of, of.case(reference // 2, hole))
     assert half is not None, f"{name}: no reference"
     doubt = {key.replace("_percent", "_doubt_percent"): value for key, value in errors(half, exact).items()}
-    rows = []
     for count in counts:
         found = answer(of, of.case(count, hole), repeats)
         row: dict[str, Any] = {"well": name, "segments": count, "reference": reference}
         if found is None:
-            rows.append(row | {"status": "no answer"})
+            yield row | {"status": "no answer"}
             continue
         row |= {"status": "converged", "torque_kN_m": found.torque / 1e3, "hookload_kN": found.hookload / 1e3}
         row |= errors(found, exact) | doubt
@@ -144,8 +142,7 @@ def count_segments(name: str, counts: Sequence[int], finest: Sequence[int], repe
             "touching": found.touching, "stretches": found.stretches, "stretches_of_reference": exact.stretches,
             "iterations": found.iterations, "cost_ms": found.cost_ms,
         }  # fmt: skip
-        rows.append(row)
-    return pd.DataFrame(rows)
+        yield row
 
 
 def order(sizes: "pd.Series[float]", found: "pd.Series[float]", doubt: float) -> float:
@@ -156,19 +153,18 @@ def order(sizes: "pd.Series[float]", found: "pd.Series[float]", doubt: float) ->
     return log_slope(sizes[clear], found[clear])
 
 
-def observed_orders(table: pd.DataFrame) -> pd.DataFrame:
+@table_of_rows
+def observed_orders(table: pd.DataFrame) -> Rows:
     """Observed order of every quantity in every well, from ``FITTED_FROM`` segments on."""
-    rows = []
     for name, of_well in table.groupby("well", sort=False):
         fine = of_well[of_well["segments"] >= FITTED_FROM]
         orders = {q: -order(fine["segments"], fine[f"{q}_percent"], fine[f"{q}_doubt_percent"].iloc[0]) for q in ERRORS}
-        rows.append({"well": name, **orders})
-    return pd.DataFrame(rows)
+        yield {"well": name, **orders}
 
 
-def enough(table: pd.DataFrame) -> pd.DataFrame:
+@table_of_rows
+def enough(table: pd.DataFrame) -> Rows:
     """The smallest count of each well and quantity from which on the error stays within 1 % and 0.1 %; NaN: none."""
-    rows = []
     for name, of_well in table.groupby("well", sort=False):
         for quantity in ERRORS:
             found = of_well.set_index("segments")[f"{quantity}_percent"]
@@ -179,15 +175,15 @@ def enough(table: pd.DataFrame) -> pd.DataFrame:
                 too_far = found.index[~(found <= limit)]
                 within = found.index[found.index > too_far.max()] if len(too_far) else found.index
                 row[f"within_{limit:g}_percent"] = float(within.min()) if len(within) else float("nan")
-            rows.append(row)
+            yield row
         wrong = of_well.loc[of_well["stretches"] != of_well["stretches_of_reference"], "segments"]
         right = of_well.loc[of_well["segments"] > wrong.max(), "segments"] if len(wrong) else of_well["segments"]
         first = float(right.min()) if len(right) else float("nan")
-        rows.append({"well": name, "quantity": "number of contacts"} | {f"within_{x:g}_percent": first for x in LIMITS})
-    return pd.DataFrame(rows)
+        yield {"well": name, "quantity": "number of contacts"} | {f"within_{x:g}_percent": first for x in LIMITS}
 
 
-def vary_cylinders(name: str, lengths: Sequence[float]) -> pd.DataFrame:
+@table_of_rows
+def vary_cylinders(name: str, lengths: Sequence[float]) -> Rows:
     """Errors of one string in ever longer cylinders against the same string in the exact arcs."""
     of, arcs = WELLS[name], WELLS[name].case(IN_CYLINDERS, {"geometry": "arcs"})
     stations = arcs.wellbore.trajectory
@@ -196,15 +192,11 @@ def vary_cylinders(name: str, lengths: Sequence[float]) -> pd.DataFrame:
     clearance = 0.5 * (min(interval.diameter for interval in arcs.wellbore.intervals) - widest)
     exact = answer(of, arcs)
     assert exact is not None, f"{name}: no answer in arcs"
-    rows = []
     for length in lengths:
         row: dict[str, Any] = {"well": name, "cylinder_length_m": length}
         row |= {"miss_mm": 1e3 * sharpest * length**2 / 8, "clearance_mm": 1e3 * clearance}
         found = answer(of, of.case(IN_CYLINDERS, {"geometry": "cylinders", "cylinder_length": length}))
-        rows.append(
-            row | ({"status": "no answer"} if found is None else {"status": "converged"} | errors(found, exact))
-        )
-    return pd.DataFrame(rows)
+        yield row | ({"status": "no answer"} if found is None else {"status": "converged"} | errors(found, exact))
 
 
 def step_through(name: str, counts: Sequence[int]) -> pd.DataFrame:
@@ -242,18 +234,17 @@ def step_through(name: str, counts: Sequence[int]) -> pd.DataFrame:
     return table
 
 
-def cost_laws(counts: pd.DataFrame, stepped: pd.DataFrame) -> pd.DataFrame:
+@table_of_rows
+def cost_laws(counts: pd.DataFrame, stepped: pd.DataFrame) -> Rows:
     """How cost grows: a steady string and one iteration of it in every well, a step and a second of the stepper."""
-    rows = []
     for name, of_well in counts[counts["segments"] >= FITTED_FROM].groupby("well", sort=False):
         size = of_well["segments"]
-        rows.append({"well": name, "cost_of": STEADY, **_growth(size, of_well["cost_ms"])})
-        rows.append({"well": name, "cost_of": ITERATION, **_growth(size, of_well["cost_ms"] / of_well["iterations"])})
+        yield {"well": name, "cost_of": STEADY, **_growth(size, of_well["cost_ms"])}
+        yield {"well": name, "cost_of": ITERATION, **_growth(size, of_well["cost_ms"] / of_well["iterations"])}
     for name, of_well in stepped.dropna().groupby("well", sort=False):
         size = of_well["segments"]
-        rows.append({"well": name, "cost_of": STEP, **_growth(size, of_well["us_per_step"])})
-        rows.append({"well": name, "cost_of": SECOND, **_growth(size, of_well["ms_per_simulated_s"])})
-    return pd.DataFrame(rows)
+        yield {"well": name, "cost_of": STEP, **_growth(size, of_well["us_per_step"])}
+        yield {"well": name, "cost_of": SECOND, **_growth(size, of_well["ms_per_simulated_s"])}
 
 
 def _growth(counts: "pd.Series[float]", costs: "pd.Series[float]") -> dict[str, float]:

@@ -12,7 +12,7 @@ from fctd.steady.equilibrium import Solver
 from references.soft_string.closed_forms import Loads, bend_in_parts, hold, side_turn, sum_up, vertical
 from references.soft_string.integration import soft_string_ode
 from references.soft_string.sliding import motion_of, split_friction
-from validation.harness.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Rows, Study
 
 DEG = 0.017453292519943295
 HOLE = 0.2159  # [m] diameter
@@ -92,7 +92,7 @@ def closed(case: Case, sections: list[Any], kind: str) -> Loads:
     return sum_up([partial(form, weight=section.weight) for form in sections], friction, section.contact_radius)
 
 
-def compare(well: str, rung: str, law: str, case: Case, solver: Solver) -> list[dict[str, Any]]:
+def compare(well: str, rung: str, law: str, case: Case, solver: Solver) -> Rows:
     """Rows of one string in one well: stiff solution, closed form and integral for each operation."""
     stations, sections = WELLS[well]
     bit = stations[-1][0]
@@ -100,34 +100,30 @@ def compare(well: str, rung: str, law: str, case: Case, solver: Solver) -> list[
     # Torques are compared on the scale of the well's rotating torque, for a vertical well μ r W.
     turning = closed(case, sections, "rotate_off_bottom").surface_torque
     scale = turning if turning > 1.0 else MU * section.contact_radius * section.weight * bit
-    rows = []
     for kind, name in OPERATIONS.items():
         stiff = solver.solve(kind, steady_rates(case, kind), bit)
         soft = closed(case, sections, kind)
         integrated = soft_string_ode(case, kind, bit)
-        rows.append(
-            {
-                "well": well,
-                "string": rung,
-                "law": law,
-                "operation": name,
-                "status": stiff.status,
-                "hookload_kN": stiff.hookload / 1e3,
-                "closed_form_kN": soft.hookload / 1e3,
-                "hookload_off_percent": 100 * (stiff.hookload / soft.hookload - 1),
-                "torque_off_percent": 100 * (stiff.surface_torque - soft.surface_torque) / scale,
-                "integrated_off": max(
-                    abs(integrated.hookload / soft.hookload - 1),
-                    abs(integrated.surface_torque - soft.surface_torque) / scale,
-                ),
-            }
-        )
-    return rows
+        yield {
+            "well": well,
+            "string": rung,
+            "law": law,
+            "operation": name,
+            "status": stiff.status,
+            "hookload_kN": stiff.hookload / 1e3,
+            "closed_form_kN": soft.hookload / 1e3,
+            "hookload_off_percent": 100 * (stiff.hookload / soft.hookload - 1),
+            "torque_off_percent": 100 * (stiff.surface_torque - soft.surface_torque) / scale,
+            "integrated_off": max(
+                abs(integrated.hookload / soft.hookload - 1),
+                abs(integrated.surface_torque - soft.surface_torque) / scale,
+            ),
+        }
 
 
 def run(context: Context) -> Outcome:
     """Every well, law and operation at every rung of the ladder."""
-    rows = []
+    rows: list[dict[str, Any]] = []
     for well in context.progress(list(WELLS), "wells"):
         for rung, clearance, stiffness in LADDER[-1:] if context.quick else LADDER:
             for law in ("coulomb", "paper"):

@@ -9,7 +9,7 @@ import pandas as pd
 from fctd.model.operations import steady_rates
 from fctd.steady.equilibrium import Solver
 from references.soft_string.integration import soft_string
-from validation.harness.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Rows, Study
 from validation.parts.bends import (
     ANGLE,
     COLLAR,
@@ -49,29 +49,25 @@ def compare(
     clearance: float,
     straight: tuple[float, float] = HEAVY,
     piece: float | None = None,
-) -> list[dict[str, Any]]:
+) -> Rows:
     """A row for each operation: by how much the stiff string's loads exceed the soft one's."""
     case = case_of(string, severity, clearance, straight, piece)
     solver, bit = Solver(case), case.wellbore.trajectory[-1, 0]
-    rows = []
     for kind in OPERATIONS:
         stiff, soft = solver.solve(kind, steady_rates(case, kind), bit), soft_string(case, kind, bit)
         turns = kind == "rotate_off_bottom"
-        rows.append(
-            {
-                "string": string,
-                "hold_m": straight[1],
-                "severity_deg_per_100ft": severity,
-                "clearance_mm": round(1e3 * clearance, 6),
-                "operation": kind,
-                "status": stiff.status,
-                "segment_m": segment(severity, clearance) if piece is None else piece,
-                "hookload_percent": 100 * (stiff.hookload / soft.hookload - 1),
-                "torque_percent": 100 * (stiff.surface_torque / soft.surface_torque - 1) if turns else np.nan,
-                "contact_force_percent": 100 * (stiff.total_contact_force / soft.total_contact_force - 1),
-            }
-        )
-    return rows
+        yield {
+            "string": string,
+            "hold_m": straight[1],
+            "severity_deg_per_100ft": severity,
+            "clearance_mm": round(1e3 * clearance, 6),
+            "operation": kind,
+            "status": stiff.status,
+            "segment_m": segment(severity, clearance) if piece is None else piece,
+            "hookload_percent": 100 * (stiff.hookload / soft.hookload - 1),
+            "torque_percent": 100 * (stiff.surface_torque / soft.surface_torque - 1) if turns else np.nan,
+            "contact_force_percent": 100 * (stiff.total_contact_force / soft.total_contact_force - 1),
+        }
 
 
 def by_finite_elements(

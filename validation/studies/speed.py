@@ -364,7 +364,6 @@ STUDY = Study(
     "speed",
     "What does a simulated second cost, in FCTD and in other engines, and what do the ratios contain?",
     run,
-    uses=(*contact.METHODS.values(), *engines.ENGINES.values()),
     reproduce=True,
     timed=True,
 )

@@ -13,7 +13,7 @@ from fctd.model.operations import steady_rates
 from fctd.steady.equilibrium import Solver
 from validation.cases import load, rotation
 from validation.cases.wells import DRILLING, drilled_paper_well
-from validation.harness.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts.windows import TRIP_WINDOW, completed, last_seconds, steady_trip
 
 DEPTHS = [float(depth) for depth in range(1750, 2451, 10)]
@@ -29,9 +29,9 @@ def stepped(kind: str, depth: float) -> pd.Series:
     return last_seconds(result, 50.0 if turns else TRIP_WINDOW)
 
 
-def compare(chart: pd.DataFrame, depths: list[float], context: Context) -> pd.DataFrame:
+@table_of_rows
+def compare(chart: pd.DataFrame, depths: list[float], context: Context) -> Rows:
     """Steady solver and stepper side by side; differences in percent of the value and of the chart's maximum."""
-    rows = []
     for kind in ("trip_out", "trip_in", "rotate_off_bottom"):
         of_kind = chart[chart["operation"] == kind]
         for depth in context.progress(depths, f"stepper: {kind}"):
@@ -49,29 +49,25 @@ def compare(chart: pd.DataFrame, depths: list[float], context: Context) -> pd.Da
                         off / (0.005 * abs(stepper)) if stepper else float("inf"), off / (0.001 * largest)
                     ),
                 }
-            rows.append(row)
-    return pd.DataFrame(rows)
+            yield row
 
 
-def rotations() -> pd.DataFrame:
+@table_of_rows
+def rotations() -> Rows:
     """Torque of rotations of several lengths: mean ± swing of the operation, the last instant, and the steady one."""
     case, kind = load("paper_well"), "rotate_off_bottom"
     steady = Solver(case).solve(kind, steady_rates(case, kind), 2450.0).surface_torque
-    rows = []
     for duration in ROTATIONS:
         result = completed(simulate(load("paper_well", operations=rotation(2450.0, duration, ramp=10.0))))
         (row,) = result.operations.to_dict("records")
-        rows.append(
-            {
-                "duration_s": duration,
-                "mean_kN_m": row["surface_torque_mean_N_m"] / 1e3,
-                "swing_kN_m": row["surface_torque_swing_N_m"] / 1e3,
-                "periods": row["surface_torque_periods"],
-                "last_kN_m": float(result.history["surface_torque_N_m"].iloc[-1]) / 1e3,
-                "steady_kN_m": steady / 1e3,
-            }
-        )
-    return pd.DataFrame(rows)
+        yield {
+            "duration_s": duration,
+            "mean_kN_m": row["surface_torque_mean_N_m"] / 1e3,
+            "swing_kN_m": row["surface_torque_swing_N_m"] / 1e3,
+            "periods": row["surface_torque_periods"],
+            "last_kN_m": float(result.history["surface_torque_N_m"].iloc[-1]) / 1e3,
+            "steady_kN_m": steady / 1e3,
+        }
 
 
 def cost(segments: int, repeats: int) -> dict[str, Any]:

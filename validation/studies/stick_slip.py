@@ -5,18 +5,16 @@ from collections.abc import Callable
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from fctd import Case
+from fctd.arrays import Array
 from fctd.model.operations import rad_per_s
 from fctd.model.section import section_of
 from fctd.simulation.preparation import prepare
 from validation.harness.study import Check, Context, Outcome, Study
 from validation.parts.swinging_bit import RAMP, SAMPLE, bit_spin, growth, threshold
-
-Array = NDArray[np.float64]
 
 ASSEMBLY = 200.0  # length of the collars [m]
 PIPE = {"name": "pipe", "outer_diameter": 0.127, "inner_diameter": 0.1086}

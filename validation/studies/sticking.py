@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from fctd import Case
+from fctd.arrays import Array
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.cake import sealed_width
 from fctd.mechanics.dynamics import PUSHES
@@ -22,9 +22,7 @@ from fctd.simulation.preparation import contact_points, prepare
 from fctd.simulation.settling import settle, start_from_rest
 from fctd.simulation.simulate import Simulation
 from validation.cases import load, rotation
-from validation.harness.study import Check, Context, Outcome, Study
-
-Array = NDArray[np.float64]
+from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 
 # One body on a belt: mass [kg], spring [N/m], speed of the belt [m/s], normal force [N], factors, decay speed [m/s].
 MASS, SPRING, BELT, PRESSED, KINETIC, STATIC, DECAY = 1000.0, 4000.0, 0.1, 1e4, 0.2, 0.3, 0.02
@@ -108,9 +106,9 @@ def integrated_belt() -> tuple[float, float]:
     return float(period), float(0.5 * (stretch.max() - stretch.min()))
 
 
-def belts() -> pd.DataFrame:
+@table_of_rows
+def belts() -> Rows:
     """Period and amplitude of both laws at three steps; the kernel of the stepper moves one body."""
-    rows = []
     for law, decay, (period, amplitude) in (
         ("karnopp", 0.0, exact_belt()),
         ("stribeck", DECAY, integrated_belt()),
@@ -126,15 +124,12 @@ def belts() -> pd.DataFrame:
             starts = np.flatnonzero(still[:-1] & ~still[1:])
             found = dt * (starts[-1] - starts[1]) / (len(starts) - 2)
             swing = 0.5 * float(np.ptp(stretch[starts[1] : starts[-1]]))
-            rows.append(
-                {
-                    "law": law, "step_ms": 1e3 * dt, "period_s": found, "exact_period_s": period,
-                    "amplitude_mm": 1e3 * swing, "exact_amplitude_mm": 1e3 * amplitude,
-                    "period_off_percent": 100 * abs(found / period - 1),
-                    "amplitude_off_percent": 100 * abs(swing / amplitude - 1),
-                }
-            )  # fmt: skip
-    return pd.DataFrame(rows)
+            yield {
+                "law": law, "step_ms": 1e3 * dt, "period_s": found, "exact_period_s": period,
+                "amplitude_mm": 1e3 * swing, "exact_amplitude_mm": 1e3 * amplitude,
+                "period_off_percent": 100 * abs(found / period - 1),
+                "amplitude_off_percent": 100 * abs(swing / amplitude - 1),
+            }  # fmt: skip
 
 
 def observed_order(rows: pd.DataFrame, column: str) -> float:
@@ -228,10 +223,10 @@ def stuck_well(overbalance: float | None, static: float | None, segment: float) 
     )  # fmt: skip
 
 
-def overpulls(segment: float, statics: tuple[float | None, ...]) -> pd.DataFrame:
+@table_of_rows
+def overpulls(segment: float, statics: tuple[float | None, ...]) -> Rows:
     """Largest pull beyond that without mud pressure, with equal factors and with higher static ones."""
     closed = 0.05 * OVERBALANCE * sealed_width(0.5 * HOLE, 0.5 * COLLAR, CAKE) * INTERVAL
-    rows = []
     for static in statics:
         pulled = []
         for overbalance in (None, OVERBALANCE):
@@ -239,22 +234,20 @@ def overpulls(segment: float, statics: tuple[float | None, ...]) -> pd.DataFrame
             pulled.append(np.array([record["hookload_N"] for record in simulation]))
         ratio = 1.0 if static is None else static / 0.1
         most = float((pulled[1] - pulled[0]).max())
-        rows.append(
-            {
-                "static_over_kinetic": ratio, "overpull_kN": most / 1e3, "all_at_once_kN": closed * ratio / 1e3,
-                "share": most / (closed * ratio), "over_kinetic": most / closed,
-            }
-        )  # fmt: skip
-    return pd.DataFrame(rows)
+        yield {
+            "static_over_kinetic": ratio, "overpull_kN": most / 1e3, "all_at_once_kN": closed * ratio / 1e3,
+            "share": most / (closed * ratio), "over_kinetic": most / closed,
+        }  # fmt: skip
 
 
-def costs() -> pd.DataFrame:
+@table_of_rows
+def costs() -> Rows:
     """Processor time of a step of the curved chain, turning and at rest, by law: the least of windows in turn [ns]."""
     static = {"wellbore__intervals__0__static_friction": 0.3}
     laws: dict[str, dict[str, Any]] = {
         "coulomb": {}, "karnopp": static, "stribeck": static | {"wellbore__intervals__0__decay_speed": DECAY},
     }  # fmt: skip
-    turning, rows = {}, []
+    turning = {}
     for law, more in laws.items():
         chain = load(
             "curved_chain", operations=rotation(2450.0, 60.0, ramp=4.0), contact__friction_law=law, **more
@@ -275,10 +268,7 @@ def costs() -> pd.DataFrame:
                 spent = 1e9 * (time.process_time() - began) / (WINDOW / run.step * run.segments)
                 least[law] = min(least[law], spent)
         for law, spent in least.items():
-            rows.append(
-                {"string": state_of, "law": law, "segment_step_ns": spent, "over_coulomb": spent / least["coulomb"]}
-            )
-    return pd.DataFrame(rows)
+            yield {"string": state_of, "law": law, "segment_step_ns": spent, "over_coulomb": spent / least["coulomb"]}
 
 
 def run(context: Context) -> Outcome:

@@ -4,10 +4,10 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from fctd import Case
+from fctd.arrays import Array
 from fctd.mechanics import state
 from fctd.mechanics.moving_string import STILL
 from fctd.model.drilling import torsional_impedance
@@ -15,8 +15,6 @@ from fctd.simulation.preparation import prepare
 from fctd.simulation.run import Run
 from validation.cases import rotation
 from validation.harness.study import Check, Context, Outcome, Study
-
-Array = NDArray[np.float64]
 
 LENGTH, PROBE = 1000.0, 10  # of the pipe [m]; the joint at which waves are measured, 100 m below the top
 PIPE = {"name": "pipe", "outer_diameter": 0.127, "inner_diameter": 0.1086, "segment_length": 10.0}

@@ -23,7 +23,7 @@ from fctd.simulation.intervals import Interval, Window, within
 from fctd.simulation.run import Run
 from fctd.simulation.simulate import Simulation
 from validation.cases import load, trip
-from validation.harness.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Rows, Study
 from validation.parts.random_paths import path
 
 SPEED, RAMP = 0.5, 5.0  # [m/s], [s]
@@ -133,12 +133,12 @@ def missing(run: Run) -> float:
     return max(abs(float(state.row(run.S, state.MASS, n).sum()) / mass - 1), abs(arms / length - 1))
 
 
-def stroke_rows(case: Case, of: Trip, simulation: Simulation, history: pd.DataFrame) -> list[dict[str, Any]]:
+def stroke_rows(case: Case, of: Trip, simulation: Simulation, history: pd.DataFrame) -> Rows:
     """A row for each measured stroke: hook load below the table, and that of the steady string."""
     section = simulation.run.string.sections[0]
     air = section.mass * GRAVITY * float(simulation.run.hole.at(np.zeros(1))[1][0, 2])
     turns = stretch(case, of.deep)
-    rows, depth = [], of.shallow
+    depth = of.shallow
     for (motion, operation), fine in zip(simulation.phases, measured(simulation.phases, of), strict=True):
         fed = 0.5 * (motion.feed_from + motion.feed_to) * motion.duration
         depth += fed
@@ -155,15 +155,12 @@ def stroke_rows(case: Case, of: Trip, simulation: Simulation, history: pd.DataFr
         pull = float((stroke["hookload_N"] - air * stroke["block_position_m"]).mean())
         steady = equilibrium(case, operation=kind, bit_depth=bit)
         weight = section.weight * bit
-        rows.append(
-            {
-                "operation": kind, "bit_depth_m": bit, "hookload_kN": pull / 1e3,
-                "steady_hookload_kN": steady.hookload / 1e3, "steady_status": str(steady.status),
-                "off_percent_of_weight": 100 * (pull - steady.hookload) / weight,
-                "swing_kN": float(stroke["hookload_N"].std()) / 1e3, "periods": round(whole / period),
-            }
-        )  # fmt: skip
-    return rows
+        yield {
+            "operation": kind, "bit_depth_m": bit, "hookload_kN": pull / 1e3,
+            "steady_hookload_kN": steady.hookload / 1e3, "steady_status": str(steady.status),
+            "off_percent_of_weight": 100 * (pull - steady.hookload) / weight,
+            "swing_kN": float(stroke["hookload_N"].std()) / 1e3, "periods": round(whole / period),
+        }  # fmt: skip
 
 
 def stretch(case: Case, bit: float) -> float:

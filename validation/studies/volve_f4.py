@@ -16,7 +16,7 @@ from fctd.calibration.result import Calibration
 from fctd.calibration.rows import Row
 from fctd.calibration.unknowns import with_values
 from fctd.case.load import Case
-from validation.harness.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts import volve_f4 as split
 from validation.parts.volve_f4_fits import Frozen, fit_of_b, fit_of_rig, fits_of_a, freeze, frozen, setup_of, setup_of_b
 from validation.parts.volve_f4_judging import predict
@@ -148,20 +148,17 @@ def curves(strings: Mapping[str, Case], fits: Mapping[str, Frozen]) -> pd.DataFr
     return pd.concat(parts, ignore_index=True)
 
 
-def points(rows: Sequence[Row]) -> pd.DataFrame:
+@table_of_rows
+def points(rows: Sequence[Row]) -> Rows:
     """The measured loads with a depth [kN, kN m]."""
-    found = []
     for row in rows:
         for load, of in (("hookload", row.hookload), ("torque", row.torque)):
             if of is not None and row.has_string:
-                found.append(
-                    {
-                        "row": row.id, "source": row.source, "operation": row.operation, "load": load,
-                        "bit_depth_m": row.bit_depth, "rad_per_s": row.rates.spin,
-                        "low": of.low / 1e3, "high": of.high / 1e3,
-                    }
-                )  # fmt: skip
-    return pd.DataFrame(found)
+                yield {
+                    "row": row.id, "source": row.source, "operation": row.operation, "load": load,
+                    "bit_depth_m": row.bit_depth, "rad_per_s": row.rates.spin,
+                    "low": of.low / 1e3, "high": of.high / 1e3,
+                }  # fmt: skip
 
 
 def full(

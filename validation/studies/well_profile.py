@@ -5,14 +5,12 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from scipy.integrate import cumulative_simpson
 
+from fctd.arrays import Array
 from fctd.model import survey
 from validation.cases import load
 from validation.harness.study import Check, Context, Outcome, Study
-
-Array = NDArray[np.float64]
 
 AZIMUTH = 45.0  # [deg] of paper-well
 KICK_OFF, FIRST_END, SECOND_END, TOTAL = 1750.0, 2250.0, 2450.0, 4300.0

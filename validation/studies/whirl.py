@@ -4,18 +4,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.linalg import eigh
 
 from fctd import Case, Simulation, equilibrium, simulate
+from fctd.arrays import Array
 from fctd.mechanics import state
 from fctd.model.mud import added_mass
 from fctd.model.section import section_of
 from validation.cases import rotation
 from validation.harness.study import Check, Context, Outcome, Study
-
-Array = NDArray[np.float64]
 
 COLLAR = {"name": "collar", "outer_diameter": 0.165, "inner_diameter": 0.0714}
 HOLE, BIT = 0.2159, 0.2157  # [m]: of the hole, and of the bit that centres the collar's lower end

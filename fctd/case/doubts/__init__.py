@@ -3,8 +3,6 @@
 Every bound lies beyond what wells and rigs have, so that a warning is worth reading.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from fctd.case.doubts.hole import hole_size, rough_wall, shoe_below_td, wider_below

@@ -1,7 +1,5 @@
 """Probable mistakes in the hole: its depths, sizes and friction."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Final
 

@@ -1,7 +1,5 @@
 """Probable mistakes in mud, rig, bit loads and rates."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Final
 

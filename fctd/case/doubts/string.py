@@ -1,7 +1,5 @@
 """Probable mistakes in the string: its masses and sizes, and where it cannot have passed."""
 
-from __future__ import annotations
-
 import re
 from itertools import accumulate
 from typing import Final

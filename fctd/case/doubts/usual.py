@@ -1,7 +1,5 @@
 """What the checks read of a case, the values that its keys usually have, and warnings of others."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from operator import attrgetter
 from typing import Final, NamedTuple, Protocol

@@ -1,7 +1,5 @@
 """The columns of a survey as a case names them, where the headers of the file do not say enough."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Annotated
 

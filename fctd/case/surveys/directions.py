@@ -1,9 +1,8 @@
 """Directions of the hole at stations (n, 3) of measured depth [m], inclination and azimuth [rad]."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from fctd.arrays import Array
 
 
 def tangents(stations: Array) -> Array:

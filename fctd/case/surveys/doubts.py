@@ -4,14 +4,11 @@ The limits are chosen so that surveys as wells have them pass: `docs/well.md` li
 a case are a plan, which few stations describe exactly; a few long courses are a doubt in a file only.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fctd.case.input_warnings import InputWarning
 from fctd.case.surveys.directions import dogleg, severity
@@ -19,7 +16,6 @@ from fctd.case.surveys.rounding import rounded, spinning
 from fctd.case.surveys.stations import Survey
 from fctd.case.text import counted
 
-Array = NDArray[np.float64]
 Doubt = Callable[[Survey], Iterator[InputWarning]]
 
 _FEW: Final = 5  # stations

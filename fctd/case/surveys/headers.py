@@ -5,8 +5,6 @@ underscore, after a blank or in the row below: "md_m", "Measured Depth (ft)", "A
 "M.Depth", "M Depth" and "Depth M" may be that of "measured": it is no unit.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """A survey file of any kind as a checked survey."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from os import PathLike

@@ -1,7 +1,5 @@
 """Dog-legs that come from rounded numbers, and what `survey_smoothing` does to them."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Final
@@ -9,13 +7,12 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.input_warnings import InputWarning
 from fctd.case.surveys.directions import severity, tangents
 from fctd.case.surveys.smoothing import LARGEST_ANGLE, smooth
 from fctd.case.surveys.stations import Survey
-
-Array = NDArray[np.float64]
 
 _LAST_DIGITS: Final = (1.0, 0.5, 0.25, 0.1, 0.05, 0.01, 0.001)
 _FEWEST: Final = 10  # inner stations in bends: with fewer, chance decides

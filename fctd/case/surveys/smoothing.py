@@ -5,17 +5,14 @@ least: its total variation is a minimum, which keeps straight sections straight 
 Gorinevsky 2009, ℓ1 trend filtering).  It is a linear program, which scipy solves.
 """
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.surveys.directions import tangents
-
-Array = NDArray[np.float64]
 
 LARGEST_ANGLE: Final = 0.02  # [rad]: whole degrees turn a direction by up to 0.0123
 MOST_SMOOTHED: Final = 5000  # stations: the program takes seconds for them

@@ -4,8 +4,6 @@ Checked stations are an array of shape (n, 3): measured depth [m], inclination a
 unwrapped, so that it may exceed 2π.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Final, Literal

@@ -1,7 +1,5 @@
 """Rows of cells, from a text or a sheet, to stations as they are written."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Mapping, Sequence

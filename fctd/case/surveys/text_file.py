@@ -1,7 +1,5 @@
 """Text files of columns: their encoding, their separator, and their rows of cells."""
 
-from __future__ import annotations
-
 import csv
 import io
 import re

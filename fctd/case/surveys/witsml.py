@@ -1,7 +1,5 @@
 """Trajectories of WITSML 1.3.1 and 1.4.1, the exchange format of drilling data (XML)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Final
 from xml.etree.ElementTree import Element

@@ -1,7 +1,5 @@
 """Worksheets of Excel's workbooks (xlsx); the extra `excel` brings the package that reads them."""
 
-from __future__ import annotations
-
 import io
 import re
 import zipfile

@@ -3,8 +3,6 @@
 import numpy as np
 import pytest
 
-pytest.importorskip("skfem")
-
 from fctd.case.errors import InputError
 from fctd.mechanics.topdrive import ramp
 from references.beams import case, elements

@@ -4,8 +4,6 @@ import numpy as np
 import pandas as pd
 import pytest
 
-pytest.importorskip("skfem")
-
 from fctd.case.surveys.stations import to_radians
 from fctd.model.section import Section
 from references.beams.dynamics import generalised_alpha, lower

@@ -55,7 +55,6 @@ def test_the_compiled_for_loop_equals_fctd_where_its_cylinder_is_unique() -> Non
 def test_loads_of_a_turning_string_with_fcl_are_those_of_fctd() -> None:
     """A facet leans by up to π/96 from the wall.  Force and friction keep that to its square; the torque at the top is
     also that of forces around the hole, of random sign at the contacts: three times their standard deviation."""
-    pytest.importorskip("fcl")
     case, facets = turning(), 96
     own = simulate(case).history.iloc[-1]
     mesh = simulate(case, contact=contact.build("fcl", case, facets=facets)).history.iloc[-1]

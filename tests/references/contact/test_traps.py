@@ -7,8 +7,6 @@ from references import contact
 from references.contact import traps
 from references.registry import absent
 
-pytest.importorskip("trimesh")
-
 # Least error where the obvious way fails, far above that of the geometry (2 mm of facets and chords).
 FAILS = {
     ("fcl", "a capsule along the string"): 0.1,

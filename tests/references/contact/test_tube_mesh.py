@@ -4,14 +4,13 @@ import dataclasses
 
 import numpy as np
 import pytest
+import trimesh
 
 from fctd.case.errors import InputError
 from fctd.model.pieces import RUN_OUT
 from fctd.model.wellbore import build_wellbore, find_contacts
+from references.contact.tube_mesh import TubeOptions, build_tube, check_tube
 from tests.references.wells import HOLE, bent_case
-
-trimesh = pytest.importorskip("trimesh")
-from references.contact.tube_mesh import TubeOptions, build_tube, check_tube  # noqa: E402
 
 CASE = bent_case()
 

@@ -57,7 +57,8 @@ def test_the_search_tests_two_distances_with_and_without_a_change_of_cylinder():
 
 
 def test_box_tree_finds_the_nearest_triangle():
-    trimesh = pytest.importorskip("trimesh")
+    import trimesh
+
     rng = np.random.default_rng(3)
     mesh = trimesh.creation.annulus(0.9, 1.0, 3.0, sections=13)
     tree = BoxTree(np.asarray(mesh.triangles))
@@ -73,7 +74,6 @@ def test_box_tree_finds_the_nearest_triangle():
 
 
 def test_box_tree_has_the_same_penetrations_as_coal():
-    pytest.importorskip("coal")
     from fctd import load_case
     from references.contact.tube_mesh import TubeOptions, build_tube
     from validation.cases import FOLDER

@@ -1,5 +1,7 @@
 """``python -m validation``: what it runs, what it answers, how it exits."""
 
+from unittest.mock import Mock
+
 import pytest
 from grimp.exceptions import SourceSyntaxError
 from typer.testing import CliRunner
@@ -84,10 +86,7 @@ def test_another_verdict_than_recorded_is_exit_code_1(invoke, register):
 
 
 def test_a_source_that_is_no_python_is_bad_usage(invoke, monkeypatch):
-    def broken():
-        raise SourceSyntaxError("fctd/x.py", 3, "def :")
-
-    monkeypatch.setattr(fingerprint, "Sources", broken)
+    monkeypatch.setattr(fingerprint, "Sources", Mock(side_effect=SourceSyntaxError("fctd/x.py", 3, "def :")))
     answer = invoke("--all")
     assert answer.exit_code == 2
     assert "error: Syntax error in fctd/x.py, line 3: def :" in answer.output
@@ -127,10 +126,7 @@ def test_results_that_cannot_be_kept(invoke):
 
 
 def test_a_disk_that_is_full(invoke, monkeypatch):
-    def full(*_):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(store, "_write_verdict", full)
+    monkeypatch.setattr(store, "_write_verdict", Mock(side_effect=OSError(28, "No space left on device")))
     answer = invoke("--all")
     assert answer.exit_code == 2
     assert "expected a folder that can be written (No space left on device)" in answer.output

@@ -254,7 +254,6 @@ def test_points_of_a_straight_well_lie_where_they_were_made(monkeypatch):
 
 def test_a_library_is_timed_without_the_cost_of_the_call(monkeypatch):
     """Invented times; the cost of a mesh is divided by that of the paper's search and test."""
-    pytest.importorskip("trimesh")
     ns = {contact_operations.ONE: 2.0, contact_operations.SEARCH: 98.0, contact_operations.ASKING: 150.0}
     ns |= {contact_operations.TREE: 300.0, contact_operations.LIBRARY: 650.0}
 
@@ -293,7 +292,6 @@ def test_a_long_segment_twists_otherwise_than_the_pipe_it_represents(monkeypatch
 
 
 def test_finite_elements_are_compared_with_the_soft_string_and_the_segments():
-    pytest.importorskip("skfem")
     bend = soft_stiff_map.PIPE, 60.0, 0.02, soft_stiff_map.LIGHT
     row = soft_stiff_map.by_finite_elements(*bend, 4)
     assert row["segments_off_percent"] < 1.0

@@ -28,7 +28,6 @@ PROJECT = {
         from pathlib import Path
 
         from toylab import steps
-        from validation.harness.files import declare
         from validation.harness.study import Check, Outcome, Study
 
         def run(context):
@@ -37,24 +36,19 @@ PROJECT = {
             here = Path(__file__).parent
             with here.joinpath("runs.log").open("a") as log:
                 log.write("run\\n")
-            limit = float(declare(here.joinpath("case.toml")).read_text())
+            limit = float(here.joinpath("case.toml").read_text())
             return Outcome({}, [Check("error", steps.ERROR * build("mesh").FACTOR, limit, "at_most", "mm", "toy")])
 
-        STUDY = Study("question", "Is it right?", run, needs=(), uses=("toylab.mesh:Mesh",))
+        STUDY = Study("question", "Is it right?", run, needs=())
         """,
     "toylab/steps.py": "ERROR = 1.0\n",
     "toylab/methods.py": """
         import importlib
-        import sys
-
-        from references.registry import FOUND
 
         METHODS = {"mesh": "toylab.mesh:Mesh"}
 
         def build(name):
-            module = METHODS[name].partition(":")[0]
-            sys.audit(FOUND, module)
-            return importlib.import_module(module)
+            return importlib.import_module(METHODS[name].partition(":")[0])
         """,
     "toylab/mesh.py": "FACTOR = 1.0\n",
     "toylab/unrelated.py": "NUMBER = 1\n",
@@ -168,46 +162,12 @@ def test_a_file_that_is_gone_is_a_change(lab):
     assert "changed: toylab/case.toml" in printed
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "lacking"),
-    [
-        ('uses=("toylab.mesh:Mesh",)', "uses=()", "toylab.mesh"),
-        ('declare(here.joinpath("case.toml"))', 'here.joinpath("case.toml")', "toylab/case.toml"),
-        (
-            "limit = ",
-            "__import__('importlib').import_module('toylab.' + 'unrelated'); limit = ",
-            "toylab.unrelated",
-        ),
-    ],
-)
-def test_an_audit_fails_a_study_whose_fingerprint_lacks_what_it_used(lab, capsys, old, new, lacking):
-    assert run(lab, audited=True)[0] == 0
-    assert PROJECT["toylab/question.py"].count(old) == 1
-    write(lab, "toylab/question.py", PROJECT["toylab/question.py"].replace(old, new))
-    code, printed = run(lab, audited=True)
+def test_a_study_fails_that_imports_what_no_statement_and_no_registry_names(lab, capsys):
+    hidden = "__import__('importlib').import_module('toylab.' + 'unrelated'); limit = "
+    write(lab, "toylab/question.py", PROJECT["toylab/question.py"].replace("limit = ", hidden))
+    code, printed = run(lab)
     assert code == 1
-    assert f"RuntimeError: {lacking}: used by question and not in its fingerprint" in printed
-    assert run(lab)[0] == 0  # nothing is watched
-
-
-def test_an_audit_sees_an_entry_that_was_imported_before(lab, capsys):
-    text = PROJECT["toylab/question.py"].replace('uses=("toylab.mesh:Mesh",)', "uses=()")
-    write(lab, "toylab/question.py", text.replace("def run", "from toylab import mesh as _\n\n        def run"))
-    assert run(lab, audited=True)[0] == 0  # followed by its import statement
-    forget()
-    write(lab, "toylab/question.py", text)
-    write(lab, "toylab/second.py", text.replace('"question"', '"second"').replace("uses=()", 'uses=("toylab.mesh:M",)'))
-    registry.STUDIES["second"] = "toylab.second"
-    code, printed = run(lab, "second", "question", audited=True)
-    assert code == 1
-    assert "second: 1 met" in printed
-    assert "toylab.mesh: used by question" in printed
-
-
-def test_the_audit_repeats_what_is_up_to_date(lab):
-    run(lab)
-    run(lab, audited=True)
-    assert runs(lab) == 2
+    assert "RuntimeError: toylab.unrelated: imported by question under a name made as it runs" in printed
 
 
 def test_a_source_that_is_no_python_is_named(lab):
@@ -360,7 +320,7 @@ def test_every_registered_contact_method_and_engine_counts():
 
     found = fingerprint.Sources()
     for study, chosen in (("contact_swap", contact.METHODS), ("engines_agree", engines.ENGINES)):
-        code = found.used_by(registry.STUDIES[study], *runner.load(study).uses)
+        code = found.used_by(registry.STUDIES[study])
         for where in chosen.values():
             assert where.partition(":")[0].replace(".", "/") + ".py" in code
     overlap = found.used_by("validation.studies.overlap")

@@ -9,6 +9,7 @@ import sys
 import time
 from contextlib import suppress
 from pathlib import Path
+from unittest.mock import Mock
 
 import pandas as pd
 import pytest
@@ -57,10 +58,7 @@ def test_what_times_nothing_runs_side_by_side_and_the_rest_alone_afterwards(regi
 
 
 def test_a_failure_beside_others_is_a_result(register, run, tmp_path, capfd):
-    def fail(context):
-        raise ArithmeticError("lost in the bend")
-
-    register("broken", fail)
+    register("broken", Mock(side_effect=ArithmeticError("lost in the bend")))
     register("toy")
     code, text = run("broken", "toy", processes=2)
     assert code == 1

@@ -4,9 +4,6 @@ import textwrap
 
 import pandas as pd
 import pytest
-
-pytest.importorskip("matplotlib")
-
 from typer.testing import CliRunner
 
 from references import contact
@@ -54,7 +51,7 @@ def toy(tmp_path, monkeypatch):
 def written(study, tables):
     """Every word in the study's figures."""
     found = set()
-    for figure in figures.of_study(study):
+    for figure in figures.by_study()[study]:
         if figure.name in ("figure_13", "facets"):  # of one mesh each, which is said there
             continue
         canvas = figure.draw(tables)

@@ -4,8 +4,6 @@ import numpy as np
 import pandas as pd
 import pytest
 
-pytest.importorskip("skfem")
-
 from validation.studies import scaled_section
 from validation.studies.scaled_section import Comparable, differences
 

@@ -5,16 +5,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from fctd import Case, SimulationResult, simulate
+from fctd.arrays import Array
 from fctd.mechanics.moving_string import STILL
 from fctd.results.status import RunStatus
 from fctd.simulation.preparation import prepare
 from fctd.simulation.run import Run
 from validation.studies.ladder.rung import GRAVITY, By, NoAnswerError, Quantity, case_of, section, steady
 
-Array = NDArray[np.float64]
 Reading = Callable[[Run], float]
 
 

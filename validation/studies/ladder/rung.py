@@ -119,14 +119,6 @@ def case_of(tables: Tables, changes: Mapping[str, Any] | None = None) -> Case:
     return make_case(raw, None)
 
 
-def value_at(tables: Tables, key: str) -> float:
-    """The value of a dotted key of tables."""
-    here: Any = tables
-    for part in key.replace("[", ".").replace("]", "").split("."):
-        here = here[int(part) if part.isdecimal() else part]
-    return float(here)
-
-
 def steady(case: Case, kind: str, depth: float | None = None, **rates: float) -> Equilibrium:
     """A steady string with its bit at a depth [m], by default the end of its hole; NoAnswerError without loads."""
     point = equilibrium(case, kind, case.depths[1] if depth is None else depth, **rates)

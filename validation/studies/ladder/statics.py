@@ -4,15 +4,13 @@ from functools import partial
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from scipy.integrate import solve_bvp
 
 from fctd import Case
+from fctd.arrays import Array
 from validation.studies.ladder.in_time import by_both
 from validation.studies.ladder.rung import GRAVITY, MUD, Rung, Tables, section, steady
 from validation.studies.ladder.wells import HOLE, part, straight, well
-
-Array = NDArray[np.float64]
 
 HUNG = 3000.0  # [m] of vertical hole
 LYING = 120.0  # [m] of level hole

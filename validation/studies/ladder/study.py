@@ -5,7 +5,7 @@ from typing import Any
 
 import pandas as pd
 
-from validation.harness.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Rows, Study
 from validation.studies.ladder import (
     bends,
     bha,
@@ -29,15 +29,13 @@ RUNGS = {rung.name: rung for rungs in FAMILIES.values() for rung in rungs}
 MEETING = "meet their neighbours'"
 
 
-def climbed(rung: Rung, family: str, quick: bool) -> list[dict[str, Any]]:
+def climbed(rung: Rung, family: str, quick: bool) -> Rows:
     """Rows of a rung; the quick way with the segments that meet their neighbours' alone."""
-    rows = []
     for by in rung.found:
         for cut in rung.cuts[1:] if quick else rung.cuts:
             row = measure(rung, by, cut)
             ends = MEETING if cut == rung.cuts[1] else "do not"
-            rows.append({"family": family, **row, "segment_ends": ends, "formula": rung.formula, "why": rung.why})
-    return rows
+            yield {"family": family, **row, "segment_ends": ends, "formula": rung.formula, "why": rung.why}
 
 
 def orders_of(rung: Rung) -> dict[str, Any]:

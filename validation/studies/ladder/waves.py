@@ -7,7 +7,6 @@ from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from fctd import Case
@@ -16,8 +15,6 @@ from fctd.simulation.run import Run
 from validation.studies.ladder.in_time import completed, moved, ringing, tone
 from validation.studies.ladder.rung import GRAVITY, MUD, Rung, Section, Tables, section
 from validation.studies.ladder.wells import PIPE, straight, well
-
-Array = NDArray[np.float64]
 
 LENGTH, ASSEMBLY = 1000.0, 200.0  # of the string and of its collars [m]
 CUT_BELOW = 300.0  # [m] of cut pipe between collars and long segment

@@ -1,14 +1,19 @@
-"""Buckled pipe: its shapes, unrolled and in space, its wall force along paths of load, and the force it transmits."""
+"""Buckled pipe, and how the plausible rows of every class of string end."""
 
 import numpy as np
-from matplotlib.figure import Figure as Canvas
+import pandas as pd
 
-from reports.figures import Figure, Tables, style
+from reports.figures import Canvas, Tables, figure, style
 
 SHAPES = ("snaking", "helix")
 SHOWN = 100.0  # [m]
 
 
+@figure(
+    "post_buckling",
+    name="shapes",
+    caption="The middle of a buckled 5 in pipe in a level 8½ in hole, unrolled and in space (drawn wider than it is).",
+)
 def shapes(tables: Tables) -> Canvas:
     """Angle over the length of hole on the left, the pipe's axis in space on the right, a row for each shape."""
     table = tables["shapes"]
@@ -26,19 +31,26 @@ def shapes(tables: Tables) -> Canvas:
         space.plot(md, 1e3 * aside, 1e3 * up, **style.line(row))
         wall = 1e3 * np.hypot(aside, up).max()
         space.set(
-            xlabel="along the hole, m", ylabel="aside, mm", zlabel="up, mm", ylim=(-wall, wall), zlim=(-wall, wall)
-        )
-        space.set(yticks=[-40, 40], zticks=[-40, 0, 40])
+            xlabel="along the hole, m", ylabel="aside, mm", zlabel="up, mm", ylim=(-wall, wall), zlim=(-wall, wall),
+            yticks=[-40, 40], zticks=[-40, 0, 40],
+        )  # fmt: skip
         space.xaxis.labelpad = 8  # the labels stand beside the numbers, not on them
         space.set_box_aspect((2.2, 1, 1), zoom=0.85)
     return canvas
 
 
+@figure(
+    "post_buckling",
+    name="wall_force",
+    caption=(
+        "Mean wall force of a level pipe. Snaking lasts as the load rises, and a helix as it falls: at one load the "
+        "wall force, and with it the friction, differs by up to a factor of two."
+    ),
+)
 def wall_force(tables: Tables) -> Canvas:
     """Mean wall force along the paths of load, with the closed form of the helix."""
     table = tables["paths"]
-    canvas = style.figure(3.6)
-    ax = canvas.subplots()
+    canvas, ax = style.subplots(3.6)
     for index, path in enumerate(table["path"].unique()):
         of_path = table[table["path"] == path]
         ax.plot(of_path["times_onset"], of_path["wall_force_over_weight"], **style.marked(index), label=path)
@@ -50,11 +62,17 @@ def wall_force(tables: Tables) -> Canvas:
     return canvas
 
 
+@figure(
+    "post_buckling",
+    name="transmitted",
+    caption=(
+        "Push that slides a helix through a level hole. The tan law adds the weight, which averages out over a turn."
+    ),
+)
 def transmitted(tables: Tables) -> Canvas:
     """Push at the top against the length of a helix that slides."""
     table = tables["pushed"]
-    canvas = style.figure(3.4)
-    ax = canvas.subplots()
+    canvas, ax = style.subplots(3.4)
     labels = {"reciprocal_kN": "reciprocal law", "tan_kN": "tan law", "push_kN": "engine"}
     for index, (column, label) in enumerate(labels.items()):
         drawn = style.dots(index) if column == "push_kN" else style.line(index)
@@ -64,21 +82,27 @@ def transmitted(tables: Tables) -> Canvas:
     return canvas
 
 
-FIGURES = [
-    Figure(
-        "shapes",
-        "The middle of a buckled 5 in pipe in a level 8½ in hole, unrolled and in space (drawn wider than it is).",
-        shapes,
+@figure(
+    "robust_rows",
+    name="statuses",
+    caption=(
+        "Plausible rows that end in another status than converged, by class of string. Nearly all of them drill: the "
+        "string above the bit buckles, and the friction of its rotation rolls it round the hole, or its segments are "
+        "too long to bend as it does."
     ),
-    Figure(
-        "wall_force",
-        "Mean wall force of a level pipe. Snaking lasts as the load rises, and a helix as it falls: at one load the "
-        "wall force, and with it the friction, differs by up to a factor of two.",
-        wall_force,
-    ),
-    Figure(
-        "transmitted",
-        "Push that slides a helix through a level hole. The tan law adds the weight, which averages out over a turn.",
-        transmitted,
-    ),
-]
+)
+def statuses(tables: Tables) -> Canvas:
+    """Share of the rows of each class with each status other than converged."""
+    rows = tables["rows"]
+    share = 100 * pd.crosstab(rows["class"], rows["status"], normalize="index").reindex(rows["class"].unique())
+    canvas, ax = style.subplots(4.2)
+    begun = pd.Series(0.0, share.index)
+    for index, status in enumerate(sorted(set(share.columns) - {"converged"})):
+        ax.barh(
+            range(len(share)), share[status], left=begun, color=style.COLOURS[index], label=status.replace("_", " ")
+        )
+        begun = begun + share[status]
+    style.rows_downwards(ax, list(share.index))
+    ax.set_xlabel("share of the rows that did not converge, %")
+    style.legend_above(ax, columns=3)
+    return canvas
