@@ -64,6 +64,6 @@ def test_a_room_imports_what_the_map_says(room: str) -> None:
     if every and named:  # a room, and every one below it
         allowed = below[below.index(named[0]) :]
     sources = "\n".join(path.read_text("utf-8") for path in (ROOT / "fctd" / room).rglob("*.py"))
-    used = set(re.findall(r"^\s*(?:from|import) fctd\.(\w+)", sources, re.MULTILINE)) - {room}
+    used = set(re.findall(r"^\s*(?:from|import) fctd\.(\w+)", sources, re.MULTILINE)) & set(IMPORTS) - {room}
     assert used <= set(allowed)
     assert every or used == set(named)

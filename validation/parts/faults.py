@@ -27,7 +27,7 @@ SMALL = trip("arcs", 620.0)
 AT_ONCE = 16
 # The largest file [bytes] on a disk that is full from the start, which a checkpoint of the small case exceeds, and on
 # one that is full at the end, which only a table of its result exceeds.  Bytes of all files until a disk fails.
-FULL_AT_START, FULL_AT_END, UNTIL_FAILURE = 20_000, 60_000, 40_000
+FULL_AT_START, FULL_AT_END, UNTIL_FAILURE = 20_000, 60_000, 50_000
 
 
 # Nobody can make this folder, a superuser neither.

@@ -126,7 +126,10 @@ def test_results_that_cannot_be_kept(invoke):
 
 
 def test_a_disk_that_is_full(invoke, monkeypatch):
-    monkeypatch.setattr(store, "_write_verdict", Mock(side_effect=OSError(28, "No space left on device")))
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(store, "_write_verdict", full)
     answer = invoke("--all")
     assert answer.exit_code == 2
     assert "expected a folder that can be written (No space left on device)" in answer.output
