@@ -68,6 +68,16 @@ class ModelError(Table):
     torque: units.PositiveOrZeroTorque = 0.0
 
 
+class ScatterPrior(Table):
+    """Scatter from day to day: mean of the exponential prior of each standard deviation; 0 for none.
+
+    friction : of the logarithm of the factors; hookload [N].  One deviation in twenty is above three times the mean.
+    """
+
+    friction: Annotated[float, units.Number(at_least=0.0, at_most=1.0)] = 0.05
+    hookload: Annotated[float, units.Quantity(dimension=units.FORCE, at_least=0.0)] = 3e3
+
+
 class Setup(Table):
     """A setup file.  ``strings`` : override sets, keys and values as of ``--set``."""
 
@@ -75,6 +85,7 @@ class Setup(Table):
     sources: dict[str, SourceSpec] = Field(default_factory=dict)
     strings: dict[str, dict[str, Any]] = Field(default_factory=dict)
     model_error: ModelError = ModelError()
+    scatter: ScatterPrior = ScatterPrior()
 
     @model_validator(mode="after")
     def _check(self) -> Self:

@@ -179,6 +179,11 @@ def _own_values(name: str, case: Case) -> list[float]:
     return [case.wellbore.intervals[i].friction for i in intervals_of(name, case)]
 
 
+def is_factor(name: str) -> bool:
+    """Whether an unknown is a friction factor."""
+    return re.fullmatch(r"friction(\.\w+)*|friction\[\d+\]", name) is not None
+
+
 def intervals_of(name: str, case: Case) -> list[int]:
     """Indices of the intervals of a friction factor."""
     intervals = case.wellbore.intervals
