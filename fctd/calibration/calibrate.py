@@ -10,6 +10,7 @@ from typing import Any, Final, Literal, get_args
 import numpy as np
 import pandas as pd
 
+from fctd.calibration.days import fit_scatter
 from fctd.calibration.fit import LOSSES, Loss
 from fctd.calibration.fit import fit as fit_rows
 from fctd.calibration.forward import Forward
@@ -43,6 +44,7 @@ def calibrate(
     starts: int = 4,
     seed: int = 0,
     refuse: bool = True,
+    scatter: bool | None = None,
     progress: Callable[[int], None] | None = None,
 ) -> Calibration:
     """The unknowns of a case that fit measured rows best.
@@ -53,6 +55,7 @@ def calibrate(
     "friction.open=0.25+-0.05".  setup : a TOML file or a ``Setup``, whose unknowns are added to these.
     order : "all", or "first-section", which fits the rows of the shallowest hole section and predicts the deeper ones.
     starts, seed : of the search.  refuse : whether unknowns that the rows do not tell apart are an error.
+    scatter : whether friction and weight differ from day to day (``scatter``); by default where rows name their days.
     progress : called with the number of strings solved so far, in the fit and in what is asked of it afterwards.
 
     Raises InputError for input that cannot be used.
@@ -88,7 +91,10 @@ def calibrate(
             )
         reasons = {rows[k].id: reason for k, reason in sorted((out | found.left_out).items())}
         reasons |= {rows[k].id: "of a deeper hole section: predicted" for k in deeper}
-        fitted = Calibration(case, forward, found, reasons, loss, tuple(loose))
+        scattered = None
+        if scatter if scatter is not None else any(rows[k].day for k in found.used):
+            found, scattered = fit_scatter(forward, found)
+        fitted = Calibration(case, forward, found, reasons, loss, tuple(loose), scattered=scattered)
         if not deeper:
             return fitted
         return replace(fitted, predicted=predict_rows(fitted.posterior, [rows[k] for k in deeper], cases))

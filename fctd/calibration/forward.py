@@ -1,6 +1,7 @@
 """From values of the unknowns to readings: the loads of the strings, then what the rig and the source make of them."""
 
 from collections.abc import Callable, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -30,13 +31,15 @@ _STEP = 1e-4
 class Reading(NamedTuple):
     """A measured load: index of its row, which load, the recorded range [SI] and its noise, one standard deviation.
 
-    The range of a reading that was not measured is NaN.
+    The range of a reading that was not measured is NaN.  A torque with a bit on bottom has the bit's mean ``added``,
+    and the bit's standard deviation is part of its noise.
     """
 
     row: int
     load: Load
     range: Range
     noise: float
+    added: float = 0.0
 
 
 class StringLoads(NamedTuple):
@@ -98,19 +101,30 @@ class Forward:
         self.names = tuple(unknown.name for unknown in unknowns)
         self._by_string = [k for k, unknown in enumerate(unknowns) if unknown.changes_string]
         self._sizes = np.array([unknown.size for unknown in unknowns])
-        self._count, self._progress = 0, progress
+        self._count, self._progress = [0], progress
         self._kept: dict[bytes, list[StringLoads]] = {}
 
     def _readings(self) -> list[Reading]:
         """Both loads of every row, as far as the row can have them."""
         found = []
-        nothing = Range(float("nan"), float("nan"))
         for k, row in enumerate(self.rows):
             source = self.setup.source(row.source)
-            found.append(Reading(k, "hookload", row.hookload or nothing, source.hookload_noise))
+            read = _as_read(row.hookload, source.hookload_resolution)
+            found.append(Reading(k, "hookload", read, source.hookload_noise))
             if row.operation != "in_slips":
-                found.append(Reading(k, "torque", row.torque or nothing, source.torque_noise))
+                added, sd = self.setup.bit_torque.of(row.torque_read)
+                read = _as_read(row.torque, source.torque_resolution)
+                found.append(Reading(k, "torque", read, float(np.hypot(source.torque_noise, sd)), added))
         return found
+
+    def of_rows(self, rows: Sequence[int]) -> "Forward":
+        """The same for some of the rows, with the holes and strings that are laid out already."""
+        other = copy(self)
+        other.rows = tuple(self.rows[k] for k in rows)
+        other.strings = {name: case for name, case in self.strings.items() if any(r.string == name for r in other.rows)}
+        other.readings = tuple(other._readings())
+        other._kept = {}
+        return other
 
     def length_in_hole(self, name: str, row: Row) -> float:
         """Length of the components that an unknown ``mass.NAME`` names in the string of a row [m]."""
@@ -127,7 +141,8 @@ class Forward:
         value, slopes = np.empty(len(self.readings)), np.zeros((len(self.readings), len(values)))
         for i, reading in enumerate(self.readings):
             row, loads = self.rows[reading.row], solved[reading.row]
-            value[i], slopes[i] = self._read(row, reading.load, rigs[row.string], by_name, loads)
+            read, slopes[i] = self._read(row, reading.load, rigs[row.string], by_name, loads)
+            value[i] = read + reading.added
         reasons = {k: loads.reason for k, loads in enumerate(solved) if loads.reason}
         doubts = {k: loads.doubt for k, loads in enumerate(solved) if loads.doubt}
         return Evaluation(value, slopes, reasons, doubts)
@@ -187,9 +202,9 @@ class Forward:
             key = row.string, row.bit_depth, row.operation, row.rates
             if row.has_string and key not in found:
                 found[key] = self._solve_row(row, solvers[row.string], steps)
-                self._count += 1
+                self._count[0] += 1
                 if self._progress is not None:
-                    self._progress(self._count)
+                    self._progress(self._count[0])
             answers.append(found[key] if row.has_string else nothing)
         return answers
 
@@ -224,5 +239,24 @@ class Forward:
         doubt = "" if point.status == SteadyStatus.CONVERGED else f"{point.status}: {point.message}"
         return StringLoads(np.array([point.hookload, point.surface_torque]), slopes, doubt=doubt)
 
+    def gains(self, values: Array) -> Array:
+        """What each reading gains from a weight at the hook (m,), 0 for torques."""
+        by_name = dict(zip(self.names, map(float, values), strict=True))
+        rigs = {name: with_values(case, by_name).rig for name, case in self.strings.items()}
+        rows = [self.rows[reading.row] for reading in self.readings]
+        return np.array(
+            [
+                rigs[row.string].sheave_efficiency ** -row.direction if reading.load == "hookload" else 0.0
+                for row, reading in zip(rows, self.readings, strict=True)
+            ]
+        )
+
     def _failed(self, reason: str) -> StringLoads:
         return StringLoads(np.full(2, np.nan), np.full((2, len(self.unknowns)), np.nan), reason)
+
+
+def _as_read(read: Range | None, resolution: float) -> Range:
+    """The range that a reading stands for: a single one is rounded in steps of the resolution."""
+    if read is None:
+        return Range(float("nan"), float("nan"))
+    return read if read.high > read.low else Range(read.low - 0.5 * resolution, read.high + 0.5 * resolution)

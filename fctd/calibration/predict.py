@@ -1,8 +1,8 @@
 """Predictions of rows with bands, and their scores where the rows are measured."""
 
 import json
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any, Final
 
@@ -11,8 +11,10 @@ import pandas as pd
 from numpy.typing import NDArray
 from pydantic import Field, FiniteFloat, ValidationError
 
-from fctd.calibration.forward import Forward
-from fctd.calibration.rows import Row
+from fctd.calibration.forward import Evaluation, Forward
+from fctd.calibration.quadrature import Mixture
+from fctd.calibration.rows import Row, days_of
+from fctd.calibration.scatter import EFFECTS, At, draw
 from fctd.calibration.setup import Setup
 from fctd.calibration.unknowns import Unknown
 from fctd.case.errors import InputError, Table, explain
@@ -33,6 +35,7 @@ class Posterior:
     """What a calibration knows: unknowns with their values (k,) and covariance (k, k) [SI], and the setup.
 
     spread : of each source and load, the root mean square of a uniform distribution over the recorded ranges [SI].
+    mixture : with scatter between days, of the unknowns and the deviations; None without.
     """
 
     unknowns: tuple[Unknown, ...]
@@ -40,6 +43,7 @@ class Posterior:
     covariance: Array
     setup: Setup
     spread: Mapping[str, Mapping[str, float]]
+    mixture: Mixture | None = None
 
     def sample(self, count: int, seed: int) -> Array:
         """Values (count, k) of a normal distribution, cut at the bounds."""
@@ -56,9 +60,11 @@ class Posterior:
                 for u, value in zip(self.unknowns, self.best.tolist(), strict=True)
             ],
             "covariance": self.covariance.tolist(),
-            "setup": self.setup.model_dump(mode="json", include={"sources", "strings", "model_error"}),
+            "setup": self.setup.model_dump(mode="json", include={"sources", "strings", "model_error", "bit_torque"}),
             "spread": self.spread,
         }
+        if self.mixture is not None:
+            data["scatter"] = {name: getattr(self.mixture, name).tolist() for name in _KeptScatter.model_fields}
         with whole_file(path) as scratch:
             scratch.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
 
@@ -74,6 +80,28 @@ class _KeptUnknown(Table):
     value: FiniteFloat
 
 
+class _KeptScatter(Table):
+    """The mixture in the posterior's file (``Mixture``)."""
+
+    weight: list[Annotated[FiniteFloat, Field(gt=0.0)]]
+    deviations: list[list[Annotated[FiniteFloat, Field(ge=0.0)]]]
+    mean: list[list[FiniteFloat]]
+    covariance: list[list[list[FiniteFloat]]]
+
+    def mixture(self, count: int) -> Mixture:
+        """What the file holds of ``count`` unknowns; raises InputError for arrays of other shapes."""
+        found = Mixture(*(np.array(getattr(self, name), float) for name in type(self).model_fields))
+        m = len(self.weight)
+        shapes = {"deviations": (m, len(EFFECTS)), "mean": (m, count), "covariance": (m, count, count)}
+        for name, shape in shapes.items():
+            if getattr(found, name).shape != shape:
+                expected = f"{' by '.join(map(str, shape))} numbers, those of {m} nodes"
+                raise InputError(expected, key=f"scatter.{name}", value=getattr(self, name))
+        if not m or np.linalg.eigvalsh(found.covariance).min() < 0:
+            raise InputError("nodes with covariances of the unknowns", key="scatter.covariance", value=self.covariance)
+        return replace(found, weight=found.weight / found.weight.sum())
+
+
 class _Kept(Table):
     """The posterior's file."""
 
@@ -81,6 +109,7 @@ class _Kept(Table):
     covariance: list[list[FiniteFloat]]
     setup: Setup
     spread: dict[str, dict[str, Annotated[FiniteFloat, Field(ge=0.0)]]]
+    scatter: _KeptScatter | None = None
 
     def posterior(self) -> Posterior:
         """What the file holds; raises InputError for a matrix that is no covariance of the unknowns."""
@@ -97,7 +126,8 @@ class _Kept(Table):
         if np.abs(scaled - scaled.T).max() > rounding or np.linalg.eigvalsh(scaled).min() < -rounding:
             raise InputError(expected, key="covariance", value=self.covariance)
         best = np.array([u.value for u in self.unknowns])
-        return Posterior(tuple(found), best, np.array(self.covariance), self.setup, self.spread)
+        mixture = None if self.scatter is None else self.scatter.mixture(count)
+        return Posterior(tuple(found), best, np.array(self.covariance), self.setup, self.spread, mixture)
 
 
 def posterior_file(case_file: Path) -> Path:
@@ -134,20 +164,15 @@ def predict_rows(
 
     The readings are taken as linear in the unknowns, whose values are drawn from a normal distribution cut at their
     bounds; to each are added the source's noise, a uniform distribution as wide as its recorded ranges, and the
-    declared error of the model, both normal and independent.
+    declared error of the model, both normal and independent.  With scatter the days are such as were not fitted, and
+    the rows of a day share its effects.
     """
-    setup = posterior.setup
-    forward = Forward(rows, strings, posterior.unknowns, setup)
+    forward = Forward(rows, strings, posterior.unknowns, posterior.setup)
     at = forward.evaluate(posterior.best)
-    drawn = posterior.sample(samples, seed) - posterior.best
-    rng = np.random.default_rng([seed, 1])
     table = []
-    for i, reading in enumerate(forward.readings):
+    drawn = _draws(posterior, forward, at, samples, seed)
+    for i, (reading, values) in enumerate(zip(forward.readings, drawn, strict=True)):
         row = rows[reading.row]
-        uniform = np.sqrt(3) * posterior.spread.get(row.source, {}).get(reading.load, 0.0)
-        other = np.hypot(reading.noise, getattr(setup.model_error, reading.load))
-        values = at.value[i] + drawn @ at.slopes[i] + other * rng.normal(size=samples)
-        values += uniform * rng.uniform(-1, 1, samples)
         low, high = reading.range.low, reading.range.high
         bands = dict(zip(BANDS, np.quantile(values, list(BANDS.values())).tolist(), strict=True))
         table.append(
@@ -159,6 +184,38 @@ def predict_rows(
             }
         )  # fmt: skip
     return pd.DataFrame(table)
+
+
+def draw_rows(
+    posterior: Posterior, rows: Sequence[Row], strings: Mapping[str, Case], samples: int = SAMPLES, seed: int = 0
+) -> Array:
+    """The draws of ``predict_rows`` (n, samples) [SI], a row for each of its own: for differences and correlations."""
+    forward = Forward(rows, strings, posterior.unknowns, posterior.setup)
+    return np.array([*_draws(posterior, forward, forward.evaluate(posterior.best), samples, seed)])
+
+
+def _draws(posterior: Posterior, forward: Forward, at: Evaluation, samples: int, seed: int) -> Iterator[Array]:
+    """Draws of each reading (samples,)."""
+    drawn = _without_noise(posterior, forward, at, samples, seed)
+    rng = np.random.default_rng([seed, 1])
+    for reading, values in zip(forward.readings, drawn, strict=True):
+        spread = posterior.spread.get(forward.rows[reading.row].source, {})
+        uniform = np.sqrt(3) * spread.get(reading.load, 0.0)
+        other = np.hypot(reading.noise, getattr(posterior.setup.model_error, reading.load))
+        noisy = values + other * rng.normal(size=samples)
+        yield noisy + uniform * rng.uniform(-1, 1, samples)
+
+
+def _without_noise(posterior: Posterior, forward: Forward, at: Evaluation, samples: int, seed: int) -> Iterable[Array]:
+    """Draws of each reading (samples,) for drawn unknowns, on days that were not fitted."""
+    if posterior.mixture is None:
+        off = posterior.sample(samples, seed) - posterior.best
+        return [value + off @ slopes for value, slopes in zip(at.value, at.slopes, strict=True)]
+    _, day = days_of(forward.rows)
+    of_reading = np.array([day[reading.row] for reading in forward.readings], np.int64)
+    linear = At(at.value, at.slopes, forward.gains(posterior.best))
+    rng = np.random.default_rng(seed)
+    return draw(posterior.unknowns, posterior.mixture, posterior.best, linear, of_reading, rng, samples)
 
 
 def _scores(

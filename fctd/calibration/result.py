@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 import pandas as pd
 
+from fctd.calibration.days import Scattered
 from fctd.calibration.fit import Fit, Loss
 from fctd.calibration.forward import Forward
 from fctd.calibration.identify import Undetermined
@@ -24,6 +25,7 @@ class Calibration:
     base : the case before; fit : of the unknowns; left_out : reasons of the rows that were not fitted, by id; loss : of
     the readings; undetermined : unknowns that the rows do not tell apart, where they were to be fitted all the same;
     predicted : of rows of deeper hole sections (``predict_rows``), where the first section alone was fitted.
+    scattered : the fit with scatter between days, whose values and readings ``fit`` has; None for one without.
     """
 
     base: Case
@@ -33,6 +35,7 @@ class Calibration:
     loss: Loss
     undetermined: tuple[Undetermined, ...] = ()
     predicted: pd.DataFrame | None = None
+    scattered: Scattered | None = None
 
     @property
     def unknowns(self) -> tuple[Unknown, ...]:
@@ -96,24 +99,37 @@ class Calibration:
 
     @cached_property
     def intervals(self) -> Intervals:
-        """The 95 % intervals of the unknowns, which take some fits."""
+        """The 95 % intervals of the unknowns, which take some fits where there is no scatter."""
+        if self.scattered is not None:
+            return self.scattered.intervals
         return find_intervals(self.forward, self.fit, self.loss)
 
     @cached_property
     def leave_one_out(self) -> pd.DataFrame:
-        """The fit without each row, and what it predicts for that row (``intervals.leave_one_out``)."""
+        """The fit without each row, and what it predicts for that row (``intervals.leave_one_out``).
+
+        With scatter, without each day: the rows of a day are left out together (``Scattered.leave_one_out``).
+        """
+        if self.scattered is not None:
+            return self.scattered.leave_one_out(self.forward)
         return leave_one_out(self.forward, self.fit, self.loss)
 
     @cached_property
     def table(self) -> pd.DataFrame:
-        """A row for each unknown: name, unit, value, low and high of its 95 % interval, how it was found, at_bound."""
+        """A row for each unknown: name, unit, value, low and high of its 95 % interval, how it was found, at_bound.
+
+        With scatter, also its standard deviations.
+        """
         found, columns = self.intervals, []
         for k, unknown in enumerate(self.unknowns):
             bound = unknown.name in found.at_bound or unknown.name in self.active
             columns.append(
                 (unknown.name, unknown.unit, self.fit.best[k], found.low[k], found.high[k], found.how[k], bound)
             )
-        return pd.DataFrame(columns, columns=["name", "unit", "value", "low", "high", "how", "at_bound"])
+        table = pd.DataFrame(columns, columns=["name", "unit", "value", "low", "high", "how", "at_bound"])
+        if self.scattered is None:
+            return table
+        return pd.concat([table, pd.DataFrame(self.scattered.deviations).assign(at_bound=False)], ignore_index=True)
 
     @cached_property
     def correlations(self) -> pd.DataFrame:
@@ -134,7 +150,8 @@ class Calibration:
             source: {load: float(np.sqrt(np.mean(np.square(w)) / 12)) for load, w in loads.items()}
             for source, loads in widths.items()
         }
-        return Posterior(self.unknowns, self.fit.best, self.intervals.covariance, self.forward.setup, spread)
+        mixture = None if self.scattered is None else self.scattered.fit.mixture.main()
+        return Posterior(self.unknowns, self.fit.best, self.intervals.covariance, self.forward.setup, spread, mixture)
 
     @property
     def active(self) -> dict[str, str]:

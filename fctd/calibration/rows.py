@@ -1,11 +1,13 @@
 """Measured rows of a calibration or a prediction: a CSV file with a hook load or a torque in each row."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Final, Literal, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fctd.case.errors import InputError, nearest
 from fctd.case.load import Case, load_case
@@ -19,6 +21,9 @@ Load = Literal["hookload", "torque"]
 
 MOST_WEIGHT: Final = 1e6  # of a row: beyond it the squares of its residuals overflow long before it says more
 OPERATIONS: Final = (*KINDS, *STRINGLESS)
+# Whether a bit on bottom adds to the torque of a row, and whether the pumps run.
+TORQUES: Final = ("off_bottom", "on_bottom", "unknown")
+PUMPS: Final = ("on", "off")
 _HOOKLOAD: Final = Field("hookload", "N", FORCE, GAUGE, "kN", ranged=True, at_least=0.0, at_most=LARGEST_FORCE)
 _TORQUE: Final = Field(
     "torque", "N_m", TORQUE, r"(?:surface[ _]|drive[ _])?torque", "kN_m", ranged=True, at_most=LARGEST_TORQUE
@@ -52,7 +57,9 @@ class Row:
     ``tare``; bit_depth [m], NaN without a string.  rates : speed downwards [m/s] and rotation [rad/s].  hookload [N] :
     of the weight indicator, block included; torque [N m]; weight : of its residuals; source : of its readings.
     flow [m³/s] : recorded, and used by nothing; stroke [m], NaN where not given; locked_torque [N m] : left in the
-    string at the end of the stroke.
+    string at the end of the stroke.  day : of the reading; rows of a day, a run or a report share their scatter, and
+    one without a name is a day of its own.  torque_read : one of ``TORQUES``; pumps : one of ``PUMPS`` or "", used by
+    nothing.
     """
 
     id: str
@@ -67,6 +74,9 @@ class Row:
     flow: float = float("nan")
     stroke: float = float("nan")
     locked_torque: float = 0.0
+    day: str = ""
+    torque_read: str = "off_bottom"
+    pumps: str = ""
 
     @property
     def direction(self) -> int:
@@ -87,6 +97,16 @@ class Row:
         return self.operation in KINDS
 
 
+def days_of(rows: Sequence[Row]) -> tuple[tuple[str, ...], NDArray[np.int64]]:
+    """Names of the days of rows, in the order of the rows, and the day of each row (n,).
+
+    A row without a day is a day of its own, with the row's name.
+    """
+    keys = [("day", row.day) if row.day else ("row", row.id) for row in rows]
+    order = list(dict.fromkeys(keys))
+    return tuple(name for _, name in order), np.array([order.index(key) for key in keys], np.int64)
+
+
 def read_rows(path: Path, case: Case, sets: Mapping[str, Case], *, measured: bool) -> tuple[list[Row], dict[str, Case]]:
     """The rows of a CSV file, and the case of each string that they name.
 
@@ -101,6 +121,9 @@ def read_rows(path: Path, case: Case, sets: Mapping[str, Case], *, measured: boo
             Text("operation", "operation|kind", _operation),
             Text("source", "source"),
             Text("weight", "weight", _weight),
+            Text("day", "day|run|report"),
+            Text("torque_read", r"torque[ _]read", partial(_one_of, TORQUES)),
+            Text("pumps", "pumps?", partial(_one_of, PUMPS)),
         ]
         lines = read_lines(path, _FIELDS, texts, _HEADERS)
         require(lines, "operation", ["operation"], _HEADERS)
@@ -161,6 +184,8 @@ def _row(line: Line, name: str, case: Case, *, measured: bool) -> Row:
         weight=float(str(line.cells.get("weight", 1.0))), source=str(line.cells.get("source", "")),
         flow=line.number_of(_FLOW.column()), stroke=line.number_of(_STROKE.column()),
         locked_torque=float(np.nan_to_num(line.number_of(_LOCKED.column()))),
+        day=str(line.cells.get("day", "")), torque_read=str(line.cells.get("torque_read") or TORQUES[0]),
+        pumps=str(line.cells.get("pumps", "")),
     )  # fmt: skip
 
 
@@ -179,6 +204,13 @@ def _given(number: float) -> float | None:
 def _operation(cell: str) -> str:
     if cell not in OPERATIONS:
         raise InputError(nearest(cell, OPERATIONS, "operation"))
+    return cell
+
+
+def _one_of(words: Sequence[str], cell: str) -> str:
+    """A word of a cell, "" for an empty one."""
+    if cell and cell not in words:
+        raise InputError(f"{', '.join(words[:-1])} or {words[-1]}, or nothing")
     return cell
 
 

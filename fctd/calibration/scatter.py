@@ -40,10 +40,14 @@ class At(NamedTuple):
 class DayReadings(Protocol):
     """Measured readings by day: unknowns, measured (n,) [SI], variance (n,) of their noise and rounding, day (n,)."""
 
-    unknowns: Sequence[Unknown]
-    measured: Array
-    variance: Array
-    day: NDArray[np.int64]
+    @property
+    def unknowns(self) -> Sequence[Unknown]: ...
+    @property
+    def measured(self) -> Array: ...
+    @property
+    def variance(self) -> Array: ...
+    @property
+    def day(self) -> NDArray[np.int64]: ...
 
     def at(self, values: Array) -> At:
         """The readings where the unknowns have these values on each day (days, k); NaN without loads."""
@@ -102,6 +106,11 @@ def values_of(unknowns: Sequence[Unknown], z: Array) -> Array:
     return np.stack([np.asarray(_value(u, z[..., k])) for k, u in enumerate(unknowns)], axis=-1)
 
 
+def slopes_of(unknowns: Sequence[Unknown], values: Array) -> Array:
+    """Change of the values (k,) [SI] with their coordinates."""
+    return np.array([v if is_factor(u.name) else u.size for u, v in zip(unknowns, values, strict=True)])
+
+
 def with_friction(unknowns: Sequence[Unknown], values: Array, effect: Array) -> Array:
     """Values (..., k) [SI] with the friction factors of a day; effect (...) : of friction, a logarithm."""
     factors = np.array([is_factor(u.name) for u in unknowns])
@@ -135,7 +144,6 @@ def fit_days(readings: DayReadings, first: Array, scales: Array) -> DayFit:
     bounds = np.array([[coordinate(u, u.low), coordinate(u, u.high)] for u in unknowns]).T
     means, precisions = np.array([_prior(u) for u in unknowns]).T
     factors = np.array([is_factor(u.name) for u in unknowns])
-    sizes = np.array([u.size for u in unknowns])
     z = np.clip(np.array([coordinate(u, value) for u, value in zip(unknowns, first, strict=True)]), *bounds)
     effects = np.zeros((int(day.max()) + 1, len(EFFECTS)))
 
@@ -145,7 +153,7 @@ def fit_days(readings: DayReadings, first: Array, scales: Array) -> DayFit:
 
     at, values = readings_at(z, effects)
     for _ in range(_STEPS):
-        jacobian = at.slopes * np.where(factors, values[day], sizes)
+        jacobian = at.slopes * np.stack([slopes_of(unknowns, of_day) for of_day in values])[day]
         by_effect = np.stack([jacobian[:, factors].sum(axis=1), at.gains], axis=1)
         # The working response: what is measured, as seen from the values about which the readings are linear.
         off = readings.measured - at.value - at.gains * effects[day, 1]
@@ -157,8 +165,7 @@ def fit_days(readings: DayReadings, first: Array, scales: Array) -> DayFit:
         step = [aim[0] - z, aim[1] - effects]
         sd = np.sqrt(np.diag(mixture.spread))
         most = max(np.abs(step[0][factors]).max(initial=0.0), np.abs(step[1][:, 0]).max())
-        drag = np.sqrt(readings.variance)[:, None]
-        moved = np.abs(by_effect * step[1][day]) / drag
+        moved = np.abs(by_effect * step[1][day]) / np.sqrt(readings.variance)[:, None]  # of the readings, in noise
         if (np.abs(step[0]) < _CLOSE * sd).all() and moved.max() < 2 * _CLOSE:
             break
         share = min(1.0, _LARGEST / max(most, 1e-300))
@@ -172,3 +179,23 @@ def fit_days(readings: DayReadings, first: Array, scales: Array) -> DayFit:
             break
         z, effects, at, values = trial, trial_effects, beyond, trial_values
     return DayFit(unknowns, values_of(unknowns, z), effects, at, model, nodes, mixture, scales)
+
+
+def draw(
+    unknowns: Sequence[Unknown], mixture: Mixture, best: Array, at: At, day: NDArray[np.int64],
+    rng: np.random.Generator, samples: int,
+) -> Array:  # fmt: skip
+    """Readings (n, samples) [SI] of days that were not seen, without noise.
+
+    at : the readings at ``best`` (k,), taken as linear in the friction factors themselves; day (n,) : which rows share
+    the effects of a day.
+    """
+    z, deviations = mixture.sample(samples, rng)
+    low, high = (np.array([getattr(unknown, end) for unknown in unknowns]) for end in ("low", "high"))
+    values = np.clip(values_of(unknowns, z), low, high)
+    effects = rng.normal(size=(int(day.max(initial=-1)) + 1, samples, len(EFFECTS))) * deviations
+    found = np.empty((len(day), samples))
+    for i, d in enumerate(day):
+        of_day = with_friction(unknowns, values, effects[d, :, 0])
+        found[i] = at.value[i] + (of_day - best) @ at.slopes[i] + at.gains[i] * effects[d, :, 1]
+    return found

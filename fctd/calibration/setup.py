@@ -50,6 +50,8 @@ class TorqueBias(Table):
 class SourceSpec(Table):
     """A source of readings: its rule, its noise, one standard deviation, and its bias, which is then an unknown.
 
+    A single reading stands for the range of readings that are rounded to it in steps of the resolution.
+
     A median carries its bias as it is.  A peak carries it in the direction in which the block moves: added to the hook
     load while hoisting, taken from it while lowering, none at rest, and added to the torque.
     """
@@ -57,6 +59,8 @@ class SourceSpec(Table):
     reading: Literal["median", "peak"] = "median"
     hookload_noise: PositiveForce = 10e3
     torque_noise: PositiveTorque = 500.0
+    hookload_resolution: Annotated[float, units.Quantity(dimension=units.FORCE, at_least=0.0)] = 0.0
+    torque_resolution: units.PositiveOrZeroTorque = 0.0
     hookload_bias: ForceBias | None = None
     torque_bias: TorqueBias | None = None
 
@@ -66,6 +70,22 @@ class ModelError(Table):
 
     hookload: units.Force = 0.0
     torque: units.PositiveOrZeroTorque = 0.0
+
+
+class BitTorque(Table):
+    """What a bit on bottom adds to the torque of a row: mean and standard deviation [N m], normal.
+
+    Where it is unknown whether the bit was on bottom, either is as likely.
+    """
+
+    mean: units.PositiveOrZeroTorque = 3e3
+    sd: PositiveTorque = 2e3
+
+    def of(self, torque_read: str) -> tuple[float, float]:
+        """Mean and standard deviation of what a bit adds to a torque that was read so [N m]."""
+        if torque_read == "unknown":
+            return 0.5 * self.mean, (0.5 * self.sd**2 + 0.25 * self.mean**2) ** 0.5
+        return (self.mean, self.sd) if torque_read == "on_bottom" else (0.0, 0.0)
 
 
 class ScatterPrior(Table):
@@ -85,6 +105,7 @@ class Setup(Table):
     sources: dict[str, SourceSpec] = Field(default_factory=dict)
     strings: dict[str, dict[str, Any]] = Field(default_factory=dict)
     model_error: ModelError = ModelError()
+    bit_torque: BitTorque = BitTorque()
     scatter: ScatterPrior = ScatterPrior()
 
     @model_validator(mode="after")

@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fctd.calibration.scatter import At, DayFit, fit_days, values_of, with_friction
+from fctd.calibration.scatter import At, DayFit, draw, fit_days, with_friction
 from fctd.calibration.setup import ScatterPrior
 from fctd.calibration.unknowns import Prior, Unknown
 
@@ -35,7 +35,11 @@ RADIUS: Final = 0.08  # of the string [m]
 
 @dataclass(frozen=True)
 class Toy:
-    """Readings of n rows: motion (n,) 1 down, −1 up, 0 turning; which (n,) 0 hook load, 1 torque; and what they need."""
+    """n readings [SI] by day.
+
+    weight (n,) of the string, contact (n, 2) loads in casing and open hole, motion (n,) 1 down, −1 up, 0 turning, and
+    torque (n,) for a torque in place of a hook load.
+    """
 
     weight: Array
     contact: Array
@@ -115,13 +119,8 @@ def drawn_truth(rng: np.random.Generator) -> Array:
 
 def predicted(fit: DayFit, rng: np.random.Generator, toy: Toy, samples: int = 1000) -> Array:
     """Readings (samples, n) of days that were not seen, as ``fctd predict`` draws them."""
-    z, deviations = fit.mixture.sample(samples, rng)
-    values = values_of(UNKNOWNS, z)
     at = toy.at(np.broadcast_to(fit.best, (int(toy.day.max()) + 1, len(fit.best))))
-    effects = rng.normal(size=(samples, int(toy.day.max()) + 1, 2)) * deviations[:, None]
-    of_day = with_friction(UNKNOWNS, values[:, None], effects[..., 0])
-    found = at.value + ((of_day - fit.best)[:, toy.day] * at.slopes).sum(axis=-1)
-    found += at.gains * effects[:, toy.day, 1]
+    found = draw(UNKNOWNS, fit.mixture, fit.best, at, toy.day, rng, samples).T
     return np.asarray(found + rng.normal(size=found.shape) * np.sqrt(toy.variance))
 
 
