@@ -16,6 +16,7 @@ from fctd.calibration.fit import fit as fit_rows
 from fctd.calibration.forward import Forward
 from fctd.calibration.identify import refuse as refuse_undetermined
 from fctd.calibration.identify import undetermined
+from fctd.calibration.misread import misread
 from fctd.calibration.predict import SAMPLES, Posterior, posterior_file, predict_rows, read_posterior
 from fctd.calibration.result import Calibration
 from fctd.calibration.rows import Row, read_rows
@@ -91,10 +92,11 @@ def calibrate(
             )
         reasons = {rows[k].id: reason for k, reason in sorted((out | found.left_out).items())}
         reasons |= {rows[k].id: "of a deeper hole section: predicted" for k in deeper}
+        doubtful = misread(forward, found.evaluation)
         scattered = None
         if scatter if scatter is not None else any(rows[k].day for k in found.used):
             found, scattered = fit_scatter(forward, found)
-        fitted = Calibration(case, forward, found, reasons, loss, tuple(loose), scattered=scattered)
+        fitted = Calibration(case, forward, found, reasons, loss, tuple(loose), scattered=scattered, misread=doubtful)
         if not deeper:
             return fitted
         return replace(fitted, predicted=predict_rows(fitted.posterior, [rows[k] for k in deeper], cases))

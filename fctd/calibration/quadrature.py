@@ -102,7 +102,7 @@ def integrate(log_evidence: Callable[[Array], Array], scales: Array) -> Nodes:
     def log_density(t: Array) -> Array:
         s = deviations(t)
         prior = -s[:, free] / scales[free] + np.log(np.cosh(t))
-        return log_evidence(s) + prior.sum(axis=1)
+        return np.asarray(log_evidence(s) + prior.sum(axis=1))
 
     if not len(free):
         return Nodes(np.zeros((1, len(scales))), np.ones(1), float(log_evidence(np.zeros((1, len(scales))))[0]), ())

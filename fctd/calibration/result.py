@@ -1,13 +1,14 @@
 """The result of a calibration: values of the unknowns, residuals of the readings, rows left out."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 import pandas as pd
 
 from fctd.calibration.days import Scattered
+from fctd.calibration.factors import friction_table
 from fctd.calibration.fit import Fit, Loss
 from fctd.calibration.forward import Forward
 from fctd.calibration.identify import Undetermined
@@ -26,6 +27,7 @@ class Calibration:
     the readings; undetermined : unknowns that the rows do not tell apart, where they were to be fitted all the same;
     predicted : of rows of deeper hole sections (``predict_rows``), where the first section alone was fitted.
     scattered : the fit with scatter between days, whose values and readings ``fit`` has; None for one without.
+    misread : rows that may be misread, by id, and why (``misread``).
     """
 
     base: Case
@@ -36,6 +38,7 @@ class Calibration:
     undetermined: tuple[Undetermined, ...] = ()
     predicted: pd.DataFrame | None = None
     scattered: Scattered | None = None
+    misread: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def unknowns(self) -> tuple[Unknown, ...]:
@@ -66,7 +69,7 @@ class Calibration:
         """A row for each measured load: id, string, operation, bit_depth_m, load, low, high and fitted (SI), residual.
 
         residual : distance of the fitted reading from the range [SI], 0 within it; in_noise : over the noise; fitted is
-        NaN where the string has no loads.  used : whether it was fitted.
+        NaN where the string has no loads.  used : whether it was fitted.  day, pumps and flow_m3_s as the row has them.
         """
         forward, rows = self.forward, []
         for i, reading in enumerate(forward.readings):
@@ -79,7 +82,8 @@ class Calibration:
                 {
                     "id": row.id, "string": row.string, "operation": row.operation, "bit_depth_m": row.bit_depth,
                     "load": reading.load, "low": low, "high": high, "fitted": fitted, "residual": off,
-                    "in_noise": off / reading.noise, "used": reading.row in self.fit.used,
+                    "in_noise": off / reading.noise, "used": reading.row in self.fit.used, "day": row.day,
+                    "pumps": row.pumps, "flow_m3_s": row.flow,
                 }
             )  # fmt: skip
         return pd.DataFrame(rows)
@@ -130,6 +134,11 @@ class Calibration:
         if self.scattered is None:
             return table
         return pd.concat([table, pd.DataFrame(self.scattered.deviations).assign(at_bound=False)], ignore_index=True)
+
+    @cached_property
+    def factors(self) -> pd.DataFrame:
+        """Friction factors by hole and motion, each with its interval and its rows (``friction_table``)."""
+        return friction_table(self.forward, self.fit, self.intervals)
 
     @cached_property
     def correlations(self) -> pd.DataFrame:

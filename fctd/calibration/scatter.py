@@ -73,7 +73,7 @@ class DayFit:
     @property
     def fitted(self) -> Array:
         """The readings with the effects of their days (n,) [SI]."""
-        return self.at.value + self.at.gains * self.effects[self.model.day, 1]
+        return np.asarray(self.at.value + self.at.gains * self.effects[self.model.day, 1])
 
     def interval(self, k: int, share: float = 0.95) -> tuple[float, float]:
         """The interval of an unknown [SI], cut at its bounds."""

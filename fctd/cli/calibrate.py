@@ -1,7 +1,8 @@
 """``fctd calibrate CASE MEASURED.csv``: unknowns of a case from measured rows."""
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 import pandas as pd
@@ -17,6 +18,7 @@ from fctd.calibration.result import Calibration
 from fctd.calibration.unknowns import NAMES
 from fctd.case.doubts import warnings_of
 from fctd.case.text import counted, printable
+from fctd.case.units import conversion
 from fctd.cli.options import (
     CaseFile,
     Friction,
@@ -40,6 +42,7 @@ from fctd.results.unit_systems import System, reworded, shown_unit
 # Mean square of the residuals over the noise, by degree of freedom, beyond which the intervals are doubtful.
 MISFIT = 2.0
 LOADS = {"hookload": "N", "torque": "N*m"}
+_MOST_ROWS = 3  # that are named beside a friction factor
 Units = Annotated[System, typer.Option("--units", help="Units of screen and picture; files are in SI units.")]
 
 
@@ -66,6 +69,14 @@ def calibrate_command(
     loss: Annotated[Loss, typer.Option("--loss", help="Of a residual: robust, or its square.")] = "soft_l1",
     starts: Annotated[int, typer.Option("--starts", metavar="N", help="Number of starts of the search.")] = 4,
     seed: Annotated[int, typer.Option("--seed", metavar="N", help="Of the starts.")] = 0,
+    scatter: Annotated[
+        bool | None,
+        typer.Option(
+            "--scatter/--no-scatter",
+            help="Whether friction and weight differ from day to day; default: where rows name their days.",
+            show_default=False,
+        ),
+    ] = None,
     overrides: Overrides = [],  # noqa: B006
     friction: Friction = None,
     out: Annotated[
@@ -102,7 +113,7 @@ def calibrate_command(
 
         found = calibrate(
             case, measured, fits, priors=priors, setup=setup, loss=loss, order=order, starts=starts, seed=seed,
-            overrides=changes, progress=show,
+            overrides=changes, scatter=scatter, progress=show,
         )  # fmt: skip
         doing = "intervals"
         _ = found.intervals
@@ -134,6 +145,7 @@ def print_calibration(found: Calibration, units: System) -> None:
         numbers = [f"{row[key] * factor:.4g}" for key in ("value", "low", "high")]
         unknowns.add_row(str(row["name"]), label, *numbers, f"{row['how']}{', at a bound' if row['at_bound'] else ''}")
     screen.print(unknowns)
+    print_factors(found)
     names, matrix = found.forward.names, found.correlations.to_numpy(float)
     for i, one in enumerate(names):
         for other, value in zip(names[:i], matrix[i], strict=False):
@@ -148,22 +160,51 @@ def print_calibration(found: Calibration, units: System) -> None:
         numbers = [_span(row["low"] * factor, row["high"] * factor)]
         numbers += [f"{row[name] * factor:z.1f}" for name in ("fitted", "residual")]
         alone = f"{float(without[key]) * factor:z.1f}" if key in without else "–"
-        name = str(row["id"]) if row["used"] else f"({row['id']})"
+        name = f"{row['id']}{_pumps(row, units)}" if row["used"] else f"({row['id']}{_pumps(row, units)})"
         rows.add_row(name, f"{row['load']}, {label}", *numbers, f"{row['in_noise']:z.1f}", alone)
     screen.print(rows)
-    screen.print("off: beyond the recorded range; left out: predicted by a fit without the row", soft_wrap=True)
+    left = "row" if found.scattered is None else "rows of its day"
+    screen.print(f"off: beyond the recorded range; left out: predicted by a fit without the {left}", soft_wrap=True)
+    if found.scattered is not None:
+        days = counted(len(found.scattered.days), "day")
+        screen.print(f"score of the {days}, each left out (log density): {found.scattered.score:.1f}", soft_wrap=True)
     if found.misfit > MISFIT:
         messages.print(
             f"warning: the residuals are {np.sqrt(found.misfit):.2g} times the noise of the sources: the noise is "
             "declared too small, or the model lacks something; the intervals are too narrow",
             soft_wrap=True,
         )  # fmt: skip
-    for name, doubt in found.doubts.items():
+    for name, doubt in [*found.misread.items(), *found.doubts.items()]:
         messages.print(printable(f"with care: {name}: {reworded(doubt, units)}"), soft_wrap=True)
     for name, reason in found.left_out.items():
         messages.print(printable(f"not fitted: {name}: {reworded(reason, units)}"), soft_wrap=True)
     if found.predicted is not None:
         print_prediction(found.predicted, units)
+
+
+def print_factors(found: Calibration) -> None:
+    """Print the friction factors by hole and motion."""
+    table = found.factors
+    if not len(table):
+        return
+    rows = _table(["hole", "motion"], ["friction factor", "95 %", "interval"], ["from rows"])
+    for row in table.to_dict("records"):
+        names = [*row["rows"]]
+        listed = ", ".join(names[:_MOST_ROWS]) + (
+            f" and {len(names) - _MOST_ROWS} more" if len(names) > _MOST_ROWS else ""
+        )
+        numbers = [f"{row[key]:.3f}" for key in ("value", "low", "high")]
+        rows.add_row(str(row["hole"]), str(row["motion"]), *numbers, printable(listed) or "none shows it")
+    screen.print(rows)
+
+
+def _pumps(row: Mapping[Any, Any], units: System) -> str:
+    """What a row says of pumps and flow, in brackets."""
+    said = [f"pumps {row['pumps']}"] if row["pumps"] else []
+    if not np.isnan(row["flow_m3_s"]):
+        unit = "gal/min" if units == "field" else "L/min"
+        said.append(f"{row['flow_m3_s'] * conversion('m^3/s', unit):.4g} {unit}")
+    return f" ({', '.join(said)})" if said else ""
 
 
 def print_prediction(table: pd.DataFrame, units: System) -> None:
