@@ -14,6 +14,7 @@ from fctd.calibration.days import fit_scatter
 from fctd.calibration.fit import LOSSES, Loss
 from fctd.calibration.fit import fit as fit_rows
 from fctd.calibration.forward import Forward
+from fctd.calibration.gradient import gradient_of, in_pieces
 from fctd.calibration.identify import refuse as refuse_undetermined
 from fctd.calibration.identify import undetermined
 from fctd.calibration.misread import misread
@@ -22,7 +23,7 @@ from fctd.calibration.result import Calibration
 from fctd.calibration.rows import Row, read_rows
 from fctd.calibration.rules import left_out_by_rule
 from fctd.calibration.setup import Setup, UnknownSpec, read_setup
-from fctd.calibration.unknowns import check_known, find_unknowns, parse_fits, refuse_edited, refuse_overridden
+from fctd.calibration.unknowns import Unknown, check_known, find_unknowns, parse_fits, refuse_edited, refuse_overridden
 from fctd.case.errors import InputError, nearest
 from fctd.case.load import Case, load_case, naming_file
 
@@ -73,33 +74,58 @@ def calibrate(
         with _naming_setup(setup):
             rows, cases = gather_rows(case, measured, told, strings, overrides, measured=True)
             unknowns = find_unknowns(specs, told, list(cases.values()))
-        forward = Forward(rows, cases, unknowns, told, progress)
         out = left_out_by_rule(rows, cases)
         deeper = _deeper_section(rows, cases) if order == "first-section" else []
-        used = [k for k in range(len(rows)) if k not in out and k not in deeper]
-        # Before the fit, which unknowns without effect would lead astray, and at its end.
-        at_start = forward.evaluate(np.array([unknown.start for unknown in unknowns]))
-        loose = undetermined(forward, at_start, used)
-        if refuse:
-            refuse_undetermined(loose)
-        found = fit_rows(forward, used, loss, starts, seed)
-        loose = undetermined(forward, found.evaluation, found.used)
-        if refuse:
-            refuse_undetermined(loose)
-        if not found.used:
-            raise InputError(
-                "rows whose strings have loads", key="measured", value=list((out | found.left_out).values())
-            )
-        reasons = {rows[k].id: reason for k, reason in sorted((out | found.left_out).items())}
-        reasons |= {rows[k].id: "of a deeper hole section: predicted" for k in deeper}
-        doubtful = misread(forward, found.evaluation)
-        scattered = None
-        if scatter if scatter is not None else any(rows[k].day for k in found.used):
-            found, scattered = fit_scatter(forward, found)
-        fitted = Calibration(case, forward, found, reasons, loss, tuple(loose), scattered=scattered, misread=doubtful)
+        reasons = out | dict.fromkeys(deeper, "of a deeper hole section: predicted")
+        if scatter is None:
+            scatter = any(row.day for k, row in enumerate(rows) if k not in reasons)
+
+        def fitted(unknowns: Sequence[Unknown]) -> Calibration:
+            return _fit(rows, cases, unknowns, told, reasons, loss, starts, seed, refuse, scatter, progress)
+
+        found = fitted(unknowns)
+        if found.scattered is not None and any(gradient_of(unknown.name) for unknown in unknowns):
+            constant = fitted([unknown for unknown in unknowns if not gradient_of(unknown.name)])
+            assert constant.scattered is not None
+            scores = {"linear in depth": found.scattered.score, "constant": constant.scattered.score}
+            found = replace(max(constant, found, key=_score), scores=scores)
         if not deeper:
-            return fitted
-        return replace(fitted, predicted=predict_rows(fitted.posterior, [rows[k] for k in deeper], cases))
+            return found
+        return replace(found, predicted=predict_rows(found.posterior, [rows[k] for k in deeper], cases))
+
+
+def _fit(
+    rows: Sequence[Row], cases: Mapping[str, Case], unknowns: Sequence[Unknown], setup: Setup,
+    left_out: Mapping[int, str], loss: Loss, starts: int, seed: int, refuse: bool, scatter: bool | None,
+    progress: Callable[[int], None] | None,
+) -> Calibration:  # fmt: skip
+    """The fit of the rows that are not left out, by index."""
+    names = [unknown.name for unknown in unknowns]
+    cases = {name: in_pieces(case, names) for name, case in cases.items()}
+    forward = Forward(rows, cases, unknowns, setup, progress)
+    used = [k for k in range(len(rows)) if k not in left_out]
+    # Before the fit, which unknowns without effect would lead astray, and at its end.
+    at_start = forward.evaluate(np.array([unknown.start for unknown in unknowns]))
+    loose = undetermined(forward, at_start, used)
+    if refuse:
+        refuse_undetermined(loose)
+    found = fit_rows(forward, used, loss, starts, seed)
+    loose = undetermined(forward, found.evaluation, found.used)
+    if refuse:
+        refuse_undetermined(loose)
+    reasons = {rows[k].id: reason for k, reason in sorted({**left_out, **found.left_out}.items())}
+    if not found.used:
+        raise InputError("rows whose strings have loads", key="measured", value=list(reasons.values()))
+    doubtful = misread(forward, found.evaluation)
+    scattered = None
+    if scatter:
+        found, scattered = fit_scatter(forward, found)
+    return Calibration(cases[""], forward, found, reasons, loss, tuple(loose), scattered=scattered, misread=doubtful)
+
+
+def _score(found: Calibration) -> float:
+    """The score of the days left out."""
+    return -np.inf if found.scattered is None else found.scattered.score
 
 
 def predict(
@@ -131,6 +157,7 @@ def predict(
         if beside is not None:
             refuse_edited(dict(zip(known.unknowns, known.best.tolist(), strict=True)), case, beside.name)
         found, cases = gather_rows(case, rows, known.setup, strings, overrides, measured=False)
+        cases = {name: in_pieces(one, [unknown.name for unknown in known.unknowns]) for name, one in cases.items()}
         with _naming_posterior(posterior):
             check_known(known.unknowns, list(cases.values()))
         return predict_rows(known, found, cases, samples, seed)

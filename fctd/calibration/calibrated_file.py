@@ -8,11 +8,12 @@ import tomlkit
 
 from fctd.calibration.predict import posterior_file
 from fctd.calibration.result import Calibration
-from fctd.calibration.unknowns import keys_of
+from fctd.calibration.unknowns import held, keys_of
 from fctd.case import spellings
 from fctd.case.errors import InputError, look_up, set_key, split_key
+from fctd.case.load import Case, load_case
 from fctd.case.text import counted
-from fctd.case.units import DENSITY, FORCE, LINEAR_MASS, TORQUE, Dimension
+from fctd.case.units import DENSITY, FORCE, LENGTH, LINEAR_MASS, TORQUE, Dimension
 from fctd.results.whole_file import whole_file
 from fctd.steady.refined_file import changed_document, survey_from
 
@@ -28,8 +29,9 @@ def write_calibrated(found: Calibration, source: Path, overrides: Mapping[str, A
     Returns both files.  A quantity keeps the unit in which it is written.
     """
     raw = changed_document(source, overrides)
-    for name, value in found.values.items():
-        for key in keys_of(name, found.base):
+    _split_intervals(raw, load_case(source, overrides), found.base)
+    for name in found.values:
+        for key, value in zip(keys_of(name, found.base), held(name, found.case), strict=False):
             old, last = look_up(raw, *split_key(key)), str(split_key(key)[-1])
             set_key(raw, key, _written(value, old, _DIMENSIONS.get(last)))
             *parents, _ = split_key(key)
@@ -43,6 +45,22 @@ def write_calibrated(found: Calibration, source: Path, overrides: Mapping[str, A
     with whole_file(out) as scratch:
         scratch.write_text(_heading(found, beside) + tomlkit.dumps(raw), encoding="utf-8")
     return [out, beside]
+
+
+def _split_intervals(raw: Any, given: Case, pieces: Case) -> None:
+    """Give a document the intervals of a case whose friction is linear in depth, copies of those that they cut."""
+    ends = [interval.to_md for interval in given.wellbore.intervals]
+    if len(ends) == len(pieces.wellbore.intervals):
+        return
+    written, found = raw["wellbore"]["intervals"], tomlkit.aot()
+    for piece in pieces.wellbore.intervals:
+        whole = next(i for i, end in enumerate(ends) if piece.to_md <= end)
+        table = tomlkit.table()
+        table.update(written[whole].unwrap())
+        if piece.to_md < ends[whole]:
+            table["to_md"] = _written(piece.to_md, table["to_md"], LENGTH)
+        found.append(table)
+    raw["wellbore"]["intervals"] = found
 
 
 def _written(value: float, old: object, dimension: Dimension | None) -> object:

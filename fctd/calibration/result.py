@@ -27,7 +27,8 @@ class Calibration:
     the readings; undetermined : unknowns that the rows do not tell apart, where they were to be fitted all the same;
     predicted : of rows of deeper hole sections (``predict_rows``), where the first section alone was fitted.
     scattered : the fit with scatter between days, whose values and readings ``fit`` has; None for one without.
-    misread : rows that may be misread, by id, and why (``misread``).
+    misread : rows that may be misread, by id, and why (``misread``).  scores : of days left out, where friction that is
+    linear in depth was tried: the fit is the one with the larger score.
     """
 
     base: Case
@@ -39,6 +40,7 @@ class Calibration:
     predicted: pd.DataFrame | None = None
     scattered: Scattered | None = None
     misread: Mapping[str, str] = field(default_factory=dict)
+    scores: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def unknowns(self) -> tuple[Unknown, ...]:

@@ -1,6 +1,7 @@
 """The unknowns of a calibration: their names, default bounds and units, and what they change in a case.
 
 ``friction``, ``friction.cased``, ``friction.open``, ``friction[k]`` (of the interval with index k);
+``friction.cased.gradient``, ``friction.open.gradient`` (``gradient``);
 ``rig.block_weight``, ``rig.guide_friction``, ``rig.sheave_efficiency``, ``rig.torque_offset``, ``rig.torque_per_rpm``;
 ``mass.NAME``, the linear mass in kg/m of the components of that name in every string; ``mud.density``;
 ``bias.hookload.SOURCE`` and ``bias.torque.SOURCE``.
@@ -11,6 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final, NamedTuple
 
+from fctd.calibration.gradient import gradient_of, multipliers
 from fctd.calibration.setup import PriorSpec, Setup, UnknownSpec, Written
 from fctd.case.errors import MISSING, InputError, join_key, nearest, show
 from fctd.case.friction import KINDS
@@ -33,6 +35,7 @@ class Form(NamedTuple):
 
 
 FRICTION: Final = Form(None, 0.0, 0.8, 0.1)
+GRADIENT: Final = Form(None, -0.9, 0.9, 0.1)
 RIG: Final = {
     "rig.block_weight": Form(FORCE, 0.0, 2e6, 20e3),
     "rig.guide_friction": Form(FORCE, 0.0, 100e3, 5e3),
@@ -46,7 +49,8 @@ MASS: Final = (0.3, 3.0, 0.1)
 # Bounds of a bias in standard deviations of its prior; without a prior those of the form.
 BIAS: Final = {"hookload": Form(FORCE, -200e3, 200e3, 10e3), "torque": Form(TORQUE, -10e3, 10e3, 500.0)}
 NAMES: Final = (
-    "friction", *(f"friction.{kind}" for kind in KINDS), "friction[k]", *RIG, "mass.NAME", "mud.density",
+    "friction", *(f"friction.{kind}" for kind in KINDS), "friction[k]",
+    *(f"friction.{kind}.gradient" for kind in KINDS), *RIG, "mass.NAME", "mud.density",
     "bias.hookload.SOURCE", "bias.torque.SOURCE",
 )  # fmt: skip
 
@@ -56,6 +60,10 @@ class Prior(NamedTuple):
 
     mean: float
     sd: float
+
+
+# Of a gradient without a prior of its own: both ends within 60 % of the middle.
+NO_GRADIENT: Final = Prior(0.0, 0.3)
 
 
 @dataclass(frozen=True)
@@ -108,6 +116,9 @@ def find_unknowns(fit: Mapping[str, UnknownSpec], setup: Setup, cases: Sequence[
             written = name if unnamed else f"{name}, {error.key}: {show(error.value)}"
             raise InputError(error.expected, key="fit", value=written) from None
     _check_overlaps([unknown.name for unknown in found], cases)
+    for name in specs:
+        if gradient_of(name) and f"friction.{gradient_of(name)}" not in specs:
+            raise InputError(f"also friction.{gradient_of(name)}, which a gradient needs", key="fit", value=name)
     return found
 
 
@@ -133,6 +144,8 @@ def _unknown(name: str, spec: UnknownSpec, cases: Sequence[Case]) -> Unknown:
             expected = f"two bounds that rise, the lower one at least {form.low:g}"
             raise InputError(expected, key="bounds", value=list(spec.bounds))
     within = f"within the bounds, {low:g} to {high:g}"
+    if prior is None and gradient_of(name):
+        prior = NO_GRADIENT
     if prior is not None and not low <= prior.mean <= high:
         raise InputError(f"a mean {within}", key="prior.mean", value=prior.mean)
     start = prior.mean if prior is not None else min(max(own, low), high)
@@ -151,6 +164,8 @@ def _form_of(name: str, cases: Sequence[Case]) -> tuple[Form, float]:
     if name == "mud.density":
         lightest = min(part.density for case in cases for part in case.string.components)
         return MUD._replace(high=min(MUD.high, 0.95 * lightest)), cases[0].mud.density
+    if any(interval.kind == gradient_of(name) for case in cases for interval in case.wellbore.intervals):
+        return GRADIENT, 0.0
     for load, form in BIAS.items():
         if name.startswith(f"bias.{load}.") or name == f"bias.{load}.":
             return form, 0.0
@@ -160,7 +175,7 @@ def _form_of(name: str, cases: Sequence[Case]) -> tuple[Form, float]:
         return Form(LINEAR_MASS, low * owned[0], high * owned[0], share * owned[0]), owned[0]
     if re.fullmatch(r"friction(\.\w+|\[\d+\])?", name) and owned:
         return FRICTION, sum(owned) / len(owned)
-    known = name.startswith("mass.") or re.fullmatch(r"friction(\.(cased|open)|\[\d+\])", name)
+    known = name.startswith("mass.") or re.fullmatch(r"friction(\.(cased|open)(\.gradient)?|\[\d+\])", name)
     parts = sorted({part.name for case in cases for part in case.string.components})
     kinds = " and ".join(f'kind = "{kind}"' for kind in KINDS)
     expected = nearest(name, NAMES, "unknown")
@@ -181,7 +196,7 @@ def _own_values(name: str, case: Case) -> list[float]:
 
 def is_factor(name: str) -> bool:
     """Whether an unknown is a friction factor."""
-    return re.fullmatch(r"friction(\.\w+)*|friction\[\d+\]", name) is not None
+    return name.startswith("friction") and not gradient_of(name)
 
 
 def intervals_of(name: str, case: Case) -> list[int]:
@@ -220,17 +235,27 @@ def refuse_edited(values: Mapping[Unknown, float], case: Case, posterior: str) -
 
     values : of the unknowns [SI]; posterior : name of its file, in messages.  The case's file has six digits.
     """
-    for unknown, value in values.items():
-        own = [float(getattr(case.rig, unknown.name.removeprefix("rig.")))] if unknown.name in RIG else (
-            [case.mud.density] if unknown.name == "mud.density" else _own_values(unknown.name, case)
-        )  # fmt: skip
-        for key, has in zip(keys_of(unknown.name, case), own, strict=False):
+    calibrated = with_values(case, {unknown.name: value for unknown, value in values.items()})
+    for unknown in values:
+        keys, own, expected_values = (
+            keys_of(unknown.name, case),
+            held(unknown.name, case),
+            held(unknown.name, calibrated),
+        )
+        for key, has, value in zip(keys, own, expected_values, strict=False):
             if abs(has - value) > 1e-5 * abs(value) + 1e-9 * unknown.size:
                 shown = f"{value:.6g} {unknown.unit}".rstrip()
                 expected = (
                     f"{shown}, as {posterior} beside it has with its band (--posterior names another): calibrate again"
                 )
                 raise InputError(expected, key=key, value=f"{has:.6g} {unknown.unit}".rstrip())
+
+
+def held(name: str, case: Case) -> list[float]:
+    """The values of a case that an unknown sets [SI], in the order of its keys (``keys_of``)."""
+    if name in RIG:
+        return [float(getattr(case.rig, name.removeprefix("rig.")))]
+    return [case.mud.density] if name == "mud.density" else _own_values(name, case)
 
 
 def check_known(unknowns: Sequence[Unknown], cases: Sequence[Case]) -> None:
@@ -244,7 +269,7 @@ def check_known(unknowns: Sequence[Unknown], cases: Sequence[Case]) -> None:
 
 def _check_overlaps(names: Iterable[str], cases: Sequence[Case]) -> None:
     """Raise InputError where two friction factors are those of one interval."""
-    factors = [name for name in names if name.startswith("friction")]
+    factors = [name for name in names if is_factor(name)]
     for case in cases:
         taken: dict[int, str] = {}
         for name in factors:
@@ -271,6 +296,7 @@ def with_values(case: Case, values: Mapping[str, float]) -> Case:
             ]
         for i in intervals_of(name, case):
             friction[i] = value
+    friction = [factor * by for factor, by in zip(friction, multipliers(case, values), strict=True)]
     intervals = tuple(
         interval.model_copy(update={"friction": factor})
         for interval, factor in zip(case.wellbore.intervals, friction, strict=True)

@@ -167,7 +167,10 @@ def print_calibration(found: Calibration, units: System) -> None:
     screen.print(f"off: beyond the recorded range; left out: predicted by a fit without the {left}", soft_wrap=True)
     if found.scattered is not None:
         days = counted(len(found.scattered.days), "day")
-        screen.print(f"score of the {days}, each left out (log density): {found.scattered.score:.1f}", soft_wrap=True)
+        scores = found.scores or {"": found.scattered.score}
+        listed = ", ".join(f"{score:.1f} {name}".rstrip() for name, score in scores.items())
+        kept = f"; kept: friction {max(scores, key=lambda name: scores[name])}" if found.scores else ""
+        screen.print(f"score of the {days}, each left out (log density): {listed}{kept}", soft_wrap=True)
     if found.misfit > MISFIT:
         messages.print(
             f"warning: the residuals are {np.sqrt(found.misfit):.2g} times the noise of the sources: the noise is "

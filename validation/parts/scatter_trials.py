@@ -15,9 +15,13 @@ from numpy.typing import NDArray
 from fctd.calibration.scatter import At, DayFit, draw, fit_days, with_friction
 from fctd.calibration.setup import ScatterPrior
 from fctd.calibration.unknowns import Prior, Unknown
+from validation.harness.study import Check, Context
 
 Array = NDArray[np.float64]
 
+TRIALS: Final = 400
+# Of 400 trials, those of 95 % intervals that hold the truth lie in this range in 99.7 % of studies (binomial).
+HELD: Final = (366, 392)
 HOOKLOAD, TORQUE = 10e3, 500.0  # noise, one standard deviation [N], [N m]
 ROUNDING: Final = 22e3, 1.36e3  # resolution of the readings: 5 klbf, 1,000 ft lbf
 DAYS, ROWS = (4, 12), (1, 3)
@@ -127,7 +131,8 @@ def predicted(fit: DayFit, rng: np.random.Generator, toy: Toy, samples: int = 10
 def trial(seed: int, *, scatter: bool = True) -> tuple[list[dict[str, Any]], pd.DataFrame]:
     """A trial: for each parameter truth and interval, and a row for each reading of five days that were not fitted.
 
-    scatter : whether deviations are drawn from their priors, or 0.
+    scatter : whether deviations are drawn from their priors, or 0; then also the width of the band that a fit without
+    scatter gives, and the deviations over the noise of a reading.
     """
     rng = np.random.default_rng([33, seed, int(scatter)])
     truth = drawn_truth(rng)
@@ -141,16 +146,54 @@ def trial(seed: int, *, scatter: bool = True) -> tuple[list[dict[str, Any]], pd.
     for k, unknown in enumerate(UNKNOWNS):
         low, high = fit.interval(k)
         rows.append({"name": unknown.name, "truth": truth[k], "value": fit.best[k], "low": low, "high": high})
+    noise = np.where(toy.torque, TORQUE, HOOKLOAD)
     for i, name in enumerate(("scatter.friction", "scatter.hookload")):
-        low, high = fit.nodes.quantile(i, 0.025), fit.nodes.quantile(i, 0.975)
+        low, value, high = (fit.nodes.quantile(i, share) for share in (0.025, 0.5, 0.975))
+        moved = np.abs(fit.model.effects[:, i] / noise)
         rows.append(
-            {"name": name, "truth": deviations[i], "value": fit.nodes.quantile(i, 0.5), "low": low, "high": high}
-        )
+            {"name": name, "truth": deviations[i], "value": value, "low": low, "high": high,
+             "over_noise": value * float(np.median(moved[moved > 0]))}
+        )  # fmt: skip
     readings = pd.DataFrame(
-        {"torque": later.torque, "measured": later.measured, "low": bands[0], "high": bands[1], "trial": seed}
+        {"trial": seed, "torque": later.torque, "measured": later.measured, "low": bands[0], "high": bands[1]}
     )
+    readings["inside"] = (readings["low"] <= readings["measured"]) & (readings["measured"] <= readings["high"])
     if not scatter:
-        alone = fit_days(toy, first, np.zeros(2))
-        without = np.quantile(predicted(alone, rng, later), [0.025, 0.975], axis=0)
-        readings["width_without"] = without[1] - without[0]
-    return [{"trial": seed, **row} for row in rows], readings
+        alone = np.quantile(predicted(fit_days(toy, first, np.zeros(2)), rng, later), [0.025, 0.975], axis=0)
+        readings["width_over_without"] = (bands[1] - bands[0]) / (alone[1] - alone[0])
+    found = [{"trial": seed, **row, "held": row["low"] <= row["truth"] <= row["high"]} for row in rows]
+    return found, readings
+
+
+def trials(context: Context) -> tuple[dict[str, pd.DataFrame], list[Check]]:
+    """Trials with scatter and without, their summaries, and what they must show."""
+    count, none = (12, 4) if context.quick else (TRIALS, TRIALS // 2)
+    made = [trial(seed) for seed in context.progress(range(count), "trials with scatter")]
+    still = [trial(seed, scatter=False) for seed in context.progress(range(none), "trials without scatter")]
+    parameters, without = (pd.DataFrame([row for rows, _ in of for row in rows]) for of in (made, still))
+    readings, narrow = (pd.concat([table for _, table in of], ignore_index=True) for of in (made, still))
+    summary = parameters.groupby("name", sort=False).agg(
+        trials=("held", "size"), held=("held", "sum"), mean_truth=("truth", "mean"), mean_value=("value", "mean")
+    ).reset_index()  # fmt: skip
+    summary["median_without_over_noise"] = without.groupby("name", sort=False)["over_noise"].median().to_numpy()
+    inside = 100 * float(readings["inside"].mean())
+    deviation = float(summary["median_without_over_noise"].max())
+    wider = float(narrow["width_over_without"].mean())
+    tables = {"scatter_trials": parameters, "scatter_readings": readings, "scatter_intervals": summary}
+    if context.quick:
+        shares = 100 * float(summary["held"].sum() / summary["trials"].sum())
+        source = "95 %, and four standard errors of 84 intervals"
+        return tables, [Check("scatter: intervals that hold the truth", shares, 85.0, "at_least", "%", source)]
+    source = "99.7 % of the binomial distribution of 400 intervals of 95 %"
+    return tables, [
+        Check("scatter: trials whose interval holds the truth, fewest", int(summary["held"].min()), HELD[0],
+              "at_least", f"of {TRIALS}", source),
+        Check("scatter: trials whose interval holds the truth, most", int(summary["held"].max()), HELD[1],
+              "at_most", f"of {TRIALS}", source),
+        Check("scatter: readings of unseen days inside their band of 95 %", inside, (92.0, 97.0), "within", "%",
+              "95 %, and what the scatter of few days leaves"),
+        Check("scatter of days that have none: median deviation over the noise of a reading", deviation, 1 / 3,
+              "at_most", "", "the prior must not make scatter"),
+        Check("scatter of days that have none: width of bands over those of a fit without it", wider, 1.15, "at_most",
+              "", "the prior must not widen bands"),
+    ]  # fmt: skip
