@@ -31,7 +31,9 @@ def calibration_figure(found: Calibration, units: System = "si") -> Figure:
     """Readings of the fitted rows with the bands of both sizes, residuals over the noise, and correlations."""
     table = predict_rows(found.posterior, found.forward.rows, found.forward.strings)
     values = ", ".join(_in_words(row, units) for row in found.table.to_dict("records"))
-    lines = [values, "Bands of 50 and 95 %: unknowns, noise and ranges of the source, declared error of the model."]
+    scatter = "" if found.scattered is None else "scatter from day to day, "
+    bands = f"Bands of 50 and 95 %: unknowns, {scatter}noise and ranges of the source, declared error of the model."
+    lines = [values, bands]
     title = f"{found.base.name}: calibrated on {counted(len(found.fit.used), 'row')}"
     with mpl.rc_context(RC):
         sheet = Sheet(WIDTH, 2 * (PANEL + LABELS) + 0.3, title, lines, _handles(table))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fctd.calibration.forward import Forward
-from fctd.calibration.rows import Row
+from fctd.calibration.rows import Range, Row
 from fctd.calibration.setup import Setup
 from fctd.calibration.unknowns import find_unknowns, parse_fits
 from fctd.model.operations import SteadyRates
@@ -98,3 +98,27 @@ def test_constants_of_the_rig_solve_nothing_again() -> None:
     second = forward.evaluate(np.array([0.2, 260e3]))
     assert forward._kept == kept
     assert second.value[0] - first.value[0] == pytest.approx(10e3)
+
+
+def test_a_bit_on_bottom_adds_to_torque_and_noise() -> None:
+    off = blank_rows(well())[-1]
+    rows = [off, replace(off, id="on", torque_read="on_bottom", torque=Range(5e3, 5e3))]
+    setup = Setup.model_validate({"sources": {"": {"torque_resolution": "1 kN*m"}}, "bit_torque": {"mean": 4e3}})
+    unknowns = find_unknowns(parse_fits(["rig.torque_offset"]), setup, [well()])
+    forward = Forward(rows, {"": well()}, unknowns, setup)
+    value = forward.evaluate(np.array([800.0])).value
+    assert value[3] - value[1] == 4e3
+    assert forward.readings[3].noise == pytest.approx(np.hypot(500.0, 2e3))
+    assert forward.readings[3].range == (4.5e3, 5.5e3)
+
+
+def test_some_rows_are_solved_alone() -> None:
+    rows = blank_rows(well())
+    names = ["friction.cased", "friction.open", "rig.sheave_efficiency"]
+    forward = Forward(rows, {"": well()}, find_unknowns(parse_fits(names), Setup(), [well()]), Setup())
+    values = np.array([0.2, 0.3, 0.95])
+    part, whole = forward.of_rows([1, 4]).evaluate(values), forward.evaluate(values)
+    assert np.array_equal(part.value, whole.value[[2, 3, 8, 9]])
+    assert np.array_equal(part.slopes, whole.slopes[[2, 3, 8, 9]])
+    gains = forward.gains(values)
+    assert gains[:4] == pytest.approx([0.95, 0.0, 1 / 0.95, 0.0])

@@ -108,3 +108,18 @@ def test_a_prediction_needs_no_loads(tmp_path: Path) -> None:
     assert rows[0].hookload is None
     assert rows[0].torque is None
     assert Range(1.0, 3.0).middle == 2.0
+
+
+def test_what_a_report_says_beside_its_readings(tmp_path: Path) -> None:
+    text = (
+        "report,bit_depth_m,operation,torque_kN_m,torque read,pumps\n"
+        "10 Nov,700,rotate_off_bottom,4,on_bottom,on\n,700,rotate_off_bottom,3,,\n"
+    )
+    one, other = read_rows(written(tmp_path, text), well(), {}, measured=True)[0]
+    assert (one.day, one.torque_read, one.pumps) == ("10 Nov", "on_bottom", "on")
+    assert (other.day, other.torque_read, other.pumps) == ("", "off_bottom", "")
+    for wrong, column in (("bottom", "torque read"), ("maybe", "pumps")):
+        with pytest.raises(InputError, match=f"row 2, {column} = .*, or nothing"):
+            read_rows(written(tmp_path, text.replace("on_bottom" if wrong == "bottom" else ",on\n",
+                                                     wrong if wrong == "bottom" else f",{wrong}\n")), well(), {},
+                      measured=True)  # fmt: skip

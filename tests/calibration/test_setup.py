@@ -63,3 +63,25 @@ def test_a_wrong_setup_is_answered_with_file_and_key(text: str, expected: str, t
 def test_a_setup_that_is_not_there(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="a setup that can be read"):
         read_setup(tmp_path / "none.toml")
+
+
+def test_scatter_resolution_and_torque_of_a_bit(tmp_path: Path) -> None:
+    text = """
+    [sources.DDR]
+    hookload_resolution = "5 klbf"
+    torque_resolution = "1 kft*lbf"
+    [bit_torque]
+    mean = "4 kN*m"
+    sd = "2 kN*m"
+    [scatter]
+    friction = 0.1
+    hookload = "0 N"
+    """
+    setup = read_setup(written(tmp_path, text))
+    assert setup.source("DDR").hookload_resolution == pytest.approx(22241.1, rel=1e-5)
+    assert setup.source("DDR").torque_resolution == pytest.approx(1355.82, rel=1e-5)
+    assert (setup.scatter.friction, setup.scatter.hookload) == (0.1, 0.0)
+    assert setup.bit_torque.of("off_bottom") == (0.0, 0.0)
+    assert setup.bit_torque.of("on_bottom") == (4e3, 2e3)
+    # Half of the rows on bottom: mean 2, variance (16 + 4)/2 − 4 = 6.
+    assert setup.bit_torque.of("unknown") == pytest.approx((2e3, 6**0.5 * 1e3))

@@ -88,3 +88,28 @@ def test_the_files_that_it_reads_are_not_replaced(
         assert run(monkeypatch, "calibrate", *files, *options) == 2
         assert f'{option} = "{path}": expected another file than {path}, which' in capsys.readouterr().err
         assert path.read_bytes() == before
+
+
+def test_days_pumps_and_doubts_are_printed(
+    files: tuple[Path, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    rows = (
+        "id,day,bit_depth_m,operation,rpm,hookload_kN,torque_kN_m,pumps,flow_L_min\n"
+        f"a,Mon,500,rotate_off_bottom,60,{HANG + 200},,on,1800\nb,Mon,500,trip_in,,{HANG + 260},,,\n"
+        f"c,Tue,400,rotate_off_bottom,60,{0.8 * HANG + 180},,off,\nd,Wed,,in_slips,,210,,,\n"
+    )
+    files[1].write_text(rows, encoding="utf-8")
+    out = tmp_path / "new.toml"
+    options = ("--fit", "rig.block_weight", "--starts", "1", "--quiet", "--out", out)
+    assert run(monkeypatch, "calibrate", *files, *options) == 0
+    printed = capsys.readouterr()
+    for part in ("scatter.hookload", "scatter of days", "(pumps on", "1800", "(pumps off)", "rows of its day",
+                 "score of the 3 days"):  # fmt: skip
+        assert part in " ".join(printed.out.split())
+    assert "with care: b: a slack-off of" in printed.err
+    assert run(monkeypatch, "predict", out, files[1]) == 0
+    capsys.readouterr()
+    assert run(monkeypatch, "calibrate", *files, *options, "--no-scatter", "--units", "field") == 0
+    printed = capsys.readouterr()
+    assert "scatter" not in printed.out
+    assert "475.5" in printed.out  # gal/min
