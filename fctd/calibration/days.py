@@ -12,7 +12,7 @@ from fctd.calibration.fit import Fit
 from fctd.calibration.forward import Evaluation, Forward
 from fctd.calibration.intervals import Intervals
 from fctd.calibration.rows import days_of
-from fctd.calibration.scatter import EFFECTS, At, DayFit, draw, fit_days, slopes_of, values_of
+from fctd.calibration.scatter import EFFECTS, At, DayFit, draw, fit_days, values_of
 from fctd.calibration.unknowns import is_factor
 from fctd.case.errors import InputError
 
@@ -80,9 +80,11 @@ class Scattered:
         """Intervals of the unknowns, and their covariance [SI]."""
         unknowns = self.fit.unknowns
         low, high = np.array([self.fit.interval(k) for k in range(len(unknowns))]).T
-        at_bound = tuple(u.name for u, a, b in zip(unknowns, low, high, strict=True) if a <= u.low or b >= u.high)
-        scale = slopes_of(unknowns, self.fit.best)
-        return Intervals(low, high, (HOW,) * len(low), at_bound, self.fit.mixture.spread * np.outer(scale, scale))
+        near = 0.03 * (high - low)
+        at_bound = tuple(
+            u.name for u, a, b, c in zip(unknowns, low, high, near, strict=True) if a <= u.low + c or b >= u.high - c
+        )
+        return Intervals(low, high, (HOW,) * len(low), at_bound, self.fit.covariance)
 
     @property
     def deviations(self) -> list[dict[str, Any]]:

@@ -52,8 +52,10 @@ class Conditional(NamedTuple):
     effects: Array
 
 
-def condition(model: Linear, deviations: Array) -> Conditional:
+def condition(model: Linear, deviations: Array, unknowns: Array | None = None) -> Conditional:
     """The normal distributions for sets of standard deviations (m, e) of the effects.
+
+    unknowns (k,) : at which the effects are given, in place of their mean.
 
     Raises numpy.linalg.LinAlgError where readings and priors do not determine the unknowns.
     """
@@ -79,5 +81,6 @@ def condition(model: Linear, deviations: Array) -> Conditional:
     held = model.prior_precision[model.prior_precision > 0]
     logs = np.log(2 * np.pi * model.variance).sum() - np.log(held).sum()
     logs = logs + np.linalg.slogdet(M)[1].sum(axis=1) + 2 * np.log(np.diagonal(factor, axis1=1, axis2=2)).sum(axis=1)
-    effects = np.einsum("mdij,mdj->mdi", X, q - np.einsum("dik,mk->mdi", C, mean))
+    at = mean if unknowns is None else np.broadcast_to(unknowns, mean.shape)
+    effects = np.einsum("mdij,mdj->mdi", X, q - np.einsum("dik,mk->mdi", C, at))
     return Conditional(-0.5 * (logs + square), mean, covariance, effects)

@@ -21,6 +21,7 @@ MOST: Final = 40.0
 # Points of the first look by deviation, and nodes of Gauss and Legendre between the points that matter.
 _LOOK, NODES = 16, 20
 _NEGLIGIBLE: Final = 20.0  # below the largest log density
+_ROUNDS: Final = 100  # of draws that may be thrown away
 
 
 @dataclass(frozen=True)
@@ -54,13 +55,33 @@ class Mixture:
             low, high = (middle, high) if below < share else (low, middle)
         return 0.5 * (low + high)
 
-    def sample(self, count: int, rng: np.random.Generator) -> tuple[Array, Array]:
-        """Unknowns (count, k) and deviations (count, e) drawn from it."""
-        node = rng.choice(len(self.weight), count, p=self.weight)
+    def outside(self, low: Array, high: Array) -> float:
+        """Probability that the unknown which is most often beyond its bounds (k,) is."""
+        sd = np.sqrt(np.diagonal(self.covariance, axis1=1, axis2=2))
+        within = ndtr((high - self.mean) / sd) - ndtr((low - self.mean) / sd)
+        return float((1 - self.weight @ within).max())
+
+    def sample(self, count: int, rng: np.random.Generator, low: Array, high: Array) -> tuple[Array, Array]:
+        """Unknowns (count, k) within bounds (k,), and deviations (count, e), drawn from it.
+
+        Draws beyond the bounds are thrown away; where nearly all are, the rest is put on the bounds.
+        """
         values, vectors = np.linalg.eigh(self.covariance)
         half = vectors * np.sqrt(np.maximum(values, 0.0))[:, None, :]
-        drawn = np.einsum("ckl,cl->ck", half[node], rng.normal(size=(count, self.mean.shape[1])))
-        return self.mean[node] + drawn, self.deviations[node]
+        kept_x, kept_s, found = [], [], 0
+        for _ in range(_ROUNDS):
+            node = rng.choice(len(self.weight), count, p=self.weight)
+            x = self.mean[node] + np.einsum("ckl,cl->ck", half[node], rng.normal(size=(count, self.mean.shape[1])))
+            within = ((low <= x) & (x <= high)).all(axis=1)
+            kept_x.append(x[within])
+            kept_s.append(self.deviations[node[within]])
+            found += int(within.sum())
+            if found >= count:
+                break
+        else:
+            kept_x.append(np.clip(x[~within], low, high))
+            kept_s.append(self.deviations[node[~within]])
+        return np.concatenate(kept_x)[:count], np.concatenate(kept_s)[:count]
 
     def main(self, least: float = 1e-4) -> "Mixture":
         """The nodes whose weight is at least this share of the largest."""

@@ -7,6 +7,7 @@ taken as linear about the most likely values (Gauss and Newton), and the rest is
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Final, NamedTuple, Protocol
 
 import numpy as np
@@ -27,6 +28,9 @@ _CLOSE: Final = 0.02
 _STEPS: Final = 12
 _LARGEST: Final = 0.7  # step of the logarithm of a friction factor
 _LEAST: Final = 1e-3  # friction factor, whose logarithm is taken
+# Probability beyond bounds that matters, and draws of what lies within them.
+_BEYOND: Final = 2e-3
+_DRAWS: Final = 4000
 
 
 class At(NamedTuple):
@@ -58,7 +62,8 @@ class DayReadings(Protocol):
 class DayFit:
     """The fit: best values (k,) [SI], effects (days, 2) of ``EFFECTS`` at them, and the readings there.
 
-    mixture : of the unknowns as ``coordinates`` has them; nodes : of the deviations; model : the linear one.
+    mixture : of the unknowns as ``coordinate`` has them; nodes : of the deviations; model : the linear one.  Where a
+    part of the mixture lies beyond bounds, the rest of it is what is known.
     """
 
     unknowns: tuple[Unknown, ...]
@@ -75,12 +80,30 @@ class DayFit:
         """The readings with the effects of their days (n,) [SI]."""
         return np.asarray(self.at.value + self.at.gains * self.effects[self.model.day, 1])
 
+    @cached_property
+    def within(self) -> Array | None:
+        """Draws (n, k) [SI] of the mixture within the bounds, None where next to nothing lies beyond."""
+        low, high = bounds_of(self.unknowns)
+        if self.mixture.outside(low, high) < _BEYOND:
+            return None
+        return values_of(self.unknowns, self.mixture.sample(_DRAWS, np.random.default_rng(0), low, high)[0])
+
     def interval(self, k: int, share: float = 0.95) -> tuple[float, float]:
-        """The interval of an unknown [SI], cut at its bounds."""
-        unknown = self.unknowns[k]
-        ends = (self.mixture.quantile(k, 0.5 * (1 + side * share)) for side in (-1, 1))
-        low, high = (np.clip(_value(unknown, end), unknown.low, unknown.high) for end in ends)
+        """The interval of an unknown [SI]."""
+        ends = [0.5 * (1 + side * share) for side in (-1, 1)]
+        if self.within is not None:
+            low, high = np.quantile(self.within[:, k], ends)
+        else:
+            low, high = (float(_value(self.unknowns[k], self.mixture.quantile(k, end))) for end in ends)
         return float(low), float(high)
+
+    @property
+    def covariance(self) -> Array:
+        """Of the unknowns (k, k) [SI]."""
+        if self.within is not None:
+            return np.atleast_2d(np.cov(self.within.T))
+        scale = slopes_of(self.unknowns, self.best)
+        return np.asarray(self.mixture.spread * np.outer(scale, scale))
 
     def without(self, day: int) -> tuple[Mixture, float]:
         """Mixture without the readings of a day, and the log of the density that it had given to them all together.
@@ -99,6 +122,11 @@ def coordinate(unknown: Unknown, value: Array | float) -> Array | float:
 
 def _value(unknown: Unknown, z: Array | float) -> Array | float:
     return np.exp(z) if is_factor(unknown.name) else np.asarray(z) * unknown.size
+
+
+def bounds_of(unknowns: Sequence[Unknown]) -> Array:
+    """The lowest and the highest coordinates (2, k)."""
+    return np.array([[coordinate(u, u.low), coordinate(u, u.high)] for u in unknowns]).T
 
 
 def values_of(unknowns: Sequence[Unknown], z: Array) -> Array:
@@ -141,7 +169,7 @@ def fit_days(readings: DayReadings, first: Array, scales: Array) -> DayFit:
     Raises numpy.linalg.LinAlgError where the readings and the priors do not determine the unknowns.
     """
     unknowns, day = tuple(readings.unknowns), readings.day
-    bounds = np.array([[coordinate(u, u.low), coordinate(u, u.high)] for u in unknowns]).T
+    bounds = bounds_of(unknowns)
     means, precisions = np.array([_prior(u) for u in unknowns]).T
     factors = np.array([is_factor(u.name) for u in unknowns])
     z = np.clip(np.array([coordinate(u, value) for u, value in zip(unknowns, first, strict=True)]), *bounds)
@@ -160,9 +188,11 @@ def fit_days(readings: DayReadings, first: Array, scales: Array) -> DayFit:
         response = off + jacobian @ z + (by_effect * effects[day]).sum(axis=1)
         model = Linear(response, jacobian, by_effect, readings.variance, day, means, precisions)
         nodes, mixture = _integrated(model, scales)
-        found = condition(model, nodes.deviations)
-        aim = np.clip(nodes.weight @ found.mean, *bounds), np.einsum("m,mdi->di", nodes.weight, found.effects)
-        step = [aim[0] - z, aim[1] - effects]
+        aim = mixture.centre
+        if mixture.outside(*bounds) >= _BEYOND:
+            aim = mixture.sample(_DRAWS, np.random.default_rng(0), *bounds)[0].mean(axis=0)
+        of_days = condition(model, nodes.deviations, aim).effects
+        step = [np.clip(aim, *bounds) - z, np.einsum("m,mdi->di", nodes.weight, of_days) - effects]
         sd = np.sqrt(np.diag(mixture.spread))
         most = max(np.abs(step[0][factors]).max(initial=0.0), np.abs(step[1][:, 0]).max())
         moved = np.abs(by_effect * step[1][day]) / np.sqrt(readings.variance)[:, None]  # of the readings, in noise
@@ -190,9 +220,8 @@ def draw(
     at : the readings at ``best`` (k,), taken as linear in the friction factors themselves; day (n,) : which rows share
     the effects of a day.
     """
-    z, deviations = mixture.sample(samples, rng)
-    low, high = (np.array([getattr(unknown, end) for unknown in unknowns]) for end in ("low", "high"))
-    values = np.clip(values_of(unknowns, z), low, high)
+    z, deviations = mixture.sample(samples, rng, *bounds_of(unknowns))
+    values = values_of(unknowns, z)
     effects = rng.normal(size=(int(day.max(initial=-1)) + 1, samples, len(EFFECTS))) * deviations
     found = np.empty((len(day), samples))
     for i, d in enumerate(day):
