@@ -17,7 +17,7 @@ from pydantic import Field, PrivateAttr, ValidationError, field_validator, model
 from fctd.case.doubts import warnings_of
 from fctd.case.drilling import BitSpec
 from fctd.case.errors import MISSING, InputError, Table, explain, join_key, look_up, nearest, set_key, split_key
-from fctd.case.friction import pick, scaled_static
+from fctd.case.friction import pick, scaled_static, split_factor
 from fctd.case.input_file import read_toml
 from fctd.case.input_warnings import InputWarning
 from fctd.case.operations import KINDS, Operation
@@ -243,7 +243,8 @@ def load_case(path: str | os.PathLike[str], overrides: Mapping[str, Any] | None 
 
     overrides: dotted keys ("operations[0].speed" or "operations.0.speed") to values as in a case
     file; None deletes a key. The key "friction" sets the friction of every interval, or with {"cased": 0.2,
-    "open": 0.3} that of the intervals of these kinds.
+    "open": 0.3} that of the intervals of these kinds; "0.3/0.2" in place of a factor is one along the hole and one
+    around it. The key "rotational_friction" sets the factor around the hole alone, in the same ways.
     """
     path = Path(path)
     try:
@@ -302,21 +303,40 @@ def read_raw(path: Path) -> dict[str, Any]:
         raise
 
 
+def _of_intervals(raw: Mapping[str, Any], value: Any) -> Iterator[tuple[int, Any]]:
+    """Index of each interval that a factor for all, or factors by kind, are of, and its factor."""
+    intervals = look_up(raw, "wellbore", "intervals")
+    count = len(intervals) if isinstance(intervals, list) else 0
+    if not isinstance(value, Mapping):
+        yield from enumerate([value] * count)
+        return
+    picked = pick(value, [look_up(raw, "wellbore", "intervals", i, "kind") for i in range(count)])
+    yield from ((i, factor) for i, factor in enumerate(picked) if factor is not None)
+
+
+def _set_friction(raw: dict[str, Any], i: int, factor: object) -> None:
+    """Set the kinetic factors of an interval, and scale its static one along."""
+    at, interval = f"wellbore.intervals[{i}]", look_up(raw, "wellbore", "intervals", i)
+    try:
+        along, around = split_factor(factor)
+    except InputError as error:
+        raise InputError(error.expected, key="friction", value=factor) from None
+    static = scaled_static(interval, along)
+    set_key(raw, f"{at}.friction", along)
+    if around is not None or look_up(interval, "rotational_friction") is not MISSING:
+        set_key(raw, f"{at}.rotational_friction", around)
+    if static is not MISSING:
+        set_key(raw, f"{at}.static_friction", static)
+
+
 def apply_override(raw: dict[str, Any], key: str, value: Any) -> None:
     """Set or delete one dotted key of an unvalidated case."""
     if key == "friction":
-        intervals = look_up(raw, "wellbore", "intervals")
-        count = len(intervals) if isinstance(intervals, list) else 0
-        picked = [value] * count
-        if isinstance(value, Mapping):
-            picked = pick(value, [look_up(raw, "wellbore", "intervals", i, "kind") for i in range(count)])
-        for i, factor in enumerate(picked):
-            if factor is not None or not isinstance(value, Mapping):
-                at = f"wellbore.intervals[{i}]"
-                static = scaled_static(look_up(raw, "wellbore", "intervals", i), factor)
-                set_key(raw, f"{at}.friction", factor)
-                if static is not MISSING:
-                    set_key(raw, f"{at}.static_friction", static)
+        for i, factor in _of_intervals(raw, value):
+            _set_friction(raw, i, factor)
+    elif key == "rotational_friction":
+        for i, factor in _of_intervals(raw, value):
+            set_key(raw, f"wellbore.intervals[{i}].{key}", factor)
     elif key == "wellbore.survey" and isinstance(value, str | os.PathLike) and os.path.exists(value):
         set_key(raw, key, os.path.abspath(value))  # a typed path is relative to the current folder
     else:

@@ -59,7 +59,7 @@ UX, UY, UZ = 42 * STRIDE, 43 * STRIDE, 44 * STRIDE
 LX, LY, LZ = 45 * STRIDE, 46 * STRIDE, 47 * STRIDE
 
 # Wall beside the contact point: vector PT from the hole axis to the point [m], hole radius such that
-# |PT| - HOLE + RADIUS is the penetration [m], stiffness [N/m], friction factor.
+# |PT| - HOLE + RADIUS is the penetration [m], stiffness [N/m], friction factor along the string.
 PX, PY, PZ, HOLE = 48 * STRIDE, 49 * STRIDE, 50 * STRIDE, 51 * STRIDE
 K_WALL, FRICTION = 52 * STRIDE, 53 * STRIDE
 # Copy of the piece of hole that owns the contact point (see contact.py): start, axis there; for arcs also normal,
@@ -102,8 +102,11 @@ KINK_X, KINK_Y = 92 * STRIDE, 93 * STRIDE
 LAYER_DRAG, LAYER_SPEED = 94 * STRIDE, 95 * STRIDE
 # Numbers of the waves within the long segment, one after the other (waves.py).
 WAVES = 96 * STRIDE
+# Friction that differs along and around the string (laws.orthotropic), of the wall beside the contact point: the factor
+# around it, and what mud cake adds to the limit there [N s].
+FRICTION_AROUND, CAKE_AROUND = 97 * STRIDE, 98 * STRIDE
 
-ROWS = 97
+ROWS = 99
 
 
 class Laws(NamedTuple):
@@ -120,6 +123,8 @@ class Laws(NamedTuple):
     shape_damping : damping time of bending and shear in space [s].
     layer_rate : rate at which the mud's boundary layers follow the string along itself [1/s].
     unbalanced : whether any body has an unbalance; bent : whether any joint has a bent housing.
+    orthotropic : True where friction factors along and around the string differ, else None, a type of its own: code for
+    factors that differ is compiled where it is needed, and that for equal factors does without it.
     """
 
     geometry: int
@@ -139,6 +144,7 @@ class Laws(NamedTuple):
     layer_rate: float = 0.0
     unbalanced: bool = False
     bent: bool = False
+    orthotropic: bool | None = None
 
 
 # Keeps 0/0 out of packed arithmetic, where a branch would cost more, and changes no other result.

@@ -12,9 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd.mechanics import state
+from fctd.mechanics.friction import limit_around
 from fctd.mechanics.jit import entry
 from fctd.mechanics.law_names import CODES
 from fctd.mechanics.laws import shares
+from fctd.mechanics.query import Walls
+from fctd.mechanics.state import TINY
 from fctd.results.buckling import HELICAL, MODE, NEEDED, buckling_along
 from fctd.steady.climb import BEYOND, START_ITERATIONS, creep_of
 from fctd.steady.continuation import CONVERGED, Pace
@@ -41,26 +44,28 @@ class Added(NamedTuple):
 
 
 @entry
-def slide(law: int, speed: float, spin: float, radius: Array, along: Array, around: Array) -> None:
-    """Fill the shares of friction along the hole and about the axis of contact points with these radii [m]."""
+def slide(law, speed, spin, radius, orthotropic, factor, factor_around, along, around):
+    """Fill the friction along the hole and about the axis (n,) of contact points with a wall force of 1.
+
+    radius (n,) [m]; orthotropic : of ``Laws``; factor, factor_around (n,) : along the string and around it.
+    """
     for j in range(len(radius)):
-        along[j], around[j], _ = shares(law, speed, spin * radius[j])
+        of_turning = limit_around(orthotropic, 1.0, factor_around[j], 1.0)
+        along[j], around[j], _ = shares(law, speed, spin * radius[j], factor[j], of_turning)
 
 
 class Helical:
     """The missing wall force of a string, and its friction.
 
-    along, around (n,) : shares of the friction; wound (n,) : contact points with the wall force of a helix.  A helix
-    stays when the compression falls somewhat below its limit, and so do these.
+    wound (n,) : contact points with the wall force of a helix.  A helix stays when the compression falls somewhat below
+    its limit, and so do these.
     """
 
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
         n, rates, S = problem.n, problem.rates, problem.work.S
         self.radius = problem.string.contact_radius()
-        self.along, self.around = np.empty(n), np.empty(n)
-        law = CODES[problem.case.contact.friction_law]
-        slide(law, float(rates.speed), float(rates.spin), self.radius, self.along, self.around)
+        self.law, self.speed, self.spin = CODES[problem.case.contact.friction_law], float(rates.speed), float(rates.spin)
         self.wound = np.zeros(n, np.bool_)
         self.mud_axial, self.mud_spin = state.row(S, state.MUD_AXIAL, n), state.row(S, state.MUD_SPIN, n)
         self.own_axial, self.own_spin = self.mud_axial.copy(), self.mud_spin.copy()
@@ -77,14 +82,28 @@ class Helical:
         normal = found.contacts[:, NORMAL_FORCE]
         # The tension jumps at a contact point by the friction there: its mean is that of the pipe beside the point.
         below = np.append(tension[1:], problem.bit_tension())
-        compression = np.maximum(0.5 * walls.friction * normal * self.along - below, 0.0)
+        factor = np.maximum(walls.friction, walls.around)
+        along, around = self._shares(walls, factor)
+        compression = np.maximum(0.5 * factor * normal * along - below, 0.0)
         helix = (walls.radius - self.radius) * compression**2 / (4 * string.of("EI")) * string.tributary()
         missing = np.where(self.wound, np.maximum(helix - normal + problem.added[:, 0], 0.0), 0.0)
-        limit, rates = walls.friction * missing, problem.rates
+        limit, rates = factor * missing, problem.rates
         # The friction enters as mud does, whose drag and torque are proportional to the rates.
-        self.mud_axial[:] = self.own_axial + (limit * self.along / rates.speed if rates.speed else 0.0)
-        self.mud_spin[:] = self.own_spin + (self.radius * limit * self.around / rates.spin if rates.spin else 0.0)
-        problem.added = np.column_stack([missing, self.radius * limit * self.around, self.radius * limit])
+        self.mud_axial[:] = self.own_axial + (limit * along / rates.speed if rates.speed else 0.0)
+        self.mud_spin[:] = self.own_spin + (self.radius * limit * around / rates.spin if rates.spin else 0.0)
+        problem.added = np.column_stack(
+            [missing, self.radius * limit * around, self.radius * (walls.around * missing)]
+        )
+
+    def _shares(self, walls: Walls, factor: Array) -> tuple[Array, Array]:
+        """Friction along the hole and about the axis (n,), as shares of that of a friction factor (n,)."""
+        along, around = np.empty(len(factor)), np.empty(len(factor))
+        over = np.maximum(factor, TINY)
+        slide(
+            self.law, self.speed, self.spin, self.radius, self.problem.hole.orthotropic, walls.friction / over,
+            walls.around / over, along, around,
+        )  # fmt: skip
+        return along, around
 
 
 def add_helical_force(problem: Problem, pace: Pace) -> Added:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.mechanics import state
-from fctd.mechanics.contact import FACTOR
+from fctd.mechanics.contact import FACTOR, FACTOR_AROUND
 from fctd.mechanics.law_names import CODES
 from fctd.mechanics.query import WALL_COLUMNS, Walls
 from fctd.model.bent_housings import bent_joints, kink_of
@@ -153,7 +153,7 @@ class Problem:
     @property
     def has_friction(self) -> bool:
         """Whether a wall holds the string anywhere."""
-        return bool(self.hole.pieces[:, FACTOR].any())
+        return bool(self.hole.pieces[:, [FACTOR, FACTOR_AROUND]].any())
 
     def laws(self, share: Share = FULL) -> Steady:
         """Motion, friction and bit loads at a share of the loads."""
@@ -161,7 +161,7 @@ class Problem:
         x, y, z = (-self.weight_on_bit * share.weight * self.laid.bit_axis).tolist()
         return Steady(
             geometry, CODES[self.case.contact.friction_law], share.friction, self.rates.speed, self.rates.spin, x, y, z,
-            self.bit_torque * share.weight, self.at_axis, *self.wall_law,
+            self.bit_torque * share.weight, self.at_axis, *self.wall_law, self.hole.orthotropic,
         )  # fmt: skip
 
     def lay_guess(self, share: Share = FULL) -> None:

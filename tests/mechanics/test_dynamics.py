@@ -256,7 +256,7 @@ def test_kernels_are_packed(kernel, arguments: tuple) -> None:
 @compiled
 @pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="reads x86-64 instructions")
 def test_the_query_of_one_arc_is_packed() -> None:
-    packed, scalar = operations(query.walls_of_arc, Arc(*[0.0] * 20), np.zeros(10 * query.TOGETHER), 8)
+    packed, scalar = operations(query.walls_of_arc, Arc(*[0.0] * 22), np.zeros(11 * query.TOGETHER), 8)
     assert packed > 10
     assert packed >= 0.8 * scalar
 

@@ -60,7 +60,7 @@ def test_the_look_at_walls_and_loads_misses_no_note(
     run = Simulation(make_case(BUILD, [pipe(None, 3)], [rotation(100, 2, ramp=1)])).run
     string, radius = run.string, state.row(run.S, state.RADIUS, 3)
     place = 0.108 - radius[0] + depth
-    walls = walls_in(np.array([[0.0, place, 0.0, 0.108, 1e7, 0.2, md] for md in (30.0, 60.0, 100.0)]))
+    walls = walls_in(np.array([[0.0, place, 0.0, 0.108, 1e7, 0.2, md, 0.2] for md in (30.0, 60.0, 100.0)]))
     loads = Loads(
         tension=np.array([pull, 0.0, 0.0]), torque=np.array([0.0, twist, 0.0]), bending=np.array([0.0, 0.0, bend]),
         normal=np.zeros(3),
@@ -81,7 +81,7 @@ def test_the_look_at_walls_finds_what_is_deeper_than_the_note_allows(hole: float
     assert radius[0] == pytest.approx(0.0635)
     for depth, expected in ((0.99 * most, False), (1.001 * most, True)):
         places = [0.0, hole - radius[0] + depth, 0.0]
-        walls = walls_in(np.array([[*place, hole, 1e7, 0.2, 30.0] for place in (np.zeros(3), places, np.zeros(3))]))
+        walls = walls_in(np.array([[*place, hole, 1e7, 0.2, 30.0, 0.2] for place in (np.zeros(3), places, np.zeros(3))]))
         table, component = run.string.table, run.string.component
         looked = may_have_notes(run.S, walls.offset, walls.radius, none, none, none, 0.0, 0.0, table, component, 0.0)
         assert looked == expected

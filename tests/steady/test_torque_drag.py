@@ -20,7 +20,7 @@ from tests.cases import level_case, make_case, pipe
 
 STATIONS = [[0, 0, 0], [300, 0, 0], [600, 50, 0], [900, 50, 0]]
 COLUMNS = [
-    "operation", "friction", "friction_label", "bit_depth_m", "hookload_N", "surface_torque_N_m", "weight_indicator_N",
+    "operation", "friction", "rotational_friction", "friction_label", "bit_depth_m", "hookload_N", "surface_torque_N_m", "weight_indicator_N",
     "drive_torque_N_m", "total_contact_force_N", "buckling", "buckled_from_md_m", "buckled_to_md_m", "shape",
     "hookload_low_N", "hookload_high_N", "slack_off_spent_at", "locked_up_at", "status", "iterations", "notes",
     "reason",
