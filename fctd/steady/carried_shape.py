@@ -22,6 +22,8 @@ from fctd.steady.post_buckling import LAYOUTS, Resolved, is_resolved, lay_helix,
 from fctd.steady.problem import FULL, Problem
 from fctd.steady.tangent import JOINT_TENSION, JOINT_TORQUE
 
+LEAST_CLEARANCE = 1e-6  # [m]
+
 
 class CarriedShape(NamedTuple):
     """A shape of a string, by the ends of its n segments from the top to the bit; all (n + 1,).
@@ -142,7 +144,8 @@ def _shape(problem: Problem, path: Climb) -> CarriedShape:
     problem.put_pose(path.pose)
     found, bit_depth = problem.reactions(), problem.string.bit_depth
     walls = problem.walls(found.contacts)
-    clearance = walls.radius - problem.string.contact_radius()
+    # A bit at gauge has none.
+    clearance = np.maximum(walls.radius - problem.string.contact_radius(), LEAST_CLEARANCE)
     low, right = ((walls.offset * of).sum(axis=1) / clearance for of in carried_frame(problem.hole.at(walls.md)[1]))
     return CarriedShape(
         bit_depth - np.append(problem.string.top_md, walls.md),
