@@ -7,10 +7,8 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any, ClassVar, Generic, Protocol, TypeVar
 
-from pydantic import ValidationError
-
 from fctd.case.errors import InputError, Table, nearest
-from fctd.case.raw_case import explain
+from fctd.case.raw_case import checked
 
 # The first Python that pybullet has no wheels for.
 NO_PYBULLET = (3, 12)
@@ -47,10 +45,11 @@ class Registry(Generic[T]):
 
     def options(self, name: str, given: Mapping[str, Any]) -> Table:
         """Validated options of an entry; InputError for a bad one."""
+        model = self.find(name).Options
         try:
-            return self.find(name).Options.model_validate(given)
-        except ValidationError as failure:
-            raise explain(failure, given, ()).at(name) from None
+            return checked(model, given)
+        except InputError as error:
+            raise error.at(name) from None
 
     def installed_version(self, name: str) -> str | None:
         """Version of the package that brings an entry, None where it is not installed."""

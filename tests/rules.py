@@ -168,7 +168,7 @@ COMBINED: list[tuple[dict[str, Any], str, Any, str]] = [
     ({"wellbore.columns": {"m": "D"}}, "wellbore.columns.m", "D", "the key md"),
     ({"wellbore.columns": {"md": 1}}, "wellbore.columns.md", 1, "a header in quotes or a table"),
     ({"wellbore.columns": {"md": {"head": "D"}}}, "wellbore.columns.md.head", "D", "the key header"),
-    ({"wellbore.columns": {"md": {"unit": "km"}}}, "wellbore.columns.md.unit", "km", "m or ft"),
+    ({"wellbore.columns": {"md": {"unit": "km"}}}, "wellbore.columns.md.unit", "km", "m, ft or usft"),
     ({"wellbore.columns": {"inc": {"unit": "m"}}}, "wellbore.columns.inc.unit", "m", "deg or rad"),
     ({"wellbore.stations[1]": [9, 0]}, "wellbore.stations[1][2]", MISSING, "a bare number"),
     (

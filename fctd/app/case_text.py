@@ -3,10 +3,7 @@
 This runs in the process of its own that worker.py is.
 """
 
-import io
 import re
-import zipfile
-import zlib
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -15,19 +12,19 @@ from typing import Any, Final
 import tomlkit
 
 from fctd.app.sessions import Source
-from fctd.case.errors import InputError
-from fctd.case.input_file import tables_of
+from fctd.case.errors import InputError, naming
+from fctd.case.input_file import LARGEST_FILE, tables_of
 from fctd.case.input_warnings import InputWarning
-from fctd.case.load import LARGEST_FILE, Case, make_case
+from fctd.case.load import Case, make_case
 from fctd.case.raw_case import look_up, set_key, split_key
-from fctd.case.surveys.workbook import ZIP
+from fctd.case.surveys.workbook import ZIP, check_workbook
+from fctd.case.xml_file import has_doctype
 from fctd.model.layouts import segments_in_hole
 from fctd.model.new_case import UnitSystem, from_survey, read_survey
 
 MOST_UNPACKED: Final = 50 * 2**20  # bytes of a survey's parts
 MOST_STATIONS: Final = 50_000
 MOST_SEGMENTS: Final = 2_000
-PIECE: Final = 2**16
 
 
 class SourceCase:
@@ -111,33 +108,11 @@ def check_survey(content: bytes, name: str) -> None:
 
     name : of the file, for messages.
     """
-    try:
-        _check_content(content)
-    except InputError as error:
-        raise error.in_file(name) from error.__cause__
-
-
-def _check_content(content: bytes) -> None:
-    if not content.startswith(ZIP):
-        if _has_doctype(content):
+    with naming(name):
+        if content.startswith(ZIP):
+            check_workbook(content, MOST_UNPACKED)
+        elif has_doctype(content):
             raise InputError("a survey without a document type (DOCTYPE)")
-        return
-    room = MOST_UNPACKED
-    try:
-        with zipfile.ZipFile(io.BytesIO(content)) as parts:
-            for part in parts.infolist():
-                with parts.open(part) as unpacked:
-                    before = b""
-                    # What a part says of its size may be false: it is counted.
-                    while piece := unpacked.read(PIECE):
-                        room -= len(piece)
-                        if room < 0:
-                            raise InputError(f"a workbook of at most {MOST_UNPACKED >> 20} MiB when unpacked")
-                        if part.filename.endswith((".xml", ".rels")) and _has_doctype(before + piece):
-                            raise InputError("a workbook whose parts have no document type (DOCTYPE)")
-                        before = piece[-32:]
-    except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError, OSError) as error:
-        raise InputError(f"a workbook (xlsx) that can be read ({error})") from None
 
 
 def check_size(case: Case) -> None:
@@ -166,11 +141,6 @@ def from_upload(name: str, survey: bytes, units: UnitSystem, folder: Path) -> tu
         raise InputError(f"at most {MOST_STATIONS} stations, here {len(found.stations)}", file=name)
     plan = from_survey(None, Path(name).stem or "my well", units, name, found.keys, found.stations)
     return Source(plan.text(), name, survey), found.note
-
-
-def _has_doctype(content: bytes) -> bool:
-    upper = content.upper()
-    return any("<!DOCTYPE".encode(encoding) in upper for encoding in ("ascii", "utf-16-le", "utf-16-be"))
 
 
 def _suffix(name: str) -> str:

@@ -16,6 +16,7 @@ from fctd.app.case_text import SourceCase
 from fctd.app.rows import Rows
 from fctd.app.sessions import Source
 from fctd.app.sliders import RPM, changes, sliders_of, turning_at
+from fctd.calibration.measured import read_measured
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
@@ -24,7 +25,6 @@ from fctd.model.depths import usual_depths
 from fctd.model.operations import rates_of_all
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.plots.palette import BUCKLED
-from fctd.results.measured import read_measured
 from fctd.results.unit_systems import System, reworded, shown
 from fctd.steady.equilibrium import Solver
 from fctd.steady.torque_drag import chart_rows

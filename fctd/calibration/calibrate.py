@@ -24,7 +24,7 @@ from fctd.calibration.rows import Row, read_rows
 from fctd.calibration.rules import left_out_by_rule
 from fctd.calibration.setup import Setup, UnknownSpec, read_setup
 from fctd.calibration.unknowns import Unknown, check_known, find_unknowns, parse_fits, refuse_edited, refuse_overridden
-from fctd.case.errors import InputError, nearest
+from fctd.case.errors import InputError, naming, nearest
 from fctd.case.load import Case, load_case, naming_file
 
 Files = str | PathLike[str]
@@ -158,7 +158,7 @@ def predict(
             refuse_edited(dict(zip(known.unknowns, known.best.tolist(), strict=True)), case, beside.name)
         found, cases = gather_rows(case, rows, known.setup, strings, overrides, measured=False)
         cases = {name: in_pieces(one, [unknown.name for unknown in known.unknowns]) for name, one in cases.items()}
-        with _naming_posterior(posterior):
+        with naming(None if isinstance(posterior, Posterior) else posterior):
             check_known(known.unknowns, list(cases.values()))
         return predict_rows(known, found, cases, samples, seed)
 
@@ -189,15 +189,6 @@ def _naming_setup(setup: Files | Setup | None) -> Iterator[None]:
     except InputError as error:
         of_setup = isinstance(setup, str | PathLike) and error.key.startswith(("unknowns", "strings."))
         raise (error.in_file(Path(setup)) if of_setup else error) from None  # type: ignore[arg-type]
-
-
-@contextmanager
-def _naming_posterior(posterior: Posterior | Files) -> Iterator[None]:
-    """Add the posterior's file to an InputError."""
-    try:
-        yield
-    except InputError as error:
-        raise (error if isinstance(posterior, Posterior) else error.in_file(Path(posterior))) from None
 
 
 def gather_setup(setup: Files | Setup | None) -> Setup:

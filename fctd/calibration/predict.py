@@ -8,7 +8,7 @@ from typing import Annotated, Any, Final
 
 import numpy as np
 import pandas as pd
-from pydantic import Field, FiniteFloat, ValidationError
+from pydantic import Field, FiniteFloat
 
 from fctd.arrays import Array
 from fctd.calibration.forward import Evaluation, Forward
@@ -20,7 +20,7 @@ from fctd.calibration.unknowns import Unknown
 from fctd.case.errors import InputError, Table
 from fctd.case.input_file import read_text
 from fctd.case.load import Case
-from fctd.case.raw_case import explain
+from fctd.case.raw_case import checked
 from fctd.store.whole_file import whole_file
 
 SAMPLES: Final = 4000
@@ -136,16 +136,9 @@ def posterior_file(case_file: Path) -> Path:
 
 def read_posterior(path: Path) -> Posterior:
     """The posterior of a file; raises InputError for a file that cannot be used."""
-    raw: Any = None
     try:
-        raw = json.loads(read_text(path, _LARGEST))
-        return _Kept.model_validate(raw).posterior()
-    except ValidationError as failure:
-        raise explain(failure, raw, branches=("str", "float")).in_file(path) from None
-    except OSError as error:
-        raise InputError(
-            f"the posterior beside the case, which fctd calibrate --out writes ({error.strerror})", file=path
-        ) from error
+        text = read_text(path, _LARGEST, "the posterior beside the case, which fctd calibrate --out writes,")
+        return checked(_Kept, json.loads(text)).posterior()
     except InputError as error:
         raise error.in_file(path) from None
     except (ValueError, RecursionError) as error:

@@ -2,39 +2,61 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from pathlib import Path
 from typing import Final, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.case.errors import InputError, nearest
+from fctd.calibration.measured_file import (
+    ANY_FORCE,
+    ANY_TORQUE,
+    DEPTH,
+    ENDS,
+    HOOKLOAD,
+    OPERATION,
+    Measured,
+    measured_form,
+    read_measured_file,
+)
+from fctd.case.errors import InputError, naming
 from fctd.case.load import Case, load_case
 from fctd.case.operations import KINDS
-from fctd.case.units import FLOW, FORCE, LENGTH, ROTATION, SPEED, TORQUE
+from fctd.case.tables.fields import Field
+from fctd.case.tables.readings import FLOW_IN, ROTATION_OF_DRIVE, TORQUE_OF_DRIVE
+from fctd.case.tables.rows import read_number
+from fctd.case.units import FLOW, LENGTH, MOST_RPM, ROTATION, SPEED, Quantity
 from fctd.model.operations import SteadyRates, rad_per_s, steady_rates
-from fctd.results.measured import DEPTH, GAUGE, STRINGLESS
-from fctd.results.measured_file import LARGEST_FORCE, LARGEST_TORQUE, Field, Line, Text, read_lines, require
 
 Load = Literal["hookload", "torque"]
 
 MOST_WEIGHT: Final = 1e6  # of a row: beyond it the squares of its residuals overflow long before it says more
-OPERATIONS: Final = (*KINDS, *STRINGLESS)
 # Whether a bit on bottom adds to the torque of a row, and whether the pumps run.
 TORQUES: Final = ("off_bottom", "on_bottom", "unknown")
 PUMPS: Final = ("on", "off")
-_HOOKLOAD: Final = Field("hookload", "N", FORCE, GAUGE, "kN", ranged=True, at_least=0.0, at_most=LARGEST_FORCE)
-_TORQUE: Final = Field(
-    "torque", "N_m", TORQUE, r"(?:surface[ _]|drive[ _])?torque", "kN_m", ranged=True, at_most=LARGEST_TORQUE
+_LOADS: Final = (
+    replace(HOOKLOAD, quantity=replace(ANY_FORCE, at_least=0.0)),
+    replace(TORQUE_OF_DRIVE, quantity=ANY_TORQUE),
 )
-_SPEED: Final = Field("speed", "m_s", SPEED, "speed|velocity", "m_s", at_least=0.0)
-_ROTATION: Final = Field("rpm", "", ROTATION, r"rpm|rotation|rotary(?:[ _]speed)?", "rpm", at_least=0.0, bare="rpm")
-_FLOW: Final = Field("flow", "m3_s", FLOW, r"flow(?:[ _]rate)?", "L_min", at_least=0.0)
-_STROKE: Final = Field("stroke", "m", LENGTH, "stroke", "m", at_least=0.0)
-_LOCKED: Final = Field("locked_torque", "N_m", TORQUE, r"locked[ _]torque", "kN_m", at_most=LARGEST_TORQUE)
-_FIELDS: Final = (DEPTH, _HOOKLOAD, _TORQUE, _SPEED, _ROTATION, _FLOW, _STROKE, _LOCKED)
-_HEADERS: Final = "such as id, bit_depth_m, operation, hookload_kN, torque_low_kN_m, torque_high_kN_m, rpm, source"
+_ROTATION: Final = replace(
+    ROTATION_OF_DRIVE, names=f"{ROTATION_OF_DRIVE.names}, rotation, rotary",
+    quantity=Quantity(dimension=ROTATION, at_least=0.0, at_most=MOST_RPM),
+)  # fmt: skip
+_OTHERS: Final = (
+    Field("speed", "speed, velocity", Quantity(dimension=SPEED, at_least=0.0), example="m_s"),
+    _ROTATION,
+    replace(FLOW_IN, quantity=Quantity(dimension=FLOW, at_least=0.0)),
+    Field("stroke", "stroke", Quantity(dimension=LENGTH, at_least=0.0), example="m"),
+    Field("locked_torque", "locked torque", ANY_TORQUE, example="kN_m"),
+    Field("id", "id, name, row"),
+    Field("string", "string"),
+    Field("source", "source"),
+    Field("weight", "weight"),
+    Field("day", "day, run, report"),
+    Field("torque_read", "torque read"),
+    Field("pumps", "pump, pumps"),
+)
+_EXAMPLE: Final = "id, bit_depth_m, operation, hookload_kN, torque_low_kN_m, torque_high_kN_m, rpm, source"
 
 
 class Range(NamedTuple):
@@ -114,84 +136,67 @@ def read_rows(path: Path, case: Case, sets: Mapping[str, Case], *, measured: boo
     measured : whether every row needs a hook load or a torque.  Raises InputError, which names file, row and column.
     """
     strings = {"": case}
-    try:
-        texts = [
-            Text("id", "id|name|row"),
-            Text("string", "string"),
-            Text("operation", "operation|kind", _operation),
-            Text("source", "source"),
-            Text("weight", "weight", _weight),
-            Text("day", "day|run|report"),
-            Text("torque_read", r"torque[ _]read", partial(_one_of, TORQUES)),
-            Text("pumps", "pumps?", partial(_one_of, PUMPS)),
-        ]
-        lines = read_lines(path, _FIELDS, texts, _HEADERS)
-        require(lines, "operation", ["operation"], _HEADERS)
-        if measured:
-            loads = [field.column(end) for field in (_HOOKLOAD, _TORQUE) for end in ("", "_low")]
-            require(lines, "hook load or torque", loads, _HEADERS)
+    with naming(path):
+        form = measured_form(_EXAMPLE, _LOADS, _OTHERS, (OPERATION.key, *(["load"] if measured else [])))
+        found = read_measured_file(path, form, _LOADS)
         rows: list[Row] = []
         known: set[str] = set()
-        for line in lines:
-            name = str(line.cells.get("string", ""))
+        for k, name in enumerate(found.rows.texts("string")):
             if name not in strings:
-                strings[name] = _string(line, name, path, sets)
-            row = _row(line, name, strings[name], measured=measured)
+                strings[name] = _string(found, k, name, path, sets)
+            row = _row(found, k, name, strings[name], measured=measured)
             if row.id in known:
-                raise line.error("id", "a name that no row above has")
+                raise found.rows.error(k, "id", "a name that no row above has")
             known.add(row.id)
             rows.append(row)
-    except InputError as error:
-        raise error.in_file(path) from error.__cause__
     return rows, strings
 
 
-def _string(line: Line, name: str, path: Path, sets: Mapping[str, Case]) -> Case:
+def _string(found: Measured, row: int, name: str, path: Path, sets: Mapping[str, Case]) -> Case:
     """The case of a string's name."""
     if name in sets:
         return sets[name]
     file = path.parent / name
     if not name.endswith(".toml") or not file.is_file():
         known = f" or one of the sets {', '.join(sets)}" if sets else ""
-        raise line.error("string", f"nothing for the case itself, a case file that exists (looked for {file}){known}")
+        expected = f"nothing for the case itself, a case file that exists (looked for {file}){known}"
+        raise found.rows.error(row, "string", expected)
     return load_case(file)
 
 
-def _row(line: Line, name: str, case: Case, *, measured: bool) -> Row:
+def _row(found: Measured, k: int, name: str, case: Case, *, measured: bool) -> Row:
     """A row of the file, checked against its case."""
-    operation = str(line.cells["operation"])
-    loads = {field: _range(line, field) for field in (_HOOKLOAD, _TORQUE)}
-    if measured and not any(loads.values()):
-        raise InputError("a hook load or a torque", key=f"row {line.number}")
-    if operation == "in_slips" and loads[_TORQUE]:
-        raise line.error(_TORQUE.column(), "no torque for in_slips, where nothing turns")
-    depth, speed, rpm = (line.number_of(field.column()) for field in (DEPTH, _SPEED, _ROTATION))
+    texts = found.rows.texts
+    operation = texts(OPERATION.key)[k]
+    hookload, torque = (_range(found, k, load.key) for load in _LOADS)
+    if measured and hookload is None and torque is None:
+        raise InputError("a hook load or a torque", key=f"row {found.rows.numbers[k]}")
+    if operation == "in_slips" and torque is not None:
+        raise found.rows.error(k, "torque", "no torque for in_slips, where nothing turns")
+    depth, speed, rpm = (found.number(k, key) for key in (DEPTH.key, "speed", "rpm"))
     if operation in KINDS:
         top, bottom = case.depths
         if not top < depth <= bottom:
-            raise line.error(DEPTH.column(), f"a depth in the well, below {top:g} m and down to {bottom:g} m")
+            raise found.rows.error(k, DEPTH.key, f"a depth in the well, below {top:g} m and down to {bottom:g} m")
         try:
             rates = steady_rates(case, operation, _given(speed), _given(rpm))
         except InputError as error:
-            column = {"speed": _SPEED, "rpm": _ROTATION}[error.key].column()
-            raise line.error(column, error.expected) from None
+            raise found.rows.error(k, error.key, error.expected) from None
     else:
         rates = SteadyRates(0.0, 0.0 if np.isnan(rpm) else rad_per_s(rpm))
     return Row(
-        id=str(line.cells.get("id") or f"row {line.number}"),
-        string=name, bit_depth=depth, operation=operation, rates=rates,
-        hookload=loads[_HOOKLOAD], torque=loads[_TORQUE],
-        weight=float(str(line.cells.get("weight", 1.0))), source=str(line.cells.get("source", "")),
-        flow=line.number_of(_FLOW.column()), stroke=line.number_of(_STROKE.column()),
-        locked_torque=float(np.nan_to_num(line.number_of(_LOCKED.column()))),
-        day=str(line.cells.get("day", "")), torque_read=str(line.cells.get("torque_read") or TORQUES[0]),
-        pumps=str(line.cells.get("pumps", "")),
+        id=texts("id")[k] or f"row {found.rows.numbers[k]}", string=name, bit_depth=depth, operation=operation,
+        rates=rates, hookload=hookload, torque=torque, weight=_weight(found, k), source=texts("source")[k],
+        flow=found.number(k, "flow"), stroke=found.number(k, "stroke"),
+        locked_torque=float(np.nan_to_num(found.number(k, "locked_torque"))),
+        day=texts("day")[k], torque_read=_one_of(TORQUES, found, k, "torque_read") or TORQUES[0],
+        pumps=_one_of(PUMPS, found, k, "pumps"),
     )  # fmt: skip
 
 
-def _range(line: Line, field: Field) -> Range | None:
+def _range(found: Measured, row: int, load: str) -> Range | None:
     """The range of a load; where a value stands beside it, the range is what was recorded."""
-    value, low, high = (line.number_of(field.column(end)) for end in ("", "_low", "_high"))
+    value, low, high = (found.number(row, f"{load}{end}") for end in ENDS)
     if not np.isnan(low):
         return Range(low, high)
     return None if np.isnan(value) else Range(value, value)
@@ -201,24 +206,17 @@ def _given(number: float) -> float | None:
     return None if np.isnan(number) else number
 
 
-def _operation(cell: str) -> str:
-    if cell not in OPERATIONS:
-        raise InputError(nearest(cell, OPERATIONS, "operation"))
-    return cell
-
-
-def _one_of(words: Sequence[str], cell: str) -> str:
+def _one_of(words: Sequence[str], found: Measured, row: int, key: str) -> str:
     """A word of a cell, "" for an empty one."""
+    cell = found.rows.texts(key)[row]
     if cell and cell not in words:
-        raise InputError(f"{', '.join(words[:-1])} or {words[-1]}, or nothing")
+        raise found.rows.error(row, key, f"{', '.join(words[:-1])} or {words[-1]}, or nothing")
     return cell
 
 
-def _weight(cell: str) -> float:
-    try:
-        weight = float(cell or 1.0)
-    except ValueError:
-        raise InputError("a weight of the row, a number above 0") from None
-    if not 0 < weight <= MOST_WEIGHT:
-        raise InputError(f"a weight of the row, a number above 0 and at most {MOST_WEIGHT:g}")
+def _weight(found: Measured, row: int) -> float:
+    cell = found.rows.texts("weight")[row] or "1"
+    weight = read_number(cell)
+    if weight is None or not 0 < weight <= MOST_WEIGHT:
+        raise found.rows.error(row, "weight", f"a weight of the row, a number above 0 and at most {MOST_WEIGHT:g}")
     return weight

@@ -3,13 +3,11 @@
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import Field, ValidationError, model_validator
+from pydantic import Field, model_validator
 
 from fctd.case import units
 from fctd.case.errors import InputError, Table
-from fctd.case.input_file import read_toml
-from fctd.case.load import LARGEST_FILE
-from fctd.case.raw_case import explain
+from fctd.case.raw_case import read_model
 
 PositiveForce = Annotated[float, units.Quantity(dimension=units.FORCE, above=0.0)]
 PositiveTorque = Annotated[float, units.Quantity(dimension=units.TORQUE, above=0.0)]
@@ -120,11 +118,4 @@ class Setup(Table):
 
 def read_setup(path: Path) -> Setup:
     """The setup of a TOML file; raises InputError, which names file, key and value."""
-    raw: dict[str, Any] = {}
-    try:
-        raw = read_toml(path, LARGEST_FILE, "a setup")
-        return Setup.model_validate(raw)
-    except ValidationError as failure:
-        raise explain(failure, raw, branches=("str", "float")).in_file(path) from None
-    except InputError as error:
-        raise error.in_file(path) from error.__cause__
+    return read_model(Setup, path, "a setup")

@@ -10,7 +10,8 @@ import difflib
 import json
 import re
 from abc import ABC, abstractmethod
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from enum import Enum
 from os import PathLike
 from typing import Any, Final
@@ -77,6 +78,15 @@ class InputError(ValueError):
         if self.value is MISSING:
             return f"{self.key} is missing: " if self.key else ""
         return f"{self.key} = {show(self.value)}: " if self.key else f"{show(self.value)}: "
+
+
+@contextmanager
+def naming(file: str | PathLike[str] | None) -> Iterator[None]:
+    """Add a file, unless it is None, to an InputError that is raised inside and names none."""
+    try:
+        yield
+    except InputError as error:
+        raise (error if file is None else error.in_file(file)) from error.__cause__
 
 
 class Computed(str):

@@ -20,11 +20,11 @@ from fctd.case import units
 from fctd.case.errors import MISSING, InputError, Table, exclusive, known_keys
 from fctd.case.input_warnings import InputWarning
 from fctd.case.surveys import doubts
-from fctd.case.surveys.columns import Column, ColumnSpec, wanted
-from fctd.case.surveys.headers import accepted_units, unit_of
+from fctd.case.surveys.form import SURVEY, ColumnKey, ColumnSpec
 from fctd.case.surveys.reading import read_survey
 from fctd.case.surveys.smoothing import smooth
-from fctd.case.surveys.stations import UNITS, StationKey, Survey, Written, check
+from fctd.case.surveys.stations import StationKey, Survey, Written, check
+from fctd.case.tables.headers import Choice
 from fctd.case.text import is_utf8
 from fctd.case.wall import IntervalSpec, TortuositySpec
 
@@ -67,7 +67,7 @@ class WellboreSpec(Table):
     stations: tuple[tuple[units.MeasuredDepth, units.Bare, units.Bare], ...] | None = Field(
         default=None, description="a list of [measured depth in m, or '40 ft', inclination in deg, azimuth in deg]"
     )
-    columns: dict[StationKey, Column] | None = Field(
+    columns: dict[StationKey, ColumnKey] | None = Field(
         default=None,
         description='headers of the survey, or their units: {md = {header = "DEPTH", unit = "m"}, inc = "I_deg"}',
     )
@@ -99,8 +99,9 @@ class WellboreSpec(Table):
     @classmethod
     def _check_units(cls, columns: dict[StationKey, ColumnSpec] | None) -> dict[StationKey, ColumnSpec] | None:
         for key, column in (columns or {}).items():
-            if column.unit is not None and unit_of(column.unit) not in UNITS[key]:
-                raise InputError(accepted_units(key), key=f"{key}.unit", value=column.unit)
+            field = SURVEY.field(key)
+            if column.unit is not None and field.unit_of(column.unit) is None:
+                raise InputError(field.accepted, key=f"{key}.unit", value=column.unit)
         return columns
 
     @field_validator("survey")
@@ -176,8 +177,8 @@ class WellboreSpec(Table):
 
     def _resolve(self) -> Survey:
         if self.survey is not None:
-            columns = {key: wanted(column) for key, column in (self.columns or {}).items()}
-            return read_survey(self.survey, columns, self.sheet)
+            choices = {str(key): Choice(column.header, column.unit) for key, column in (self.columns or {}).items()}
+            return read_survey(self.survey, choices, self.sheet)
         values = np.array(self.stations or (), dtype=float).reshape(-1, 3)
         place = Written(
             values,

@@ -7,53 +7,50 @@ import os
 import re
 import stat
 import tomllib
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, Final
 
 from fctd.case.errors import InputError
 
+LARGEST_FILE: Final = 4  # MiB of TOML: 100,000 stations written out; the reader takes some seconds for them
+_BINARY: Final = re.compile(r"[\x00-\x08\x0e-\x1f\x7f]")
 
-def read_text(path: Path, largest: int) -> str:
+
+def read_text(path: Path, largest: int, what: str) -> str:
     """The text of a UTF-8 file of at most ``largest`` MiB, with every line end as a newline.
 
     Raises as `read_bytes` does, and ValueError for a file that is not UTF-8.
     """
-    return io.StringIO(read_bytes(path, largest).decode("utf-8-sig"), newline=None).read()
+    return io.StringIO(read_bytes(path, largest, what).decode("utf-8-sig"), newline=None).read()
 
 
-def read_office_text(path: Path, largest: int) -> str:
-    """As `read_text`, of a file in any encoding in which an office saves text.
+def decode(content: bytes, what: str) -> str:
+    """The text of a file as offices save them, in UTF-8, UTF-16 or Windows 1252, with every line end as a newline.
 
-    Raises as `read_bytes` does, and ValueError for a file that is not text.
+    what : the file in messages.  Raises InputError for a file that is not text.
     """
-    content = read_bytes(path, largest)
-    return io.StringIO(content.decode(encoding_of(content)), newline=None).read()
-
-
-def encoding_of(content: bytes) -> str:
-    """The encoding of a text as offices save them: UTF-8, UTF-16, or Windows 1252 where it is neither."""
-    if content.startswith(codecs.BOM_UTF8):
-        return "utf-8-sig"
+    encodings = ["utf-8-sig", "cp1252"]
     if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
-        return "utf-16"
-    if b"\0" in content[:100]:  # UTF-16 without its mark: every other byte of a text is zero
-        return "utf-16-le" if content[1:2] == b"\0" else "utf-16-be"
-    try:
-        content.decode("utf-8")
-    except UnicodeDecodeError:
-        return "cp1252"
-    return "utf-8"
+        encodings = ["utf-16"]
+    elif b"\0" in content[:100]:  # UTF-16 without its mark: every other byte of a text is zero
+        encodings = ["utf-16-le" if content[1:2] == b"\0" else "utf-16-be"]
+    for encoding in encodings:
+        with suppress(UnicodeDecodeError):
+            text = content.decode(encoding).removesuffix("\x1a")  # the mark of DOS at the end of a text
+            if _BINARY.search(text):
+                break
+            return io.StringIO(text, newline=None).read()
+    raise InputError(what)
 
 
-def read_toml(path: Path, largest: int, what: str) -> dict[str, Any]:
-    """The tables of a TOML file of at most ``largest`` MiB.
+def read_toml(path: Path, what: str) -> dict[str, Any]:
+    """The tables of a TOML file of at most ``LARGEST_FILE`` MiB.
 
     what : the file in messages, as "a case file".  Raises InputError, which does not name the path.
     """
     try:
-        text = read_text(path, largest)
-    except OSError as error:
-        raise InputError(f"{what} that can be read ({error.strerror})") from error
+        text = read_text(path, LARGEST_FILE, what)
     except UnicodeDecodeError as error:
         raise InputError(f"{what} in TOML ({error})") from error
     return tables_of(text, what)
@@ -84,14 +81,18 @@ _HINTS: Final = (
 )
 
 
-def read_bytes(path: Path, largest: int) -> bytes:
+def read_bytes(path: Path, largest: int, what: str) -> bytes:
     """The content of a file of at most ``largest`` MiB.
 
-    Raises InputError for a file that is not regular or is too large, and OSError for one that cannot be read.
+    what : the file in messages, as "a case file".  Raises InputError, which does not name the path, for a file that
+    cannot be read, is not regular or is too large.
     """
-    check_regular(path)
-    with path.open("rb") as file:
-        content = file.read(largest * 2**20 + 1)
+    try:
+        check_regular(path)
+        with path.open("rb") as file:
+            content = file.read(largest * 2**20 + 1)
+    except OSError as error:
+        raise InputError(f"{what} that can be read ({error.strerror})") from error
     if len(content) > largest * 2**20:
         raise InputError(f"a file of at most {largest} MiB")
     return content

@@ -8,11 +8,11 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Any, Final, Self
 
-from pydantic import Field, PrivateAttr, ValidationError, field_validator, model_validator
+from pydantic import Field, PrivateAttr, field_validator, model_validator
 
 from fctd.case.doubts import warnings_of
 from fctd.case.drilling import BitSpec
-from fctd.case.errors import MISSING, InputError, Table, nearest
+from fctd.case.errors import MISSING, InputError, Table, naming, nearest
 from fctd.case.hole import FileName, WellboreSpec
 from fctd.case.input_file import read_toml
 from fctd.case.input_warnings import InputWarning
@@ -20,7 +20,7 @@ from fctd.case.operations import KINDS, Operation
 from fctd.case.raw_case import (
     apply_override,
     bare_lengths,
-    explain,
+    checked,
     look_up,
     split_key,
     with_bare_lengths,
@@ -31,7 +31,6 @@ from fctd.case.solver import RecordSpec, SolverSpec
 from fctd.case.string import StringSpec
 from fctd.case.wall import ContactSpec, check_friction
 
-LARGEST_FILE: Final = 4  # MiB: 100,000 stations written out; the TOML reader takes some seconds for them
 _OF_SURVEYS: Final = (".csv", ".txt", ".tsv", ".dat", ".xlsx", ".xml")
 _SAME_DEPTH: Final = 1e-6  # m: one depth written in two units
 
@@ -193,13 +192,11 @@ def load_case(path: str | os.PathLike[str], overrides: Mapping[str, Any] | None 
     "open": 0.3} that of the intervals of these kinds.
     """
     path = Path(path)
-    try:
+    with naming(path):
         raw = read_raw(path)
         for key, value in (overrides or {}).items():
             apply_override(raw, key, value)
         case = make_case(raw, path.parent.absolute())
-    except InputError as error:
-        raise error.in_file(path) from error.__cause__
     return case.model_copy(update={"file": path})
 
 
@@ -210,9 +207,9 @@ def make_case(raw: dict[str, Any], folder: Path | None, like: Case | None = None
     read; a case with the same keys of the survey shares its stations.
     """
     try:
-        case = Case.model_validate(raw, context=None if folder is None else {"folder": folder})
-    except ValidationError as failure:
-        raise with_bare_lengths(explain(failure, raw, branches=KINDS), raw) from None
+        case = checked(Case, raw, None if folder is None else {"folder": folder})
+    except InputError as error:
+        raise with_bare_lengths(error, raw) from None
     case._written = _Written(without_stations(raw))
     if like is not None:
         case.wellbore.share_trajectory(like.wellbore)
@@ -226,7 +223,7 @@ def make_case(raw: dict[str, Any], folder: Path | None, like: Case | None = None
 def read_raw(path: Path) -> dict[str, Any]:
     """The tables of a case file, unvalidated; raises InputError, which names no file."""
     try:
-        return read_toml(path, LARGEST_FILE, "a case file")
+        return read_toml(path, "a case file")
     except InputError as error:
         if path.suffix.lower() in _OF_SURVEYS and path.is_file():
             raise InputError("a case file in TOML; of a survey, `fctd init` makes one") from error

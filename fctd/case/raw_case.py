@@ -4,14 +4,16 @@ import copy
 import os
 import re
 import tomllib
-from collections.abc import Collection, Mapping
-from typing import Any, Final
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Final, TypeVar
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
-from fctd.case.errors import MISSING, InputError, join_key
+from fctd.case.errors import MISSING, InputError, join_key, naming
 from fctd.case.friction import pick
+from fctd.case.input_file import read_toml
 from fctd.case.text import is_utf8
 
 
@@ -171,15 +173,31 @@ _EXPECTED: Final = {
 }
 
 
-def explain(failure: ValidationError, raw: object, branches: Collection[str]) -> InputError:
-    """All problems that pydantic found in `raw`: the first one, with the others in its `more`.
+Model = TypeVar("Model", bound=BaseModel)
 
-    branches: names that pydantic puts into a path for the members of a union.
+
+def read_model(model: type[Model], path: Path, what: str, context: Mapping[str, Any] | None = None) -> Model:
+    """The tables of a TOML file as a model; what : the file in messages, as "a setup".
+
+    Raises InputError, which names file, key and value.
     """
+    with naming(path):
+        return checked(model, read_toml(path, what), context)
+
+
+def checked(model: type[Model], raw: object, context: Mapping[str, Any] | None = None) -> Model:
+    """Tables as a model; raises InputError with the first problem, and the others in its `more`."""
+    try:
+        return model.model_validate(raw, context=context)
+    except ValidationError as failure:
+        raise _explained(failure, raw) from None
+
+
+def _explained(failure: ValidationError, raw: object) -> InputError:
     written: list[InputError] = []
     derived: list[InputError] = []
     for detail in failure.errors(include_url=False):
-        parts = [part for part in detail["loc"] if part not in branches]
+        parts = _written_parts(detail["loc"], raw)
         error = _from_detail(detail)
         # A default computed from a bad value is bad too; the line of the bad value is enough.
         follows = error.value is not MISSING and look_up(raw, *parts) is MISSING
@@ -187,6 +205,18 @@ def explain(failure: ValidationError, raw: object, branches: Collection[str]) ->
         (derived if follows or uncalled else written).append(error.at(join_key(*parts)))
     first, *more = written or derived
     return InputError(first.expected, key=first.key, value=first.value, more=more)
+
+
+def _written_parts(path: Sequence[str | int], raw: object) -> list[str | int]:
+    """The parts of pydantic's path without the members of unions: the kind of a table, a type where no table stands."""
+    parts: list[str | int] = []
+    place = raw
+    for part in path:
+        of_union = place.get("kind") == part if isinstance(place, Mapping) else place is not MISSING
+        if isinstance(part, int) or not of_union:
+            parts.append(part)
+            place = look_up(place, part)
+    return parts
 
 
 def _from_detail(detail: ErrorDetails) -> InputError:

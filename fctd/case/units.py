@@ -58,6 +58,18 @@ class Dimension:
         """How many SI units one `unit`, as people write it, is; ValueError for one that is not of this dimension."""
         return spellings.factor(unit, self.unit, self.spellings, self.gravity, listed=self.listed)
 
+    def unit_of(self, text: str) -> str | None:
+        """The unit that a text is, in the spelling of the accepted units where they are listed; None for another."""
+        if self.listed:
+            word = self.spellings.get("".join(text.split()).lower())
+            return word if word in self.units or word is None else text
+        try:
+            written = spellings.split(f"1 {text}")
+            self.factor("" if written is None else written.unit)
+        except ValueError:
+            return None
+        return text
+
 
 LENGTH: Final = Dimension("a length", "m", "'12 m' or '40 ft'", ("m", "cm", "mm", "km", "ft", "in"))
 TIME: Final = Dimension("a time", "s", "'10 s' or '2 min'", ("s", "ms", "min", "h"))
@@ -278,6 +290,7 @@ Efficiency = Annotated[float, Number(noun="an efficiency", above=0.0, at_most=1.
 # times as fast.  A larger number is in the wrong unit.
 FASTEST: Final = 10.0  # [m/s]
 MOST_RPM: Final = 10_000.0
+DEEPEST: Final = 50_000.0  # [m] measured depth: four times the deepest well drilled
 Rpm = Annotated[float, Quantity(dimension=ROTATION, at_least=0.0, at_most=MOST_RPM)]
 PositiveRpm = Annotated[float, Quantity(dimension=ROTATION, above=0.0, at_most=MOST_RPM)]
 MeasuredDepth = Annotated[float, Quantity(dimension=LENGTH)]

@@ -19,6 +19,12 @@ def read_xml(text: str, noun: str) -> Element:
         raise InputError(f"{noun} in XML ({error})") from error
 
 
+def has_doctype(content: bytes) -> bool:
+    """Whether a file has a document type, in any letters and in UTF-8 or UTF-16."""
+    upper = content.upper()
+    return any("<!DOCTYPE".encode(encoding) in upper for encoding in ("ascii", "utf-16-le", "utf-16-be"))
+
+
 def tag(element: Element) -> str:
     """The name of an element without its namespace, which is that of the version."""
     return str(element.tag).rpartition("}")[2]

@@ -10,6 +10,7 @@ from uuid import uuid4
 import typer
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
+from fctd.calibration.measured import read_measured
 from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
 from fctd.case.friction import parse_frictions
@@ -70,7 +71,6 @@ from fctd.cli.steady import (
 from fctd.model.depths import read_depths
 from fctd.model.operations import rates_of_all
 from fctd.plots.loads import ChartLook
-from fctd.results.measured import read_measured
 from fctd.results.notes import meanings_of
 from fctd.results.status import SteadyStatus
 from fctd.steady.chart_saver import ChartSaver

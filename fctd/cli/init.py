@@ -1,7 +1,6 @@
 """``fctd init``: a commented case file to start from."""
 
 import os
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -9,8 +8,8 @@ import typer
 
 from fctd.case.errors import InputError
 from fctd.case.load import load_case
-from fctd.case.surveys.headers import KEYS, Wanted, accepted_units, unit_of
-from fctd.case.surveys.stations import UNITS, StationKey
+from fctd.case.surveys.form import SURVEY
+from fctd.case.tables.headers import Choice, parse_choices
 from fctd.case.text import is_utf8, printable
 from fctd.cli.base_command import Silent
 from fctd.cli.options import check_target, messages, screen, tell
@@ -60,7 +59,7 @@ def init_command(
         raise InputError("a file that does not exist yet", key="--out", value=out)
     if survey is None and (columns or sheet is not None):
         raise InputError("a survey beside --columns and --sheet", key="SURVEY")
-    plan = _plan(survey, template, units, out, parse_columns(columns), sheet)
+    plan = _plan(survey, template, units, out, parse_choices(columns, SURVEY), sheet)
     with whole_file(out) as scratch:
         scratch.write_text(plan.text(), encoding="utf-8")
     if not quiet:
@@ -78,7 +77,7 @@ def _plan(
     template: TemplateName | None,
     units: UnitSystem,
     out: Path,
-    columns: dict[StationKey, Wanted],
+    columns: dict[str, Choice],
     sheet: str | None,
 ) -> Plan:
     name = out.stem.replace("_", " ") if is_utf8(out.stem) else "my well"
@@ -93,22 +92,6 @@ def _plan(
     if found.note:
         messages.print(f"warning: {survey}: {found.note}", soft_wrap=True)
     return from_survey(template, name, units, written, found.keys, found.stations)
-
-
-def parse_columns(texts: Sequence[str]) -> dict[StationKey, Wanted]:
-    """Header and unit of the quantities of "azi=Azi Grid" and "md.unit=ft"; InputError for another form."""
-    said: dict[StationKey, Wanted] = {}
-    for text in texts:
-        left, sign, right = (part.strip() for part in text.partition("="))
-        name, dot, of_unit = left.partition(".")
-        key = next((key for key in KEYS if key == name), None)
-        if key is None or not sign or not right or (dot and of_unit != "unit"):
-            raise InputError("KEY=HEADER or KEY.unit=UNIT, with a key md, inc or azi", key="--columns", value=text)
-        before = said.get(key, Wanted())
-        if dot and unit_of(right) not in UNITS[key]:
-            raise InputError(f"a unit of {accepted_units(key)}", key="--columns", value=text)
-        said[key] = Wanted(before.header, unit_of(right)) if dot else Wanted(right, before.unit)
-    return said
 
 
 def _next(plan: Plan, out: Path) -> list[str]:

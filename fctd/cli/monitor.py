@@ -10,8 +10,9 @@ import typer
 from rich.box import SIMPLE_HEAD
 from rich.table import Table
 
-from fctd.case.errors import InputError
+from fctd.case.errors import InputError, naming
 from fctd.case.load import Case, naming_file
+from fctd.case.tables.headers import parse_choices
 from fctd.case.text import counted, printable
 from fctd.cli.options import (
     CaseFile,
@@ -35,7 +36,7 @@ from fctd.monitoring.alarm import Alarm
 from fctd.monitoring.chart import Fit
 from fctd.monitoring.friction import parse_uncertainty
 from fctd.monitoring.monitor import Monitor, Monitored, result_of
-from fctd.monitoring.quantities import QUANTITIES, parse_columns
+from fctd.monitoring.quantities import SERIES
 from fctd.monitoring.series import read_series
 from fctd.monitoring.text_series import Tail
 from fctd.results.unit_systems import System, reworded, shown
@@ -60,7 +61,8 @@ def monitor_command(
         typer.Option(
             "--columns",
             metavar="QUANTITY=HEADER",
-            help=f"Header of a quantity, 'torque=TQA [kN.m]'; quantities: {', '.join(QUANTITIES)}; may be repeated.",
+            help="Header of a quantity, 'torque=TQA [kN.m]', or its unit, torque.unit=kN.m; quantities: "
+            f"{', '.join(field.key for field in SERIES.fields)}; may be repeated.",
         ),
     ] = [],  # noqa: B006 (typer copies it)
     fit: Annotated[
@@ -107,7 +109,7 @@ def monitor_command(
     case = read_case(case_file, changes_of(overrides))
     for key, path in {"--out": out, "--plot": plot}.items():
         refuse_sources(case, path, key, [series])
-    said = parse_columns(columns)
+    said = parse_choices(columns, SERIES)
     with naming_file(case):
         watch = Monitor(
             case, fit, parse_uncertainty(uncertainty, "--uncertainty"), None, read_share(step, "--step"), readings
@@ -123,10 +125,8 @@ def monitor_command(
             _report(watch, case, out, plot, units, quiet)
             raise
     table = read_series(series, said)
-    try:
+    with naming(series):
         _print_alarms([*watch.feed(table), *watch.finish()], units)
-    except InputError as error:
-        raise error.in_file(series) from None
     _report(watch, case, out, plot, units, quiet)
     finish(any(np.isfinite(found.factor) for found in watch.found), ["alarm"] if watch.alarms else [], strict)
 
@@ -134,12 +134,10 @@ def monitor_command(
 def _follow(watch: Monitor, tail: Tail, poll: float, units: System) -> None:
     """Print alarms as their rows come; ends by KeyboardInterrupt alone."""
     while True:
-        try:
+        with naming(tail.path):
             rows = tail.rows()
             if rows is not None:
                 _print_alarms(watch.feed(rows), units)
-        except InputError as error:
-            raise error.in_file(tail.path) from None
         sleep(poll)
 
 

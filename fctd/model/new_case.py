@@ -1,7 +1,7 @@
 """A case file to start from, as text: a template's string in its own well or in that of a survey."""
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, NamedTuple
@@ -11,8 +11,7 @@ import numpy as np
 from fctd.arrays import Array
 from fctd.case.string import ComponentSpec
 from fctd.case.surveys import reading as surveys
-from fctd.case.surveys.headers import NoUnitError, Wanted
-from fctd.case.surveys.stations import StationKey
+from fctd.case.tables.headers import Choice, Choices, NoUnitError
 from fctd.case.units import DENSITY, FORCE, LENGTH, LINEAR_MASS, TORQUE, Dimension, Quantity
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.default_layout import mean_curvature
@@ -270,9 +269,7 @@ class ReadSurvey(NamedTuple):
     note: str
 
 
-def read_survey(
-    path: Path, units: UnitSystem, columns: Mapping[StationKey, Wanted] | None = None, sheet: str | None = None
-) -> ReadSurvey:
+def read_survey(path: Path, units: UnitSystem, columns: Choices | None = None, sheet: str | None = None) -> ReadSurvey:
     """A survey, with what is told of its columns and its sheet.
 
     A file that names no unit of depth is read in that of ``units``.  Raises InputError for a file that cannot be used.
@@ -282,7 +279,7 @@ def read_survey(
     try:
         survey = surveys.read_survey(path, said, sheet)
     except NoUnitError:
-        said["md"] = Wanted(said.get("md", Wanted()).header, unit)
+        said["md"] = Choice(said.get("md", Choice()).header, unit)
         survey = surveys.read_survey(path, said, sheet)
         assumed = f"the file names no unit of depth: {unit} is assumed"
     written = survey.written.units[0]
@@ -293,7 +290,7 @@ def read_survey(
     return ReadSurvey((*of_sheet, *_lines_of(said, assumed)), survey.stations, note)
 
 
-def _lines_of(said: Mapping[StationKey, Wanted], comment: str) -> tuple[str, ...]:
+def _lines_of(said: Choices, comment: str) -> tuple[str, ...]:
     """``columns`` of a case, as a line of TOML."""
     if not said:
         return ()

@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 import pandas as pd
 
-from fctd.case.errors import InputError
+from fctd.case.errors import InputError, naming
 from fctd.case.load import Case, naming_file
 from fctd.case.text import counted
 from fctd.monitoring.alarm import Alarm, Detector, kind_of
@@ -122,11 +122,9 @@ def monitor(
     with naming_file(case):
         watch = Monitor(case, fit, uncertainty, None, step, readings)
     table = series if isinstance(series, pd.DataFrame) else read_series(series, columns)
-    try:
+    with naming(None if isinstance(series, pd.DataFrame) else series):
         watch.feed(table)
         watch.finish()
-    except InputError as error:
-        raise (error if isinstance(series, pd.DataFrame) else error.in_file(series)) from None
     return result_of(watch)
 
 

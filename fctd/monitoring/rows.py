@@ -1,9 +1,7 @@
 """Rows of a series in SI units: cells to numbers, rows that cannot be used, and their counts."""
 
-from __future__ import annotations
-
+import re
 from collections import Counter
-from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
 import numpy as np
@@ -11,61 +9,77 @@ import pandas as pd
 
 from fctd.case.errors import InputError, nearest
 from fctd.case.operations import KINDS
-from fctd.monitoring.quantities import BY_DEPTH, OVER_TIME, QUANTITIES, Column
+from fctd.case.tables.headers import no_unit
+from fctd.case.tables.rows import Numbers, Rows
+from fctd.monitoring.quantities import BY_DEPTH, OVER_TIME, QUANTITIES, SERIES
 
 # Values that stand for none in LAS and WITSML logs.
 NULLS: Final = (-999.25, -999.0, -9999.0, -9999.25, -99999.0)
+NOTHING: Final = ("", "nan", "null", "n/a", "inf", "-inf")
+_DATE: Final = re.compile(r"\d[-/:T]\d")  # or a time of day
+_TIME_OF_DAY: Final = re.compile(r"\d{1,2}:\d{2}")
 # More than this share of rows that go back in time is a series in another order.
 DISORDER: Final = 0.1
 FEW: Final = 20  # rows in which disorder is not judged
 DATES: Final = "a time such as 2007-10-23 08:07:08 (ISO 8601), or a number with its unit in the header"
 
 
-def to_si(
-    cells: pd.DataFrame, numbers: Sequence[int], columns: Mapping[str, Column], decimal_comma: bool
-) -> pd.DataFrame:
-    """A table [SI] of text cells, a column for each quantity in the order of ``columns``.
+class Converter:
+    """Rows of cells to a table [SI]; what the first rows tell of times and decimal commas holds for all."""
 
-    numbers : of the rows in their file, which become the index.  Empty cells and ``NULLS`` are NaN.  Raises
-    InputError, which names row and column, for a cell that is neither a number nor empty.
-    """
-    table: dict[str, Any] = {}
-    for key, column in columns.items():
-        texts = cells[column.place].astype("string").str.strip()
-        texts = texts.mask(texts == "")
-        quantity = QUANTITIES[key]
-        if quantity.dimension is None:
-            table[quantity.column] = texts.to_numpy(object)
-            continue
-        if key == "time" and column.unit is None:
-            table[quantity.column] = _seconds(texts, numbers, column)
-            continue
-        if decimal_comma:
-            texts = texts.str.replace(",", ".", regex=False)
-        values = pd.to_numeric(texts, errors="coerce").to_numpy(float, na_value=np.nan)
-        nothing = texts.isna() | texts.str.casefold().isin(["nan", "null", "n/a"])
-        _refuse(np.isnan(values) & ~nothing.to_numpy(bool), texts, numbers, column, "a number")
+    def __init__(self) -> None:
+        self._numbers = Numbers()
+        self._dated: bool | None = None
+
+    def take(self, rows: Rows) -> pd.DataFrame:
+        """The table of rows, whose numbers become its index.
+
+        Empty cells and ``NULLS`` are NaN.  Raises InputError, which names row and column, for a cell that is neither
+        a number nor empty, and for times that have no unit and are no dates.
+        """
+        time, times = _times(rows)
+        first = next(filter(None, times), None)
+        if first is not None and self._dated is None:
+            self._dated = _DATE.search(first) is not None
+        if first is not None and not self._dated and not rows.columns[time].unit:
+            raise no_unit(rows.columns[time], SERIES)
+        keys = {column: time if field.key == "time" else field.key for column, field in QUANTITIES.items()}
+        keys = {column: key for column, key in keys.items() if key in rows.columns}
+        texts = {"operation", time} if self._dated or first is None else {"operation"}
+        numeric = [key for key in keys.values() if key not in texts]
+        values = self._numbers.read(rows, numeric, NOTHING)
         values[np.isin(values, NULLS) | ~np.isfinite(values)] = np.nan
-        table[quantity.column] = values * column.factor(quantity)
-    return pd.DataFrame(table, index=pd.Index(numbers, name="row"))
+        table: dict[str, Any] = {}
+        for column, key in keys.items():
+            if key in numeric:
+                table[column] = values[:, numeric.index(key)] * rows.columns[key].factor
+            else:
+                table[column] = (
+                    _seconds(rows, key, times) if key == time else [cell or None for cell in rows.texts(key)]
+                )
+        return pd.DataFrame(table, index=pd.Index(rows.numbers, name="row"))
 
 
-def _seconds(texts: pd.Series[Any], numbers: Sequence[int], column: Column) -> np.ndarray[Any, Any]:
+def _times(rows: Rows) -> tuple[str, list[str]]:
+    """The key of the column of times, and its texts, those of a day with the date beside them."""
+    dates, times = rows.texts("date"), rows.texts("time")
+    if "time" not in rows.columns:
+        return "date", dates
+    if "date" in rows.columns and any(map(_TIME_OF_DAY.match, times)):
+        times = [f"{date} {time}" if date and time else "" for date, time in zip(dates, times, strict=True)]
+    return "time", times
+
+
+def _seconds(rows: Rows, key: str, texts: list[str]) -> np.ndarray[Any, Any]:
     """Seconds since 1970 of dates."""
-    times = pd.to_datetime(texts, errors="coerce", format="ISO8601", utc=True)
-    _refuse((times.isna() & texts.notna()).to_numpy(), texts, numbers, column, DATES)
+    times = pd.Series(pd.to_datetime(texts, errors="coerce", format="ISO8601", utc=True))
+    bad = np.flatnonzero(times.isna() & np.array(list(map(bool, texts))))
+    if len(bad):
+        more = f" ({len(bad)} such cells)" if len(bad) > 1 else ""
+        raise rows.error(int(bad[0]), key, DATES + more)
     seconds = times.to_numpy("datetime64[ms]").astype(float) / 1e3
     seconds[times.isna().to_numpy()] = np.nan
     return seconds
-
-
-def _refuse(
-    bad: np.ndarray[Any, Any], texts: pd.Series[Any], numbers: Sequence[int], column: Column, expected: str
-) -> None:
-    if bad.any():
-        first = int(np.flatnonzero(bad)[0])
-        more = f" ({int(bad.sum())} such cells)" if bad.sum() > 1 else ""
-        raise InputError(f"{expected}{more}", key=f"row {numbers[first]}, {column.header}", value=texts.iloc[first])
 
 
 class Cleaner:
@@ -83,8 +97,10 @@ class Cleaner:
         """The rows that can be used.  Raises InputError for an unknown operation and for a series in disorder."""
         over_time = "time_s" in table
         kept = table
-        for key in OVER_TIME if over_time else BY_DEPTH:
-            column = QUANTITIES[key].column
+        for column, field in QUANTITIES.items():
+            key = field.key
+            if key not in (OVER_TIME if over_time else BY_DEPTH):
+                continue
             if not over_time and key in ("hook_load", "torque"):
                 continue  # a row by depth has the reading that its operation needs
             missing = kept[column].isna()

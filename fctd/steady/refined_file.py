@@ -9,8 +9,8 @@ from typing import Any
 import tomlkit
 
 from fctd.case.errors import InputError
-from fctd.case.input_file import read_text
-from fctd.case.load import LARGEST_FILE, Case, load_case
+from fctd.case.input_file import LARGEST_FILE, read_text
+from fctd.case.load import Case, load_case
 from fctd.case.raw_case import apply_override, look_up, split_key
 from fctd.case.string import ComponentSpec
 from fctd.case.text import is_utf8
@@ -38,7 +38,7 @@ def survey_from(out: Path, case: Case) -> str | None:
 
 def changed_document(source: Path, overrides: Mapping[str, Any]) -> Any:
     """The case file ``source`` with its comments and units, changed by ``overrides``, as a document of tomlkit."""
-    raw: Any = tomlkit.parse(read_text(source, LARGEST_FILE))
+    raw: Any = tomlkit.parse(read_text(source, LARGEST_FILE, "a case file"))
     for key, value in overrides.items():
         if value is None:
             *parents, last = split_key(key)

@@ -18,7 +18,7 @@ from pathlib import Path
 from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING, Any, Final
 
-from fctd.case.errors import InputError
+from fctd.case.errors import InputError, naming
 from fctd.sweep.chunk import (
     CRASHED,
     NO_ROWS,
@@ -32,7 +32,7 @@ from fctd.sweep.chunk import (
 from fctd.sweep.cluster import ClusterChoice, check_sources, connected, worker_count
 from fctd.sweep.dataset import Dataset, alone, begin_dataset
 from fctd.sweep.design import sample_of, samples_of
-from fctd.sweep.spec import SweepSpec, naming_file
+from fctd.sweep.spec import SweepSpec
 from fctd.sweep.template import Template, template_of
 from fctd.sweep.work import Task, misfit, task_of
 
@@ -103,7 +103,7 @@ def prepare(spec: SweepSpec) -> tuple[SampleRunner, pd.DataFrame]:
 
     The cases of some samples are made, among them those with the extremes of each parameter.
     """
-    with naming_file(spec):
+    with naming(spec.file):
         samples = samples_of(spec)
         template = template_of(spec, sample_of(samples, 0))
         task = task_of(spec.work, template.base)

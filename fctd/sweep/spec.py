@@ -4,21 +4,17 @@ A number is bare or has its unit, as in a case file; all numbers of one paramete
 """
 
 import os
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
 from decimal import Decimal
 from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal, Self
 
-from pydantic import Field, StrictBool, ValidationError, field_validator, model_validator
+from pydantic import Field, StrictBool, field_validator, model_validator
 
 from fctd.case import units
 from fctd.case.errors import InputError, Table
-from fctd.case.input_file import read_toml
-from fctd.case.load import LARGEST_FILE
 from fctd.case.operations import KINDS
-from fctd.case.raw_case import explain, split_key
+from fctd.case.raw_case import read_model, split_key
 from fctd.case.spellings import split
 from fctd.sweep.limits import LimitSpec
 from fctd.sweep.survey_errors import SurveyErrors
@@ -320,29 +316,11 @@ class SweepSpec(Table):
             raise InputError("a power of 2, as Sobol's sequence needs", key="samples")
 
 
-@contextmanager
-def naming_file(spec: SweepSpec) -> Iterator[None]:
-    """Add the sweep's file to an InputError that is raised inside and names none."""
-    try:
-        yield
-    except InputError as error:
-        raise (error if spec.file is None else error.in_file(spec.file)) from error.__cause__
-
-
 def read_sweep(path: str | os.PathLike[str]) -> SweepSpec:
     """The sweep of a TOML file, whose case is then a path from the current folder.
 
     Raises InputError, which names file, key and value.
     """
     path = Path(path)
-    raw: Mapping[str, Any] = {}
-    try:
-        raw = read_toml(path, LARGEST_FILE, "a sweep file")
-        spec = SweepSpec.model_validate(raw, context={})
-    except ValidationError as failure:
-        raise explain(failure, raw, branches=("str", "float", "int", "bool", "lax-or-strict[bool]")).in_file(
-            path
-        ) from None
-    except InputError as error:
-        raise error.in_file(path) from error.__cause__
+    spec = read_model(SweepSpec, path, "a sweep file", context={})
     return spec.model_copy(update={"case": path.parent / spec.case, "file": path})

@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
-from fctd.case.errors import InputError
+from fctd.case.errors import InputError, naming
 from fctd.sweep.dataset import Dataset
 from fctd.sweep.indices import indices_of
 from fctd.sweep.percentiles import columns_of, convergence_table, percentile_table
 from fctd.sweep.probabilities import probability_table
-from fctd.sweep.spec import SweepSpec, naming_file
+from fctd.sweep.spec import SweepSpec
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -64,7 +64,7 @@ def assess(dataset: Dataset, spec: SweepSpec, bit_depth: float | None = None) ->
     if "operation" not in rows:
         raise InputError("a sweep of which a sample has an answer", value=dataset.folder)
     apart, count = independent(rows, spec, len(dataset.samples))
-    with naming_file(spec):
+    with naming(spec.file):
         columns = columns_of(rows, spec.uncertainty.columns)
         probabilities = probability_table(apart, spec.uncertainty.limits, count)
     depth, at = _at(rows, bit_depth)

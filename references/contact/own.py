@@ -4,14 +4,13 @@ from typing import ClassVar, Literal
 
 import numpy as np
 from numba import njit
-from pydantic import ValidationError
 
 from fctd.arrays import Array
 from fctd.case import units
 from fctd.case.errors import Table
 from fctd.case.hole import WellboreSpec
 from fctd.case.load import Case
-from fctd.case.raw_case import explain
+from fctd.case.raw_case import checked
 from fctd.mechanics import contact
 from fctd.mechanics.state import ARCS
 from fctd.model.pieces import RADIUS
@@ -72,10 +71,7 @@ def _hole(case: Case, geometry: Literal["cylinders", "arcs"], options: Table) ->
     spec = case.wellbore.model_dump(exclude_none=True)
     if changes.keys() & {"cylinder_length", "chord_tolerance"}:  # only one of the two keys is allowed
         spec = {key: value for key, value in spec.items() if key not in ("cylinder_length", "chord_tolerance")}
-    try:
-        return build_wellbore(case.model_copy(update={"wellbore": WellboreSpec.model_validate(spec | changes)}))
-    except ValidationError as failure:
-        raise explain(failure, spec | changes, ()) from None
+    return build_wellbore(case.model_copy(update={"wellbore": checked(WellboreSpec, spec | changes)}))
 
 
 def _empty(n: int) -> Contacts:

@@ -5,7 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fctd.calibration.rows import OPERATIONS, Range, read_rows
+from fctd.calibration.measured_file import OPERATIONS
+from fctd.calibration.rows import Range, read_rows
 from fctd.case.errors import InputError
 from tests.calibration.wells import well
 
@@ -56,51 +57,6 @@ def test_a_string_may_be_another_case_beside_the_rows(tmp_path: Path) -> None:
     assert strings[rows[0].string].name == "wiper"
     with pytest.raises(InputError, match=r"row 2, bit_depth_m = \"900\": expected a depth in the well.*800 m"):
         read_rows(written(tmp_path, text.replace("700", "900")), well(), {}, measured=True)
-
-
-@pytest.mark.parametrize(
-    ("row", "expected"),
-    [
-        (",1000,trip_inn,1,,,,", ['row 3, operation = "trip_inn"', "trip_in"]),
-        (",1000,trip_in,heavy,,,,", ['row 3, hookload_kN = "heavy"', "a number"]),
-        (",1000,rotate_off_bottom,,5,4,60,", ["row 3, torque", "that rise"]),
-        (",1000,rotate_off_bottom,,5,,60,", ["row 3, torque", "both ends"]),
-        (",1600,trip_in,1,,,,", ['row 3, bit_depth_m = "1600"', "down to 1500 m"]),
-        (",,trip_in,1,,,,", ["row 3, bit_depth_m", "a depth in the well"]),
-        (",1000,trip_in,-5,,,,", ["row 3, hookload_kN", "at least 0"]),
-        (",1000,trip_in,1e300,,,,", ['row 3, hookload_kN = "1e300"', "at most 1e+09 N"]),
-        (",1000,rotate_off_bottom,,1e9,,60,", ["row 3, torque_low_kN_m", "at most 1e+08 N*m"]),
-        (",1000,trip_in,,,,,", ["row 3", "a hook load or a torque"]),
-        (",,in_slips,1,1,2,,", ["row 3", "no torque for in_slips"]),
-        (",1000,drill_sliding,1,,,60,", ['row 3, rpm = "60"', "rev/min of 0 for drill_sliding"]),
-        (",1000,rotate_off_bottom,1,,,60,0.3", ["row 3, speed_m_s", "a speed of 0"]),
-        ("first,1000,trip_in,1,,,,", ["row 3, id", "no row above"]),
-    ],
-)
-def test_a_bad_row_is_answered_with_file_row_and_column(row: str, expected: list[str], tmp_path: Path) -> None:
-    with pytest.raises(InputError) as raised:
-        read_rows(written(tmp_path, f"{HEADERS}\nfirst,1000,trip_in,500,,,,\n{row}\n"), well(), {}, measured=True)
-    for part in ("rows.csv", *expected):
-        assert part in str(raised.value)
-
-
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        ("bit_depth,operation,hookload_kN\n1,trip_in,1\n", ['"bit_depth"', "ends in its unit"]),
-        ("bit_depth_m,operation,speed\n1,trip_in,1\n", ['"speed"', "ends in its unit"]),
-        ("bit_depth_m,hookload_kN\n1,1\n", ["a column of operation"]),
-        ("bit_depth_m,operation\n1,trip_in\n", ["a column of hook load or torque"]),
-        ("bit_depth_m,operation,hookload_kN,weight\n900,trip_in,1,0\n", ["row 2, weight", "above 0"]),
-        ("bit_depth_m,operation,hookload_kN,weight\n900,trip_in,1,1e300\n", ["row 2, weight", "at most 1e+06"]),
-        ("bit_depth_m,operation,hookload_kN,string\n900,trip_in,1,x\n", ["row 2, string", "case file that exists"]),
-    ],
-)
-def test_bad_headers(text: str, expected: list[str], tmp_path: Path) -> None:
-    with pytest.raises(InputError) as raised:
-        read_rows(written(tmp_path, text), well(), {}, measured=True)
-    for part in expected:
-        assert part in str(raised.value)
 
 
 def test_a_prediction_needs_no_loads(tmp_path: Path) -> None:

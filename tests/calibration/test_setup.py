@@ -60,11 +60,6 @@ def test_a_wrong_setup_is_answered_with_file_and_key(text: str, expected: str, t
     assert expected in str(raised.value)
 
 
-def test_a_setup_that_is_not_there(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="a setup that can be read"):
-        read_setup(tmp_path / "none.toml")
-
-
 def test_scatter_resolution_and_torque_of_a_bit(tmp_path: Path) -> None:
     text = """
     [sources.DDR]

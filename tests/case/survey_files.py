@@ -71,9 +71,9 @@ WRONG: list[tuple[str, Keys, str | bytes, str]] = [
         'row 1 = "DEPTH": expected a header with its unit, such as "DEPTH (m)", or the unit in the case: '
         'columns = {md = {header = "DEPTH", unit = "m"}} (or "ft"; for init: --columns md.unit=m)',
     ),
-    ("depth in km", {}, text("Depth (km),Inc,Azi"), 'row 1 = "Depth (km)": expected a unit of m or ft'),
+    ("depth in km", {}, text("Depth (km),Inc,Azi"), 'row 1 = "Depth (km)": expected a unit of m, ft or usft'),
     ("azimuth in gon", {}, text("MD_m,Inc,Azi [gon]"), 'row 1 = "Azi [gon]": expected a unit of deg or rad'),
-    ("row of units in km", {}, text("MD,Inc,Azi\nkm,deg,deg"), 'row 2, MD = "km": expected a unit of m or ft'),
+    ("row of units in km", {}, text("MD,Inc,Azi\nkm,deg,deg"), 'row 2, MD = "km": expected a unit of m, ft or usft'),
     ("two units", {}, text("MD (m),Inc,Azi\nft,deg,deg"), 'row 2, MD (m) = "ft": expected m, as the header says'),
     (
         "two units, in a row that looks like a comment",
@@ -87,7 +87,7 @@ WRONG: list[tuple[str, Keys, str | bytes, str]] = [
         text("MD,Inc,Azi\nm,,\n# ft,deg,deg"),
         'row 3, MD = "ft": expected m, as row 2 says',
     ),
-    ("two units in one header", {}, text("MD m (ft),Inc,Azi"), 'row 1 = "MD m (ft)": expected a unit of m or ft'),
+    ("two units in one header", {}, text("MD m (ft),Inc,Azi"), 'row 1 = "MD m (ft)": expected a unit of m, ft or usft'),
     (
         "a letter that may be that of a unit or of measured",
         {},
@@ -146,8 +146,8 @@ WRONG: list[tuple[str, Keys, str | bytes, str]] = [
         "no column of azimuth",
         {},
         text("md_m,inc,TVD"),
-        'column azi_deg or azi_rad is missing: expected it among the headers "md_m", "inc", "TVD", or another header '
-        "named in columns (for init: --columns 'azi=HEADER')",
+        'column azi_deg is missing: expected it among the headers "md_m", "inc", "TVD", or its header in the case: '
+        "columns.azi = {header = \"HEADER\"} (for init: --columns 'azi=HEADER')",
     ),
     (
         "another file",
@@ -159,8 +159,8 @@ WRONG: list[tuple[str, Keys, str | bytes, str]] = [
         "prose",
         {},
         "# A well\n\nDepth and azimuth of this well\nare not listed here.\n",
-        'column inc_deg or inc_rad is missing: expected it among the headers "Depth", "and", "azimuth", "of", "this", '
-        "\"well\", or another header named in columns (for init: --columns 'inc=HEADER')",
+        'column inc_deg is missing: expected it among the headers "Depth", "and", "azimuth", "of", "this", "well", or '
+        "its header in the case: columns.inc = {header = \"HEADER\"} (for init: --columns 'inc=HEADER')",
     ),
     (
         "no headers",
@@ -283,7 +283,7 @@ WRONG: list[tuple[str, Keys, str | bytes, str]] = [
         "WITSML in km",
         {},
         witsml("S1").replace('<md uom="ft">', '<md uom="km">'),
-        'trajectoryStation 1, md, uom = "km": expected m or ft',
+        'trajectoryStation 1, md, uom = "km": expected a unit of m, ft or usft',
     ),
     (
         "WITSML of two units",

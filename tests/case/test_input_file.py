@@ -54,16 +54,16 @@ def test_the_limit_is_named(read: Callable[[Path], object], limit: int, tmp_path
 def test_a_file_of_the_limit_is_read(tmp_path: Path) -> None:
     path = tmp_path / "large"
     path.write_bytes(b"a" * 2**20)
-    assert len(read_text(path, 1)) == 2**20
+    assert len(read_text(path, 1, "a text")) == 2**20
     path.write_bytes(b"a" * (2**20 + 1))
     with pytest.raises(InputError, match="at most 1 MiB"):
-        read_text(path, 1)
+        read_text(path, 1, "a text")
 
 
 def test_line_ends_and_byte_order_mark(tmp_path: Path) -> None:
     path = tmp_path / "text"
     path.write_bytes(b"\xef\xbb\xbfa\r\nb\rc\n")
-    assert read_text(path, 1) == "a\nb\nc\n"
+    assert read_text(path, 1, "a text") == "a\nb\nc\n"
 
 
 @pytest.mark.parametrize(
@@ -80,7 +80,7 @@ def test_a_file_that_is_not_toml_says_why(content: bytes | None, expected: str, 
     if content is not None:
         path.write_bytes(content)
     with pytest.raises(InputError, match=expected):
-        read_toml(path, 1, "a setup")
+        read_toml(path, "a setup")
 
 
 @pytest.mark.parametrize(
@@ -96,7 +96,7 @@ def test_the_line_that_is_no_toml_is_shown(line: str, hint: str, tmp_path: Path)
     path = tmp_path / "setup.toml"
     path.write_text(f"y = 1\n{line}\n", encoding="utf-8")
     with pytest.raises(InputError) as caught:
-        read_toml(path, 1, "a setup")
+        read_toml(path, "a setup")
     assert (caught.value.key, caught.value.value) == ("line 2", line)
     assert caught.value.expected.startswith("a setup in TOML (")
     assert caught.value.expected.endswith(f"; {hint}")
@@ -105,4 +105,4 @@ def test_the_line_that_is_no_toml_is_shown(line: str, hint: str, tmp_path: Path)
 def test_a_toml_file_is_read_with_its_mark_and_line_ends(tmp_path: Path) -> None:
     path = tmp_path / "setup.toml"
     path.write_bytes(b"\xef\xbb\xbfx = 1\r\n[y]\r\nz = [2]\r\n")
-    assert read_toml(path, 1, "a setup") == {"x": 1, "y": {"z": [2]}}
+    assert read_toml(path, "a setup") == {"x": 1, "y": {"z": [2]}}

@@ -1,5 +1,6 @@
 """The case as it is written: dotted keys, and overrides."""
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -8,9 +9,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from fctd.calibration.setup import read_setup
 from fctd.case.errors import MISSING, InputError, join_key
 from fctd.case.load import load_case
 from fctd.case.raw_case import look_up, parse_override, set_key, split_key
+from fctd.sweep.spec import read_sweep
 from tests.case.test_load import refusal
 
 # --- keys ------------------------------------------------------------------------------------------
@@ -146,3 +149,22 @@ def test_parse_override(text: str, key: str, value: object) -> None:
 def test_parse_override_refuses(text: str) -> None:
     with pytest.raises(InputError, match="expected key=value"):
         parse_override(text)
+
+
+SETUP = "[unknowns.a]\nbounds = [1, [2]]"
+SWEEP = 'name = "s"\ncase = "c"\nmethod = "grid"\nwork = {operations = ["trip_in"], depths = [1, "x"]}'
+
+
+@pytest.mark.parametrize(
+    ("read", "text", "keys"),
+    [(read_setup, SETUP, {"unknowns.a.bounds[1]"}), (read_sweep, SWEEP, {"work.depths", "work.depths[1]"})],
+)
+def test_names_of_the_members_of_unions_are_no_keys(
+    read: Callable[[Path], object], text: str, keys: set[str], tmp_path: Path
+) -> None:
+    """pydantic puts them into the path of an error."""
+    path = tmp_path / "file.toml"
+    path.write_text(text)
+    with pytest.raises(InputError) as caught:
+        read(path)
+    assert {caught.value.key, *(other.key for other in caught.value.more)} == keys

@@ -4,6 +4,7 @@ import io
 import os
 import time
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 from random import Random
 
@@ -14,11 +15,11 @@ from hypothesis import strategies as st
 
 from fctd.case.errors import InputError
 from fctd.case.load import load_case
-from fctd.case.surveys import table
+from fctd.case.surveys import reading
 from fctd.case.surveys import witsml as xml
 from fctd.case.surveys import workbook as sheets
-from fctd.case.surveys.headers import Wanted
 from fctd.case.surveys.reading import read_survey
+from fctd.case.tables.headers import Choice
 from tests.case.survey_files import DEPTH, HEADERS, SHEET, WRONG, WRONG_WORKBOOKS, Keys, witsml, workbook
 
 
@@ -79,7 +80,7 @@ def test_a_workbook_that_is_large_when_unpacked(tmp_path: Path, monkeypatch: pyt
 
 
 def test_the_largest_survey_is_read_to_its_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(table, "MOST_STATIONS", 3)
+    monkeypatch.setattr(reading, "SURVEY", replace(reading.SURVEY, most=3))
     path = tmp_path / "survey.csv"
     rows = [HEADERS, "0,0,0", "10,0,0", "20,0,0", "30,0,x"]
     path.write_text("\n".join(rows[:-1]))
@@ -190,7 +191,7 @@ def check_read(factory: pytest.TempPathFactory, content: bytes) -> None:
     path = factory.mktemp("bytes") / "survey"
     path.write_bytes(content)
     try:
-        found = read_survey(path, {"md": Wanted(None, "m")} if len(content) % 2 else None).stations
+        found = read_survey(path, {"md": Choice(None, "m")} if len(content) % 2 else None).stations
     except InputError as error:
         said = str(error)
     else:

@@ -134,7 +134,7 @@ def test_the_string_follows_the_survey(steepest: int, pipe: str, here: Path, cli
         (["--template", "j-well"], "'j-well' is not one of 'build-hold', 'horizontal'"),
         (["--columns", "md=Depth"], "SURVEY is missing: expected a survey beside --columns"),
         (["bad.csv", "--columns", "depth=MD"], '--columns = "depth=MD": expected KEY=HEADER or KEY.unit=UNIT'),
-        (["bad.csv", "--columns", "md.unit=km"], '--columns = "md.unit=km": expected a unit of m or ft'),
+        (["bad.csv", "--columns", "md.unit=km"], '--columns = "md.unit=km": expected a unit of m, ft or usft'),
         (["bad.csv", "--sheet", "A"], 'bad.csv: sheet = "A": expected no sheet for a text in columns'),
         (["--units", "si"], "'si' is not one of 'metric', 'field'"),
     ],

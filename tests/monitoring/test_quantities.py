@@ -3,71 +3,76 @@
 import pytest
 
 from fctd.case.errors import InputError
-from fctd.monitoring.quantities import QUANTITIES, check_columns, count_quantities, find_columns, parse_columns
+from fctd.case.tables.fields import Column
+from fctd.case.tables.headers import Choice, Choices, find_columns, parse_choices, with_units
+from fctd.monitoring.quantities import SERIES
 
 REAL = [
     "date", "Hole Depth (MD) m", "Bit Depth (MD) m", "Block Position m", "Mud Flow In L/min", "Average Hookload kkgf",
     "Average Surface Torque kN.m", "Average Rotary Speed rpm", "Weight on Bit kkgf", "Rate of Penetration m/h",
 ]  # fmt: skip
+OVER_TIME = ["time_s", "bit_depth_m", "hook_load_kN", "torque_N_m", "rpm", "bpos_m"]
+
+
+def columns(headers: list[str], units: list[str] | None = None, choices: Choices | None = None) -> dict[str, Column]:
+    found = find_columns((0, headers), SERIES, choices or {})
+    return with_units(found, [(0, units or [])], (), SERIES, choices or {})
 
 
 def test_the_headers_of_a_real_file() -> None:
-    found = find_columns(REAL)
+    found = columns(REAL)
     assert {key: column.place for key, column in found.items()} == {
-        "time": 0, "hole_depth": 1, "bit_depth": 2, "block_position": 3, "flow": 4, "hook_load": 5, "torque": 6,
+        "date": 0, "hole_depth": 1, "bit_depth": 2, "block_position": 3, "flow": 4, "hook_load": 5, "torque": 6,
         "rpm": 7, "weight_on_bit": 8,
     }  # fmt: skip
-    assert found["hook_load"].factor(QUANTITIES["hook_load"]) == pytest.approx(9806.65)  # 1,000 kgf, exact
+    assert found["hook_load"].factor == pytest.approx(9806.65)  # 1,000 kgf, exact
 
 
 @pytest.mark.parametrize(
-    ("header", "key", "unit"),
+    ("header", "expected"),
     [
-        ("HKLA (klbf)", "hook_load", "klbf"),
-        ("hook_load_kN", "hook_load", "kN"),
-        ("Torque [ft-lbf]", "torque", "ft-lbf"),
-        ("drive_torque_N_m", "torque", "N*m"),
-        ("DMEA.M", "hole_depth", "M"),
-        ("RPM", "rpm", None),
-        ("BPOS", "block_position", None),
+        ("HKLA (klbf)", [("hook_load", "klbf")]),
+        ("hook_load_kN", [("hook_load", "kN")]),
+        ("Torque [ft-lbf]", [("torque", "ft-lbf")]),
+        ("drive_torque_N_m", [("torque", "N*m")]),
+        ("DMEA.M", [("hole_depth", "M")]),
+        ("RPM", [("rpm", None)]),
+        ("BPOS", [("block_position", None)]),
+        *((other, []) for other in ("Total Gas", "Torque Limit kN.m", "depth", "hook", "")),
     ],
 )
-def test_names_and_units(header: str, key: str, unit: str | None) -> None:
-    (found,) = find_columns([header]).items()
-    assert (found[0], found[1].unit) == (key, unit)
-
-
-@pytest.mark.parametrize("header", ["Total Gas", "torque_m", "depth", "hook", ""])
-def test_other_headers_are_passed_over(header: str) -> None:
-    assert count_quantities([header], {}) == 0
+def test_names_and_units(header: str, expected: list[tuple[str, str | None]]) -> None:
+    found = [column for field in SERIES.fields if (column := field.read(header)) is not None]
+    assert [(column.field.key, column.unit) for column in found] == expected
 
 
 def test_a_header_that_is_told_goes_before_the_names() -> None:
-    said = parse_columns(["torque=TQX [kft.lbf]", "hook_load=W"])
-    found = find_columns(["torque_N_m", "TQX", "W"], ["", "", "kN"], said)
-    assert (found["torque"].place, found["torque"].unit) == (1, "kft.lbf")
+    choices = parse_choices(["torque=TQX [kft.lbf]", "hook_load=W"], SERIES) | {"rpm": Choice("R", "rev/s")}
+    headers = ["time_s", "bit_depth_m", "bpos_m", "torque_N_m", "TQX", "W", "R"]
+    found = columns(headers, ["", "", "", "", "", "kN", ""], choices)
+    assert (found["torque"].place, found["torque"].unit) == (4, "kft.lbf")
     assert found["hook_load"].unit == "kN"
+    assert found["rpm"].factor == 60
 
 
-@pytest.mark.parametrize("text", ["torque", "torque=", "twist=TQ"])
+@pytest.mark.parametrize("text", ["torque", "torque=", "twist=TQ", "torque.unit=m", "operation.unit=m"])
 def test_a_wrong_option_is_refused(text: str) -> None:
     with pytest.raises(InputError, match="--columns"):
-        parse_columns([text])
+        parse_choices([text], SERIES)
 
 
 @pytest.mark.parametrize(
-    ("headers", "expected"),
+    ("headers", "units", "key", "expected"),
     [
-        (["time_s", "bit_depth_m", "rpm"], "hook_load, torque, block_position"),
-        (["time_s", "bit_depth_m", "hook_load", "torque_N_m", "rpm", "bpos_m"], "hook_load.*with its unit"),
-        (["bit_depth_m", "operation"], "hook_load, torque"),
+        (["time_s", "bit_depth_m", "rpm"], [], "column hook_load_kN", "its header by --columns 'hook_load=HEADER'"),
+        ([*OVER_TIME[:2], "hook_load", *OVER_TIME[3:]], [], "headers", "a header with its unit.*by --columns"),
+        ([*OVER_TIME[:3], "torque_m", *OVER_TIME[4:]], [], "headers", "a unit of N"),
+        (["bit_depth_m", "operation"], [], "column hook_load_kN", "it among the headers"),
+        ([*OVER_TIME, "TQA"], [], "headers, columns of torque", "one column.*choice by --columns 'torque=torque_N_m'"),
+        (OVER_TIME, ["s", "ft", "", "", "", ""], "headers, bit_depth_m", "m, as the header says"),
     ],
 )
-def test_what_lacks_is_named(headers: list[str], expected: str) -> None:
-    with pytest.raises(InputError, match=expected):
-        check_columns(find_columns(headers), headers, text_time=False)
-
-
-def test_two_columns_of_a_quantity_are_refused() -> None:
-    with pytest.raises(InputError, match="one column of torque"):
-        find_columns(["torque_N_m", "TQA"])
+def test_what_lacks_or_is_there_twice_is_named(headers: list[str], units: list[str], key: str, expected: str) -> None:
+    with pytest.raises(InputError, match=expected) as refused:
+        columns(headers, units)
+    assert refused.value.key == key

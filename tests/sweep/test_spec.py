@@ -112,14 +112,6 @@ def test_a_wrong_file_is_answered_by_key_and_expected_value(name: str, tmp_path:
         assert word in text
 
 
-def test_a_missing_file_and_one_that_is_no_toml_are_answered(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="a sweep file that can be read"):
-        read_sweep(tmp_path / "none.toml")
-    (tmp_path / "bad.toml").write_text("name = [", encoding="utf-8")
-    with pytest.raises(InputError, match="a sweep file in TOML"):
-        read_sweep(tmp_path / "bad.toml")
-
-
 def test_values_with_a_unit_are_numbers_and_other_texts_stay() -> None:
     made = ParameterSpec.model_validate({"key": "bit.weight_on_bit", "values": ["20 kN", "60.5 kN"]})
     assert (made.unit, made.choices) == ("kN", (20.0, 60.5))

@@ -14,10 +14,10 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple, Self
 
 import pandas as pd
-from pydantic import Field, ValidationError, model_validator
+from pydantic import Field, model_validator
 
 from fctd.case.errors import MISSING, InputError, Table, exclusive
-from fctd.case.raw_case import explain, look_up
+from fctd.case.raw_case import checked, look_up
 from fctd.store.parquet import read_frame
 from validation.harness import store
 from validation.harness.registry import STUDIES
@@ -186,9 +186,9 @@ def read_ledger(path: Path = CLAIMS) -> Ledger:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise InputError(f"a TOML file: {error}", file=path.name) from None
     try:
-        return Ledger.model_validate(raw)
-    except ValidationError as failure:
-        raise _named(explain(failure, raw, ()), raw).in_file(path.name) from None
+        return checked(Ledger, raw)
+    except InputError as error:
+        raise _named(error, raw).in_file(path.name) from None
 
 
 def _named(error: InputError, raw: Any) -> InputError:

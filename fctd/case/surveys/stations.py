@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd.case.errors import InputError
+from fctd.case.units import DEEPEST
 
 StationKey = Literal["md", "inc", "azi"]
 Where = Callable[[int, int], tuple[str, object]]
@@ -24,9 +25,7 @@ UNITS: Final[dict[StationKey, dict[str, float]]] = {
     "azi": {"deg": 1.0, "rad": float(np.degrees(1.0))},
 }
 _SAME: Final = 1e-9  # m and deg: rows closer than this are one station written twice
-# Four times the deepest well drilled, and a station every half metre of it: a file beyond these limits is no survey.
-DEEPEST: Final = 50_000.0  # [m] measured depth
-MOST_STATIONS: Final = 100_000
+MOST_STATIONS: Final = 100_000  # one every half metre of the deepest well: a file of more is no survey
 TIE_IN: Final = -1
 
 

@@ -4,51 +4,40 @@ from collections.abc import Sequence
 from typing import Final
 from xml.etree.ElementTree import Element
 
-import numpy as np
-
 from fctd.case.errors import InputError, nearest, show
-from fctd.case.surveys.headers import KEYS, accepted_units, unit_of
-from fctd.case.surveys.stations import MOST_STATIONS, UNITS, StationKey, Where, Written
-from fctd.case.surveys.table import read_number
+from fctd.case.surveys.form import SURVEY
+from fctd.case.surveys.stations import MOST_STATIONS
+from fctd.case.tables.fields import Column
+from fctd.case.tables.rows import Rows
 from fctd.case.xml_file import child, read_xml, tag, text_of
 
 # Status of a station (TrajStationStatus) that is no longer in use; the others are open and position.
 _STATUS, _REJECTED = "statusTrajStation", "rejected"
-_ELEMENTS: Final[dict[StationKey, str]] = {"md": "md", "inc": "incl", "azi": "azi"}
+_ELEMENTS: Final[dict[str, str]] = {"md": "md", "inc": "incl", "azi": "azi"}
 
 
-def read_witsml(text: str, name: str | None) -> Written:
-    """The stations of the named trajectory, else of the only one.
+def read_witsml(text: str, name: str | None) -> tuple[Rows, list[int]]:
+    """The stations of the named trajectory, else of the only one, and the numbers of those that are ``rejected``.
 
-    Stations without a direction are left out, and those whose status is ``rejected``.
-    Raises InputError, which names station and element, for what cannot be read.
+    Rejected stations and those without a direction are left out.  Raises InputError, which names station and element,
+    for what cannot be read.
     """
     trajectory = _choose(read_xml(text, "a WITSML trajectory"), name)
-    stations, rejected = [], []
-    for place, station in enumerate((e for e in trajectory if tag(e) == "trajectoryStation"), start=1):
+    rejected, numbers = [], []
+    elements: dict[str, list[Element | None]] = {key: [] for key in _ELEMENTS}
+    for number, station in enumerate((e for e in trajectory if tag(e) == "trajectoryStation"), start=1):
+        found = {key: child(station, element) for key, element in _ELEMENTS.items()}
         if text_of(child(station, _STATUS)) == _REJECTED:
-            rejected.append(place)
-        else:
-            stations.append((place, [child(station, element) for element in _ELEMENTS.values()]))
-    stations = [(number, cells) for number, cells in stations if cells[1] is not None or cells[2] is not None]
-    if len(stations) > MOST_STATIONS:
+            rejected.append(number)
+        elif found["inc"] is not None or found["azi"] is not None:
+            numbers.append(number)
+            for key, element in found.items():
+                elements[key].append(element)
+    if len(numbers) > MOST_STATIONS:
         raise InputError(f"at most {MOST_STATIONS} stations")
-
-    def where(row: int, column: int) -> tuple[str, object]:
-        number, cells = stations[row]
-        return f"trajectoryStation {number}, {_ELEMENTS[KEYS[column]]}", text_of(cells[column])
-
-    units = [_common_unit(key, [cells[column] for _, cells in stations], where) for column, key in enumerate(KEYS)]
-    values = np.empty((len(stations), len(KEYS)))
-    for row, column in np.ndindex(values.shape):
-        key, cell = where(row, column)
-        number = read_number(str(cell))
-        if number is None:
-            raise InputError("a number", key=key, value=cell)
-        values[row, column] = number
-    numbers = [number for number, _ in stations]
-    names = ("trajectoryStation {}", "trajectoryStations {} to {}")
-    return Written(values, (units[0], units[1], units[2]), where, numbers, *names, rejected=rejected)
+    columns = {key: _column(key, numbers, found) for key, found in elements.items()}
+    cells = {key: list(map(text_of, found)) for key, found in elements.items()}
+    return Rows(columns, numbers, cells, "trajectoryStation {}", "trajectoryStations {} to {}"), rejected
 
 
 def _choose(root: Element, name: str | None) -> Element:
@@ -70,18 +59,16 @@ def _choose(root: Element, name: str | None) -> Element:
     return found
 
 
-def _common_unit(key: StationKey, cells: Sequence[Element | None], where: Where) -> str:
-    """The unit of an element, the same at every station."""
-    column, first, before = KEYS.index(key), None, None
-    for row, cell in enumerate(cells):
-        if cell is None:
-            continue  # refused with the numbers
-        stated = cell.get("uom", "")
-        if stated == before:
+def _column(key: str, numbers: Sequence[int], elements: Sequence[Element | None]) -> Column:
+    """The column of an element, whose unit is the same at every station."""
+    field, unit, before = SURVEY.field(key), None, None
+    for number, element in zip(numbers, elements, strict=True):
+        stated = before if element is None else element.get("uom", "")
+        if stated is None or stated == before:
             continue
-        unit = unit_of(stated)
-        if unit not in UNITS[key] or first not in (None, unit):
-            expected = accepted_units(key) if first is None else f"{first}, the unit of the stations before"
-            raise InputError(expected, key=f"{where(row, column)[0]}, uom", value=stated)
-        first, before = unit, stated
-    return first or next(iter(UNITS[key]))
+        here = field.unit_of(stated)
+        if here is None or unit not in (None, here):
+            expected = field.accepted if unit is None else f"{unit}, the unit of the stations before"
+            raise InputError(expected, key=f"trajectoryStation {number}, {_ELEMENTS[key]}, uom", value=stated)
+        unit, before = here, stated
+    return Column(field, 0, _ELEMENTS[key], unit or field.dimension.units[0])

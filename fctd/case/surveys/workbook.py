@@ -4,13 +4,14 @@ import io
 import re
 import zipfile
 import zlib
-from collections.abc import Mapping
 from typing import Final
 
 from fctd.case.errors import InputError, nearest, show
-from fctd.case.surveys.headers import KEYS, Row, Wanted, find_header
-from fctd.case.surveys.stations import StationKey, Written
-from fctd.case.surveys.table import read_table
+from fctd.case.surveys.form import KEYS, SURVEY
+from fctd.case.tables.headers import Choices, Line, find_header
+from fctd.case.tables.rows import Rows
+from fctd.case.tables.text import read_sheet
+from fctd.case.xml_file import has_doctype
 
 ZIP: Final = b"PK\x03\x04"
 OLD_EXCEL: Final = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
@@ -20,32 +21,30 @@ _REFERENCE: Final = re.compile(rb"<(?:\w+:)?c\b[^<>]*?\br\s*=\s*[\"']([A-Z]{1,9}
 _UNREADABLE: Final = "a workbook (xlsx) that can be read"
 
 
-def read_workbook(content: bytes, sheet: str | None, columns: Mapping[StationKey, Wanted]) -> Written:
-    """The stations of the named sheet, else of the only one with the headers of a survey.
+def read_workbook(content: bytes, sheet: str | None, columns: Choices) -> Rows:
+    """The rows of the named sheet, else of the only one with the headers of a survey.
 
-    Raises InputError for a file that is no workbook, a sheet that it does not have, bad cells, and where the package
+    Raises InputError for a file that is no workbook, a sheet that it does not have, bad headers, and where the package
     is not installed.
     """
     sheets = _sheets(content)
-    if sheet is not None:
-        if sheet not in sheets:
-            raise InputError(nearest(sheet, sheets, "sheet"), key="sheet", value=sheet)
-        return read_table(sheets[sheet], columns, decimal_commas=True)
-    filled = {name: rows for name, rows in sheets.items() if rows}
-    surveys = {name: rows for name, rows in filled.items() if find_header(rows, columns)[1] == len(KEYS)} or filled
+    if sheet is not None and sheet not in sheets:
+        raise InputError(nearest(sheet, sheets, "sheet"), key="sheet", value=sheet)
+    filled = {name: rows for name, rows in sheets.items() if rows and sheet in (None, name)}
+    surveys = {k: rows for k, rows in filled.items() if find_header(rows, SURVEY, columns)[1] == {*KEYS}} or filled
     if len(surveys) > 1:
         names = ", ".join(map(show, surveys))
         raise InputError(f"the name of the sheet that holds the survey in wellbore.sheet: {names}", key="sheet")
-    return read_table(next(iter(surveys.values()), []), columns, decimal_commas=True)
+    return read_sheet(next(iter(surveys.values()), []), SURVEY, columns)
 
 
-def _sheets(content: bytes) -> dict[str, list[Row]]:
+def _sheets(content: bytes) -> dict[str, list[Line]]:
     """The rows that are not blank of each worksheet, with the numbers that Excel shows."""
     try:
         from python_calamine import CalamineError, CalamineWorkbook, SheetTypeEnum
     except ImportError as error:
         raise InputError("a text file, or the package that reads workbooks: pip install 'fctd[excel]'") from error
-    _check_size(content)
+    check_workbook(content, _LARGEST * 2**20)
     try:
         with CalamineWorkbook.from_filelike(io.BytesIO(content)) as workbook:
             names = [sheet.name for sheet in workbook.sheets_metadata if sheet.typ == SheetTypeEnum.WorkSheet]
@@ -59,25 +58,30 @@ def _sheets(content: bytes) -> dict[str, list[Row]]:
     }
 
 
-def _check_size(content: bytes) -> None:
+def check_workbook(content: bytes, most: int) -> None:
     """Raise InputError for a workbook that would fill the memory: the package ends the process where it does.
 
-    It keeps every cell of the rectangle between the first and the last one, so that one stray cell may be too much.
+    most : bytes of its parts when they are unpacked, which may be more than they say.  The package keeps every cell of
+    the rectangle between the first and the last one, so that one stray cell may be too much, and so may entities.
     """
-    room = _LARGEST * 2**20
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as parts:
+            room = most
+            for part in parts.infolist():
+                with parts.open(part) as unpacked:
+                    inside = unpacked.read(room + 1)
+                room -= len(inside)
+                if room < 0:
+                    raise InputError(f"a workbook of at most {most >> 20} MiB when unpacked")
+                if part.filename.endswith((".xml", ".rels")) and has_doctype(inside):
+                    raise InputError("a workbook whose parts have no document type (DOCTYPE)")
+                if part.filename.endswith(".xml"):
+                    _check_cells(inside)
             if "xl/workbook.xml" not in parts.namelist():
                 raise InputError("a workbook of Excel (xlsx), or a text file")
-            for part in parts.infolist():
-                if part.file_size > room:
-                    raise InputError(f"a workbook of at most {_LARGEST} MiB when unpacked")
-                room -= part.file_size
-                if part.filename.endswith(".xml"):
-                    _check_cells(parts.read(part))
+    except InputError:
+        raise
     except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError, OSError, ValueError) as error:
-        if isinstance(error, InputError):
-            raise
         raise InputError(f"{_UNREADABLE} ({error})") from error
 
 

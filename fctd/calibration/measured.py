@@ -1,0 +1,87 @@
+"""Measured hook loads and torques from a CSV file, to be drawn over the curves of a chart."""
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from fctd.calibration.measured_file import (
+    ANY_FORCE,
+    ANY_TORQUE,
+    DEPTH,
+    ENDS,
+    HOOKLOAD,
+    OPERATION,
+    STRINGLESS,
+    Measured,
+    measured_form,
+    read_measured_file,
+)
+from fctd.case.errors import InputError, naming
+from fctd.case.load import Case
+from fctd.case.operations import KINDS
+from fctd.case.tables.fields import Field
+from fctd.case.tables.readings import TORQUE_OF_STRING
+from fctd.model.operations import string_load, weight_indicator
+from fctd.results.columns import COLUMNS
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+_BELOW: Final = 30.0  # m: a measured depth may exceed the last station of the survey by a joint or two
+_LOADS: Final = (
+    Field("string_load", "string load", ANY_FORCE, HOOKLOAD.beside, example="kN"),
+    HOOKLOAD,
+    replace(TORQUE_OF_STRING, key="surface_torque", quantity=ANY_TORQUE),
+)
+_LOAD_COLUMNS: Final = {
+    f"{load.key}{end}": f"{load.key}{end}_{unit}"
+    for load, unit in zip(_LOADS, ("N", "N", "N_m"), strict=True)
+    for end in ENDS
+}
+_FORM: Final = measured_form(
+    "bit_depth_m, operation, hookload_kN, hookload_low_kN, hookload_high_kN, torque_kN_m",
+    _LOADS, (), (DEPTH.key, OPERATION.key, "load"),
+)  # fmt: skip
+
+
+def measured_column(column: str, end: str) -> str:
+    """Column of an end of a range, "low" or "high", beside a column such as ``hookload_N``."""
+    stem = COLUMNS[column].stem
+    return f"{stem}_{end}{column.removeprefix(stem)}"
+
+
+def read_measured(path: Path, case: Case) -> "pd.DataFrame":
+    """Measured rows of a CSV file, SI: operation, bit_depth_m, and loads with the low and high ends of their ranges.
+
+    Loads that the file does not have are NaN.  A measured hook load is the reading of the weight indicator, block
+    included, as in a calibration; the rig of the case converts it into that of the string, and the other way round.
+    Rows without a string (in slips, tare) have no place in a chart and are left out.  Raises InputError, which names
+    file, row and column.
+    """
+    with naming(path):
+        found = read_measured_file(path, _FORM, _LOADS)
+        kinds = found.rows.texts(OPERATION.key)
+        kept = [row for row, kind in enumerate(kinds) if kind not in STRINGLESS]
+        if not kept:
+            raise InputError(f"a row with a string in the hole, not {' and '.join(STRINGLESS)} alone")
+        for row in kept:
+            _check_depth(found, row, case.depths[1])
+    import pandas as pd
+
+    columns = {DEPTH.key: "bit_depth_m"} | _LOAD_COLUMNS
+    numbers = {name: [found.number(row, key) for row in kept] for key, name in columns.items()}
+    table = pd.DataFrame({"operation": [kinds[row] for row in kept]} | numbers)
+    direction = table["operation"].map(lambda kind: KINDS[kind].direction)
+    for end in ENDS:
+        string, gauge = table.pop(f"string_load{end}_N"), table.pop(f"hookload{end}_N")
+        table[f"hookload{end}_N"] = string.fillna(string_load(case.rig, direction, gauge))
+        table[f"weight_indicator{end}_N"] = gauge.fillna(weight_indicator(case.rig, direction, string))
+    return table
+
+
+def _check_depth(found: Measured, row: int, deepest: float) -> None:
+    """Raise InputError for a row without a bit depth, or with one below the end of the hole, ``deepest`` [m]."""
+    depth = found.number(row, DEPTH.key)
+    if not depth <= deepest + _BELOW:
+        expected = "a number" if depth != depth else f"a depth in the hole, which ends at {deepest:g} m"
+        raise found.rows.error(row, DEPTH.key, expected)

@@ -1,0 +1,108 @@
+"""Files of measured rows: loads as values or ranges, with the operation and the depth at which they were read."""
+
+from collections.abc import Collection, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from fctd.arrays import Array
+from fctd.case.errors import InputError, nearest
+from fctd.case.input_file import decode, read_bytes
+from fctd.case.operations import KINDS
+from fctd.case.tables.fields import Field
+from fctd.case.tables.headers import TableForm
+from fctd.case.tables.readings import BIT_DEPTH, HOOK_LOAD
+from fctd.case.tables.rows import Numbers, Rows
+from fctd.case.tables.text import read_text
+from fctd.case.units import DEEPEST, FORCE, LENGTH, TORQUE, Quantity
+
+_LARGEST_FILE: Final = 8  # MiB
+MOST_ROWS: Final = 10_000  # a string is solved for each
+ENDS: Final = ("", "_low", "_high")
+# Readings without a string in the hole's grip: in slips the hook carries the block alone; a tare turns the free drive.
+STRINGLESS: Final = ("in_slips", "tare")
+OPERATIONS: Final = (*KINDS, *STRINGLESS)
+# Readings beyond these, [N] and [N*m], are no rig's: a hundred times what the strongest hoists and drives do.
+LARGEST_FORCE, LARGEST_TORQUE = 1e9, 1e8
+ANY_FORCE: Final = Quantity(dimension=FORCE, at_most=LARGEST_FORCE)
+ANY_TORQUE: Final = Quantity(dimension=TORQUE, at_most=LARGEST_TORQUE)
+DEPTH: Final = replace(
+    BIT_DEPTH, names=f"{BIT_DEPTH.names}; depth, md", quantity=Quantity(dimension=LENGTH, at_least=0.0, at_most=DEEPEST)
+)
+HOOKLOAD: Final = replace(HOOK_LOAD, key="hookload", quantity=ANY_FORCE)
+OPERATION: Final = Field("operation", "operation, kind")
+
+
+class Measured(NamedTuple):
+    """Measured rows as they are written, and their numbers by field [SI], NaN where a cell is empty."""
+
+    rows: Rows
+    numbers: dict[str, Array]
+
+    def number(self, row: int, key: str) -> float:
+        """A number of a row; NaN where the file does not have it."""
+        return float(self.numbers[key][row]) if key in self.numbers else np.nan
+
+
+def measured_form(example: str, loads: Sequence[Field], others: Sequence[Field], needed: Sequence[str]) -> TableForm:
+    """The tables with these fields, operation and depth; a load is a value or a range, "hookload_low_kN".
+
+    example : headers for messages; needed : keys of fields that must be there; with loads in place of "load" one.
+    """
+    ranged = [_end(load, end) for end in ENDS for load in loads]
+    groups = [[field.key for field in ranged] if key == "load" else [key] for key in needed]
+    return TableForm((DEPTH, OPERATION, *ranged, *others), example, lambda found: groups, most=MOST_ROWS)
+
+
+def _end(load: Field, end: str) -> Field:
+    word = end.replace("_", " ")
+    return replace(load, key=f"{load.key}{end}", names=", ".join(f"{name}{word}" for name in load.names.split(",")))
+
+
+def read_measured_file(path: Path, form: TableForm, loads: Collection[Field]) -> Measured:
+    """The rows of a text in columns.
+
+    Raises InputError, which names row and column, for a file that is no such table, numbers out of bounds, ranges whose
+    ends do not rise, and operations that nobody knows.
+    """
+    content = read_bytes(path, _LARGEST_FILE, "a file of measured rows")
+    rows = read_text(decode(content, "measured rows: text in columns, such as CSV"), form, {})
+    if not len(rows):
+        raise InputError("a row of headers and a row for each measurement")
+    keys = [key for key, column in rows.columns.items() if column.field.quantity is not None]
+    written = Numbers().read(rows, keys)
+    numbers = {key: np.full(len(rows), np.nan) for key in keys}
+    found = Measured(rows, numbers)
+    for row, values in enumerate(written):
+        for key, value in zip(keys, values.tolist(), strict=True):
+            if not np.isnan(value):
+                numbers[key][row] = _si(rows, row, key, value)
+        for load in loads:
+            _check_range(found, row, load.key)
+        kind = rows.texts(OPERATION.key)[row]
+        if kind not in OPERATIONS:
+            raise rows.error(row, OPERATION.key, nearest(kind, OPERATIONS, "kind"))
+    return found
+
+
+def _si(rows: Rows, row: int, key: str, value: float) -> float:
+    """A number in SI, in decimals and within its bounds."""
+    column = rows.columns[key]
+    assert column.field.quantity is not None
+    try:
+        return column.field.quantity.parse(f"{value!r} {column.unit}")
+    except InputError as error:
+        raise rows.error(row, key, error.expected) from error
+
+
+def _check_range(found: Measured, row: int, load: str) -> None:
+    """Raise InputError for a range with one end, or one that does not hold its value."""
+    value, low, high = (found.number(row, f"{load}{end}") for end in ENDS)
+    key = f"row {found.rows.numbers[row]}, {load}"
+    if np.isnan(low) != np.isnan(high):
+        raise InputError("both ends of a range, low and high", key=key)
+    if low > high or value < low or value > high:
+        shown = f"{low:g}, {value:g}, {high:g} in SI"
+        raise InputError("a low end, a value and a high end that rise", key=key, value=shown)
