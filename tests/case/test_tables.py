@@ -65,3 +65,10 @@ def test_numbers_are_read_in_one_way_or_refused(form: TableForm, text: str, key:
 def test_a_point_beside_decimal_commas_is_one_of_decimals_where_it_can_be_no_other() -> None:
     rows = read_text("md_m;inc;azi\n0;0;0\n10,5;1.25;2", SURVEY, {})
     assert Numbers().read(rows, ["md", "inc"]).tolist() == [[0, 0], [10.5, 1.25]]
+
+
+def test_headers_that_come_again_below_themselves_are_no_row_of_units() -> None:
+    heads, row = "bit_depth_m,operation,rpm_rpm,hkld_kN,tqa_kNm\n", "9,trip_in,60,100,1\n"
+    rows = read_text(heads + heads + row, SERIES, {})
+    assert rows.numbers == [3]
+    assert rows.cells["rpm"] == ["60"]

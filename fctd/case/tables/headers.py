@@ -215,7 +215,12 @@ def _unit(column: Column, stated: Sequence[Line], form: TableForm, said: str | N
 
 
 def _is_units(row: Sequence[str], columns: Collection[Column]) -> bool:
-    """Whether one cell or more is a unit and none is a number; "M" alone may be the end of "Depth M"."""
+    """Whether one cell or more is a unit and none is a number; "M" alone may be the end of "Depth M".
+
+    Headers that come again hold units, too, and are none.
+    """
+    if all(cell_of(row, column) == column.header for column in columns):
+        return False
     cells = [(column.field, cell_of(row, column)) for column in columns if column.field.quantity is not None]
     if {cell for _, cell in cells if cell} == {"M"} or any(re.search(r"\d", cell) for _, cell in cells):
         return False
