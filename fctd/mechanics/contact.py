@@ -20,7 +20,6 @@ from fctd.mechanics.joints import cross
 from fctd.mechanics.rotations import arctan_ratio
 from fctd.mechanics.state import (
     ARCS,
-    ARM_CONTACT,
     CURVE,
     CYLINDERS,
     DECAY,
@@ -48,8 +47,7 @@ from fctd.mechanics.state import (
     TX,
     TY,
     TZ,
-    axis,
-    position,
+    contact_point,
     radial,
 )
 
@@ -291,15 +289,6 @@ def store_cylinder(S, j, C, i, x, y, z):
     if not alone:
         lean_wall(S, j, *rise_in_overlap(C, i, x, y, z, S[RADIUS + j]))
     return alone
-
-
-@inlined
-def contact_point(S, j):
-    """T (§4.1): the contact point on the axis of body j [m], global."""
-    x, y, z = position(S, j)
-    ax, ay, az = axis(S, j)
-    arm = S[ARM_CONTACT + j]
-    return x + arm * ax, y + arm * ay, z + arm * az
 
 
 @inlined

@@ -238,3 +238,12 @@ def joint_force(S, j):
 def radial(S, j):
     """Vector PT from the hole axis to contact point j [m], global."""
     return S[PX + j], S[PY + j], S[PZ + j]
+
+
+@inlined
+def contact_point(S, j):
+    """T (§4.1): the contact point on the axis of body j [m], global."""
+    x, y, z = position(S, j)
+    ax, ay, az = axis(S, j)
+    arm = S[ARM_CONTACT + j]
+    return x + arm * ax, y + arm * ay, z + arm * az

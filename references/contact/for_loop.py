@@ -4,9 +4,9 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from fctd.mechanics.contact import DIRECTION, LENGTH, START, contact_point, distance_along, store_cylinder, store_wall
+from fctd.mechanics.contact import DIRECTION, LENGTH, START, distance_along, store_cylinder, store_wall
 from fctd.mechanics.dynamics import padded_columns, step, update_axes
-from fctd.mechanics.state import RADIUS
+from fctd.mechanics.state import RADIUS, contact_point
 
 
 @njit(error_model="numpy")
