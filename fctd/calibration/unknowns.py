@@ -174,6 +174,9 @@ def _form_of(name: str, cases: Sequence[Case]) -> tuple[Form, float]:
         low, high, share = MASS
         return Form(LINEAR_MASS, low * owned[0], high * owned[0], share * owned[0]), owned[0]
     if re.fullmatch(r"friction(\.\w+|\[\d+\])?", name) and owned:
+        parts_of_hole = (case.wellbore.intervals[i] for case in cases for i in intervals_of(name, case))
+        if any(interval.friction != interval.friction_around for interval in parts_of_hole):
+            raise InputError("intervals without rotational_friction: one factor is fitted for all directions")
         return FRICTION, sum(owned) / len(owned)
     known = name.startswith("mass.") or re.fullmatch(r"friction(\.(cased|open)(\.gradient)?|\[\d+\])", name)
     parts = sorted({part.name for case in cases for part in case.string.components})

@@ -57,7 +57,7 @@ def find_walls(S, owner, n, packed, C, geometry):  # type: ignore[no-untyped-def
         x, y, z = contact_point(S, j)
         i = for_loop_owner(C, x, y, z)
         if i < 0:  # no cylinder, no wall
-            store_wall(S, j, 0.0, 0.0, 0.0, S[RADIUS + j] + 1.0, 0.0, 0.0)
+            store_wall(S, j, 0.0, 0.0, 0.0, S[RADIUS + j] + 1.0, 0.0, 0.0, 0.0)
         else:
             store_cylinder(S, j, C, i, x, y, z)
 
