@@ -107,8 +107,9 @@ class Wellbore:
         around the string.
         """
         pieces, intervals = self.pieces.copy(), self.intervals.copy()
-        along, around = np.moveaxis(factors, -1, 0) if np.ndim(factors) == 2 else (factors, factors)
-        intervals[:, FRICTION], intervals[:, AROUND] = along, around
+        given = np.asarray(factors, dtype=float)
+        pairs = given if given.ndim == 2 else np.stack([given, given], axis=-1)
+        intervals[:, FRICTION], intervals[:, AROUND] = pairs[..., 0], pairs[..., 1]
         fill_wall(pieces, self.geometry, self.md, intervals, self.shoe)
         return replace(self, pieces=pieces, intervals=intervals)
 
