@@ -182,8 +182,18 @@ def draw_rows(
     posterior: Posterior, rows: Sequence[Row], strings: Mapping[str, Case], samples: int = SAMPLES, seed: int = 0
 ) -> Array:
     """The draws of ``predict_rows`` (n, samples) [SI], a row for each of its own: for differences and correlations."""
-    forward = Forward(rows, strings, posterior.unknowns, posterior.setup)
-    return np.array([*_draws(posterior, forward, forward.evaluate(posterior.best), samples, seed)])
+    return draw_readings(posterior, Forward(rows, strings, posterior.unknowns, posterior.setup), samples, seed)
+
+
+def draw_readings(
+    posterior: Posterior, forward: Forward, samples: int = SAMPLES, seed: int = 0, *, noise: bool = True
+) -> Array:
+    """The draws (n, samples) [SI] of the readings of a forward model, which has the unknowns of the posterior.
+
+    noise : whether they are what the source would record; without it they are what the string and the rig make.
+    """
+    draws = _draws if noise else _without_noise
+    return np.array([*draws(posterior, forward, forward.evaluate(posterior.best), samples, seed)])
 
 
 def _draws(posterior: Posterior, forward: Forward, at: Evaluation, samples: int, seed: int) -> Iterator[Array]:

@@ -51,5 +51,3 @@ JUDGED_B: Final = ("F4-07", "F4-13", "F4-13r")
 
 # What a judged row is judged on; the weight at rest only where the string's mass is fixed by another row.
 ABSOLUTE: Final = ("F4-07",)
-# Bands.
-BANDS: Final = (0.50, 0.95)

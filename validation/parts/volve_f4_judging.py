@@ -5,7 +5,6 @@ the readings, and the declared error of the model, all normal and added in squar
 """
 
 from collections.abc import Collection, Mapping, Sequence
-from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -17,16 +16,8 @@ from fctd.calibration.rows import Row
 from fctd.calibration.setup import Setup
 from fctd.calibration.unknowns import find_unknowns
 from fctd.case.load import Case
-from validation.parts.volve_f4 import BANDS
+from validation.parts.judging import BANDS, UNITS, Judged, line
 from validation.parts.volve_f4_fits import Frozen
-
-
-class Judged(NamedTuple):
-    """What a row is judged on: its id, a quantity, and the readings that it combines, with their shares."""
-
-    id: str
-    quantity: str
-    parts: tuple[tuple[int, float], ...]
 
 
 def predict(
@@ -81,19 +72,15 @@ def _row(forward: Forward, evaluation: Evaluation, covariance: Array, one: Judge
     sd = float(np.sqrt(slopes @ covariance @ slopes + added))
     low, high = (sum(share * getattr(reading.range, end) for reading, share in readings) for end in ("low", "high"))
     unit = 1e-3
-    off = max(low - median, median - high, 0.0)
-    bands = {share: float(norm.ppf(0.5 + share / 2)) * sd for share in BANDS}
-    edges = {
-        f"{end}_{100 * share:.0f}": unit * (median + sign * width)
-        for share, width in bands.items()
-        for end, sign in (("low", -1), ("high", 1))
-    }
-    inside = {f"in_{100 * share:.0f}": bool(off <= width) for share, width in bands.items()}
+    widths = {share: float(norm.ppf(0.5 + share / 2)) * sd for share in BANDS}
     z = (0.5 * (low + high) - median) / sd
     # Normal prediction: Gneiting & Raftery 2007, Eq. 5.
     crps = sd * float(z * (2 * norm.cdf(z) - 1) + 2 * norm.pdf(z) - 1 / np.sqrt(np.pi))
-    return {
-        "row": one.id, "quantity": one.quantity, "unit": "kN m" if one.quantity == "torque" else "kN",
-        "measured_low": unit * low, "measured_high": unit * high, "median": unit * median, **edges, **inside,
-        "distance_percent": 100 * off / (0.5 * (low + high)), "crps": unit * crps,
-    }  # fmt: skip
+    ends = {share: (unit * (median - width), unit * (median + width)) for share, width in widths.items()}
+    low, high, median = unit * low, unit * high, unit * median
+    # A range is in a band where it meets it.
+    row = line(
+        one, UNITS[readings[0][0].load], low, high, median, ends,
+        lambda bottom, top: bool(low <= top and bottom <= high),
+    )  # fmt: skip
+    return {**row, "crps": unit * crps}
