@@ -80,7 +80,7 @@ def fit(
     """A calibration with a robust loss, from seeded starts.  route : how the loads of a string are computed."""
     base = strings[SERIES_STRING]
     if route is Forward:
-        return calibrate(base, rows, setup=setup, strings=strings, starts=starts, refuse=False)
+        return calibrate(base, rows, setup=setup, strings=strings, starts=starts, refuse=False, scatter=False)
     forward = route(rows, strings, find_unknowns({}, setup, list(strings.values())), setup)
     return Calibration(base, forward, fit_rows(forward, range(len(rows)), "soft_l1", starts), {}, "soft_l1")
 

@@ -59,7 +59,7 @@ def _report(key: str, cells: "pd.Series[str]", strings: Mapping[str, Case]) -> l
         speed = REAMING if reams and KINDS[kind].direction else None
         rates = steady_rates(strings[string], kind, speed, turns)
         load = _range(cells[weight], cells[weight], TONNE)
-        return Row(f"{key} {label}", string, depth, kind, rates, load, torque, source="report")
+        return Row(f"{key} {label}", string, depth, kind, rates, load, torque, source="report", day=cells["date"])
 
     found = [
         row("back_ream" if reams else "trip_out", "up", "up_weight_t", rpm * reams),

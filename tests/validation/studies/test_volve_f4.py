@@ -18,7 +18,7 @@ from validation.parts.volve_f4_rows import FOLDER, REPORTS, TONNE, report_rows
 from validation.parts.volve_f4_soft import SoftForward
 
 # Columns that are read.
-HEADER = "id,bit_depth_m,rpm,torque_low_kN_m,torque_high_kN_m,up_weight_t,down_weight_t,rotating_weight_t\n"
+HEADER = "id,date,bit_depth_m,rpm,torque_low_kN_m,torque_high_kN_m,up_weight_t,down_weight_t,rotating_weight_t\n"
 
 
 def test_no_row_both_fits_and_judges() -> None:
@@ -49,7 +49,7 @@ def reports(tmp_path: Path, *lines: str) -> list[Row]:
 
 
 def test_a_report_is_two_strokes_and_a_rotation(tmp_path: Path) -> None:
-    up, down, turning = reports(tmp_path, "F4-10,500,10-20,6,9,150,120,130")
+    up, down, turning = reports(tmp_path, "F4-10,2008-03-07,500,10-20,6,9,150,120,130")
     assert [row.operation for row in (up, down, turning)] == ["trip_out", "trip_in", "rotate_off_bottom"]
     assert up.hookload == Range(150 * TONNE, 150 * TONNE)
     assert turning.torque == Range(6e3, 9e3)
@@ -58,14 +58,14 @@ def test_a_report_is_two_strokes_and_a_rotation(tmp_path: Path) -> None:
 
 
 def test_the_string_that_turns_on_its_way_has_no_torque_of_its_own_and_a_slow_speed(tmp_path: Path) -> None:
-    up, down = reports(tmp_path, "F4-13r,500,20,,,137,129,")
+    up, down = reports(tmp_path, "F4-13r,2008-03-15,500,20,,,137,129,")
     assert (up.operation, down.operation) == ("back_ream", "trip_in")
     assert (up.rates.speed, down.rates.speed) == (-0.1, 0.1)
     assert down.rates.spin == pytest.approx(rad_per_s(20))
 
 
 def test_torque_at_rest_is_left_out(tmp_path: Path) -> None:
-    assert [row.operation for row in reports(tmp_path, "F4-07,500,0,2,3,150,120,")] == ["trip_out", "trip_in"]
+    assert [row.operation for row in reports(tmp_path, "F4-07,2008-03-06,500,0,2,3,150,120,")] == ["trip_out", "trip_in"]
 
 
 def test_a_spread_is_scored_with_the_errors_of_its_two_readings() -> None:
