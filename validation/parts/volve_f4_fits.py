@@ -103,11 +103,14 @@ def fit_of_rig(data: Path, strings: Mapping[str, Case], route: type[Forward] = F
     return fit(strings, series_rows(data, strings), setup_of("rig"), route=route)
 
 
+def held_by(rig: Frozen) -> dict[str, tuple[float, float]]:
+    """The values of the rig as priors, mean and standard deviation [SI]."""
+    return {name: (rig.best[name], rig.deviations[name]) for name in rig.best if name.startswith("rig.")}
+
+
 def setup_of_b(rig: Frozen) -> Setup:
     """Model B, second stage: the values of the rig are priors."""
-    return setup_of(
-        "reports", {name: (rig.best[name], rig.deviations[name]) for name in rig.best if name.startswith("rig.")}
-    )
+    return setup_of("reports", held_by(rig))
 
 
 def fit_of_b(data: Path, strings: Mapping[str, Case], rig: Frozen, route: type[Forward] = Forward) -> Calibration:

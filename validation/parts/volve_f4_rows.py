@@ -79,6 +79,7 @@ def _range(low: str, high: str, unit: float) -> Range | None:
 def series_rows(data: Path, strings: Mapping[str, Case]) -> list[Row]:
     """The medians of the bins of the series."""
     bins = pd.read_csv(data / FOLDER / BINS)
+    day = SAMPLES.removesuffix(".csv").rpartition("_")[2]
     speeds, case = _speeds(data), strings[SERIES_STRING]
     found = []
     for cells in bins.to_dict("records"):
@@ -86,17 +87,20 @@ def series_rows(data: Path, strings: Mapping[str, Case]) -> list[Row]:
         name, weight, torque = f"{top:.0f} m {mode}", _median(cells, "hookload", TONNE), _median(cells, "torque", 1e3)
         still = SteadyRates(0.0, 0.0)
         if mode == "in_slips":
-            found.append(Row(name, SERIES_STRING, float("nan"), "in_slips", still, weight, source="series"))
+            found.append(Row(name, SERIES_STRING, float("nan"), "in_slips", still, weight, source="series", day=day))
             if 1e3 * (cells["torque_p75_kN_m"] - cells["torque_p25_kN_m"]) <= FREE_DRIVE:
                 free = f"{name}, drive"
-                found.append(Row(free, SERIES_STRING, float("nan"), "tare", still, torque=torque, source="series"))
+                found.append(
+                    Row(free, SERIES_STRING, float("nan"), "tare", still, torque=torque, source="series", day=day)
+                )
         elif mode in MODES:
             kind, turns = MODES[mode]
             rpm = float(cells["rpm"]) if turns else 0.0
             rates = steady_rates(case, kind, speeds.get(mode), rpm)
             found.append(
                 Row(
-                    name, SERIES_STRING, top + BIN / 2, kind, rates, weight, torque if turns else None, source="series"
+                    name, SERIES_STRING, top + BIN / 2, kind, rates, weight, torque if turns else None, source="series",
+                    day=day,
                 )
             )  # fmt: skip
     return found
