@@ -18,20 +18,22 @@ from fctd.calibration.quadrature import Mixture
 from fctd.calibration.result import Calibration
 from fctd.calibration.rows import Row
 from fctd.calibration.setup import PriorSpec, Setup, UnknownSpec, read_setup
-from fctd.calibration.unknowns import find_unknowns, is_factor
+from fctd.calibration.unknowns import find_unknowns
 from fctd.case.load import Case
 from validation.cases import FOLDER
 from validation.harness.study import data_folder
-from validation.parts.day_fits import fit_by_day
+from validation.parts.day_fits import fit_by_day, one_factor
 from validation.parts.forge_16a import FIT, TARE
 from validation.parts.forge_16a_rows import report_rows
 from validation.parts.forge_16a_strings import Assembly, assemblies, cases
 from validation.parts.judged_well import ONE_FACTOR, SOFT, STIFF
+from validation.parts.volve_f4_days import FOR_OTHERS
 from validation.parts.volve_f4_soft import SoftForward
 
 SETUP: Final = FOLDER / "forge_16a" / "report.toml"
 FROZEN: Final = FOLDER / "forge_16a" / "frozen.toml"
 LINEAR: Final = "linear in depth"
+ALONE: Final = "tare alone"
 # Bounds of a mass in standard deviations of its prior.
 MASS_BOUNDS: Final = 4.0
 # Nodes of a frozen mixture by deviation: those of the fit, put together.
@@ -39,7 +41,7 @@ NODES: Final = 8
 DIGITS: Final = 6
 HEADING: Final = (
     "Well 16A(78)-32: values of the fits and their standard deviations [SI], frozen before a judged row was read.",
-    "scatter: median, low and high end of 95 %.  Nodes of the mixture: friction by its logarithm, others by their size.",
+    "scatter: median and ends of 95 %.  Nodes of the mixture: friction by its logarithm, others by their size.",
 )
 
 
@@ -64,21 +66,21 @@ MODELS: Final[dict[str, Model]] = {
 
 
 def setup_of(found: Mapping[str, Assembly], keys: Sequence[str], model: Model = MODELS[STIFF]) -> Setup:
-    """The setup with the masses of these rows' assemblies, for a model."""
-    setup = read_setup(SETUP)
-    unknowns: dict[str, UnknownSpec] = {}
-    for name, spec in setup.unknowns.items():
-        if gradient_of(name) and not model.depth:
-            continue
-        if not model.pairs and is_factor(name):
-            # One factor for both: it has the prior along the hole.
-            if name.endswith(".rotational"):
-                continue
-            name = name.removesuffix(".axial")
-        unknowns[name] = spec
-    for key in keys:
-        unknowns[f"mass.{found[key].carrier}"] = _mass(found[key])
-    return setup.model_copy(update={"unknowns": unknowns})
+    """The setup with the priors of another well, and with the masses of these rows' assemblies, for a model."""
+    setup = base_setup()
+    unknowns = {name: spec for name, spec in setup.unknowns.items() if model.depth or not gradient_of(name)}
+    unknowns |= {f"mass.{found[key].carrier}": _mass(found[key]) for key in keys}
+    setup = setup.model_copy(update={"unknowns": unknowns})
+    return setup if model.pairs else one_factor(setup)
+
+
+def base_setup() -> Setup:
+    """Unknowns and sources of the reports, with what another well says of friction and of the scatter between days."""
+    setup, others = read_setup(SETUP), read_setup(FOR_OTHERS)
+    priors = {
+        name: setup.unknowns[name].model_copy(update={"prior": spec.prior}) for name, spec in others.unknowns.items()
+    }
+    return setup.model_copy(update={"unknowns": {**setup.unknowns, **priors}, "scatter": others.scatter})
 
 
 def _mass(assembly: Assembly) -> UnknownSpec:
@@ -94,7 +96,7 @@ def fit(
     keys = list(dict.fromkeys(row.string for row in rows))
     setup = setup_of(found, keys, model)
     pieces = {key: in_pieces(strings[key], setup.unknowns) for key in keys}
-    return fit_by_day(pieces, rows, setup, starts, model.route)
+    return fit_by_day(pieces, rows, setup, model.route, starts)
 
 
 def fit_of_tare(data: Path, strings: Mapping[str, Case], found: Mapping[str, Assembly]) -> Calibration:
@@ -103,9 +105,9 @@ def fit_of_tare(data: Path, strings: Mapping[str, Case], found: Mapping[str, Ass
     rows = [
         replace(row, torque=None) for row in report_rows(data, strings, TARE) if row.operation == "rotate_off_bottom"
     ]
-    setup = read_setup(SETUP)
+    setup = base_setup()
     setup = setup.model_copy(update={"unknowns": {"rig.block_weight": setup.unknowns["rig.block_weight"]}})
-    return fit_by_day({key: strings[key] for key in TARE}, rows, setup, 1)
+    return fit_by_day({key: strings[key] for key in TARE}, rows, setup, starts=1)
 
 
 @dataclass(frozen=True)
@@ -116,7 +118,7 @@ class Frozen:
     rows share with those that fit; spread : of the recorded ranges [SI].
     """
 
-    values: dict[str, tuple[float, float]]
+    best: dict[str, tuple[float, float]]
     deviations: dict[str, tuple[float, float, float]]
     score: float
     rows: tuple[str, ...]
@@ -183,7 +185,7 @@ def posterior_of(
     mean[:, place] = frozen.mixture.mean
     covariance[np.ix_(range(m), place, place)] = frozen.mixture.covariance
     best = np.zeros(count)
-    best[place] = [frozen.values[name][0] for name in frozen.names]
+    best[place] = [frozen.best[name][0] for name in frozen.names]
     for k, unknown in zip(own, at, strict=True):
         assert unknown.prior is not None
         best[k] = unknown.prior.mean
@@ -229,7 +231,7 @@ def write_frozen(fits: Mapping[str, Frozen]) -> None:
         upper = np.triu_indices(len(one.names))
         table = tomlkit.table()
         table["score"] = round(one.score, 3)
-        table["values"] = {key: short(pair) for key, pair in one.values.items()}
+        table["values"] = {key: short(pair) for key, pair in one.best.items()}
         table["scatter"] = {key: short(three) for key, three in one.deviations.items()}
         table["spread"] = {source: {load: short([v])[0] for load, v in of.items()} for source, of in one.spread.items()}
         table["rows"] = list(one.rows)
@@ -251,12 +253,12 @@ def chosen(fits: Mapping[str, Frozen], model: str) -> str:
 
 
 def fits_of(data: Path, models: Sequence[str]) -> dict[str, Calibration]:
-    """The fits of these models, "tare" among them."""
+    """The fits of these models, the tare among them."""
     found = assemblies(data)
     strings = cases(data, found)
     rows = report_rows(data, strings, FIT)
     return {
-        name: fit_of_tare(data, strings, found) if name == "tare" else fit(strings, rows, found, MODELS[name])
+        name: fit_of_tare(data, strings, found) if name == ALONE else fit(strings, rows, found, MODELS[name])
         for name in models
     }
 
@@ -265,7 +267,7 @@ if __name__ == "__main__":
     folder = data_folder()
     assert folder is not None, "the public data folder is missing"
     written: dict[str, Frozen] = {}
-    for name in ("tare", *MODELS):
+    for name in (ALONE, *MODELS):
         (fitted,) = fits_of(folder, [name]).values()
         print(name, fitted.table.round(4).to_string(), fitted.residuals.round(2).to_string(), sep="\n")
         written[name] = freeze(fitted)
