@@ -1,8 +1,9 @@
-"""Fits of well 16A(78)-32 and their frozen values: ``python -m validation.parts.forge_16a_fits`` writes them.
+"""Fits of well 16A(78)-32 and their frozen values: ``python -m validation.parts.forge_16a_fits [MODEL ...]``.
 
 The file is committed before a judged row is read.
 """
 
+import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -266,9 +267,7 @@ def fits_of(data: Path, models: Sequence[str]) -> dict[str, Calibration]:
 if __name__ == "__main__":
     folder = data_folder()
     assert folder is not None, "the public data folder is missing"
-    written: dict[str, Frozen] = {}
-    for name in (ALONE, *MODELS):
+    for name in sys.argv[1:] or (ALONE, *MODELS):
         (fitted,) = fits_of(folder, [name]).values()
-        print(name, fitted.table.round(4).to_string(), fitted.residuals.round(2).to_string(), sep="\n")
-        written[name] = freeze(fitted)
-        write_frozen(written)
+        print(name, fitted.table.round(4).to_string(), fitted.residuals.round(2).to_string(), sep="\n", flush=True)
+        write_frozen(read_frozen() | {name: freeze(fitted)})

@@ -115,12 +115,12 @@ def assemblies(data: Path) -> dict[str, Assembly]:
     found: dict[str, Assembly] = {}
     before: Assembly | None = None
     for key, row in reports(data).sort_values("date", kind="stable").iterrows():
-        before = found[str(key)] = _assembly(str(key), row, lists[lists["date"] == row["date"]], before)
+        before = found[str(key)] = assembly_of(str(key), row, lists[lists["date"] == row["date"]], before)
     assert set(found) == set(KEYS)
     return found
 
 
-def _assembly(key: str, row: "pd.Series[str]", listed: pd.DataFrame, before: Assembly | None) -> Assembly:
+def assembly_of(key: str, row: "pd.Series[str]", listed: pd.DataFrame, before: Assembly | None) -> Assembly:
     """The assembly of a report; before : that of the report before."""
     hole = float(row["hole_in"])
     items = [_item(one, hole) for one in listed.to_dict("records")]

@@ -20,10 +20,18 @@ class SoftForward(Forward):
     """Readings of rows by Johancsik's recursion; derivatives by differences."""
 
     def _solve_row(self, row: Row, solvers: Sequence[Solver], steps: Array) -> StringLoads:
-        loads = [_loads(row, solver.case) for solver in solvers]
+        first = solvers[0].case
+        at = _loads(row, first)
+        # An unknown of another string changes nothing here.
+        loads = [at, *(at if _same(first, solver.case) else _loads(row, solver.case) for solver in solvers[1:])]
         slopes = np.zeros((2, len(steps)))
         slopes[:, self._by_string] = (np.array(loads[1:]) - loads[0]).T / steps[self._by_string]
         return StringLoads(loads[0], slopes, "")
+
+
+def _same(one: Case, other: Case) -> bool:
+    """Whether cases of one well have the same string, friction and mud."""
+    return (one.string, one.wellbore.intervals, one.mud) == (other.string, other.wellbore.intervals, other.mud)
 
 
 def _loads(row: Row, case: Case) -> Array:
