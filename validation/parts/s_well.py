@@ -13,7 +13,8 @@ Rules of reading.
 - The weight of block and top drive is not recorded: an unknown without a prior.
 
 Rules of judging: those of ``validation.parts.judging``, every weight by itself; pick-up minus slack-off by its width.
-The last reading carried on is that of the deepest depth that fitted.
+The last reading carried on is that of the deepest depth that fitted.  ``python -m validation.parts.s_well`` fits the well
+and writes its frozen values.
 """
 
 from collections.abc import Mapping, Sequence
@@ -31,7 +32,8 @@ from fctd.case.load import Case
 from fctd.model.operations import steady_rates
 from validation.cases import FOLDER as CASES
 from validation.cases import load
-from validation.parts.day_fits import carried_on, fit_by_day
+from validation.harness.study import data_folder
+from validation.parts.day_fits import carried_on, fit_by_day, freeze
 from validation.parts.judged_well import ONE_FACTOR, SOFT, STIFF, judged_tables
 from validation.parts.volve_f4_days import FOR_OTHERS
 from validation.parts.volve_f4_soft import SoftForward
@@ -102,3 +104,12 @@ def tables_of(data: Path, case: Case) -> Mapping[str, pd.DataFrame]:
     first = posteriors[STIFF]
     fitted = Forward(measured_rows(data, case, FIT), strings, first.unknowns, first.setup)
     return judged_tables("S-well", models, carried_on(fitted, models[STIFF][1], lambda row: row.bit_depth))
+
+
+if __name__ == "__main__":
+    folder = data_folder()
+    assert folder is not None, "the public data folder is missing"
+    for kind in ROUTES:
+        calibrated = fit_of(folder, case_of(folder), kind)
+        print(kind, calibrated.table.to_string(), sep="\n", flush=True)
+        freeze(calibrated, frozen_file(kind))
