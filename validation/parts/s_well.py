@@ -13,11 +13,11 @@ Rules of reading.
 - The weight of block and top drive is not recorded: an unknown without a prior.
 
 Rules of judging: those of ``validation.parts.judging``, every weight by itself; pick-up minus slack-off by its width.
-The last reading carried on is that of the deepest depth that fitted.  ``python -m validation.parts.s_well`` fits the well
-and writes its frozen values.
+The last reading carried on is that of the deepest depth that fitted.  ``python -m validation.parts.s_well`` fits the
+well and writes its frozen values.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
 
@@ -93,7 +93,7 @@ def frozen_file(model: str) -> Path:
     return SETUPS / f"{model.replace(' ', '_')}.fit.json"
 
 
-def tables_of(data: Path, case: Case) -> Mapping[str, pd.DataFrame]:
+def tables_of(data: Path, case: Case) -> dict[str, pd.DataFrame]:
     """The tables of ``judged_tables`` from the frozen values."""
     rows, strings = measured_rows(data, case, JUDGED), {"": case}
     posteriors = {model: read_posterior(frozen_file(model)) for model in ROUTES}
