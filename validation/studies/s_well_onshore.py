@@ -1,7 +1,8 @@
 """Weights of an onshore S-well: fitted at its six shallowest depths, predicted at the seven deeper ones.
 
-Split, rules, priors and models (`validation/parts/s_well.py`), the frozen values and the first prediction were committed
-in this order.  The well has no torque.  A short run predicts from the frozen values; a full one also fits again.
+Split, rules, priors and models (`validation/parts/s_well.py`), the frozen values and the first prediction were
+committed in this order.  The well has no torque.  A short run predicts from the frozen values; a full one
+also fits again.
 """
 
 import pandas as pd
@@ -56,8 +57,8 @@ def notes(context: Context, tables: dict[str, pd.DataFrame]) -> list[str]:
         "The well has no torque, so that its pair of factors is one factor; what one factor says is one number for "
         "casing and hole.",
         "The source prints 1267 lb/ft for the collars, which is not physical; 147 is of their diameters and was used.",
-        "Its readings have no date: each depth is taken as a day. That they were measured is the author's word. Survey, "
-        "string and weights: DonRio106/TnD_model_test, MIT.",
+        "Its readings have no date: each depth is taken as a day. That they were measured is the author's word. "
+        "Survey, string and weights: DonRio106/TnD_model_test, MIT.",
     ]  # fmt: skip
 
 
