@@ -29,7 +29,7 @@ def case_of(**more: Any) -> Case:
 def test_our_cases_are_not_doubted(path: Path, tmp_path: Path) -> None:
     survey = tmp_path / "survey.csv"  # those of real wells are public data, and not part of the project
     survey.write_text("md_m,inc_deg,azi_deg\n" + "".join(f"{30 * k},0,0\n" for k in range(274)), encoding="utf-8")
-    changes = {"wellbore.survey": survey} if path.stem.startswith(("nlog_", "volve_", "forge_")) else {}
+    changes = {"wellbore.survey": survey} if path.stem.startswith(("forge_", "nlog_", "s_well_", "volve_")) else {}
     assert load_case(path, changes).warnings == ()
 
 

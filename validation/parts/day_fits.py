@@ -6,9 +6,12 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from fctd.calibration.days import fit_scatter
 from fctd.calibration.fit import fit
 from fctd.calibration.forward import Forward
+from fctd.calibration.predict import Posterior
 from fctd.calibration.result import Calibration
 from fctd.calibration.rows import Row
 from fctd.calibration.rules import left_out_by_rule
@@ -47,6 +50,12 @@ def freeze(found: Calibration, file: Path) -> None:
     replace(posterior, mixture=posterior.mixture.main(_LEAST)).write(file)
     shortened = _rounded(json.loads(file.read_text(encoding="utf-8")))
     file.write_text(json.dumps(shortened) + "\n", encoding="utf-8")
+
+
+def furthest(again: Calibration, frozen: Posterior) -> float:
+    """Largest difference of a repeated fit from frozen values, in standard deviations of these."""
+    sd = np.sqrt(np.diag(frozen.covariance))
+    return float((np.abs(again.fit.best - frozen.best) / sd).max())
 
 
 def _rounded(value: Any) -> Any:

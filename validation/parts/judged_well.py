@@ -46,8 +46,11 @@ def judged_tables(
     return {name: pd.concat(tables, ignore_index=True) for name, tables in parts.items()}
 
 
-def checks_of(tables: Mapping[str, pd.DataFrame]) -> list[Check]:
-    """The numbers of the stiff string: count outside, width, and scores beside the simpler forecasts."""
+def checks_of(tables: Mapping[str, pd.DataFrame], called: str = "") -> list[Check]:
+    """The numbers of the stiff string: count outside, width, and scores beside the simpler forecasts.
+
+    called : what the names of the checks begin with, where a study has several.
+    """
     scores = tables["scores"].set_index(["model", "unit"])
     wide = tables["widths"].query("model == @STIFF")
     found = []
@@ -56,23 +59,23 @@ def checks_of(tables: Mapping[str, pd.DataFrame]) -> list[Check]:
             continue
         one, plain = scores.loc[(STIFF, unit)], scores.loc[(ONE_FACTOR, unit)]
         least = min(one["probability_of_as_few_outside"], one["probability_of_as_many_outside"])
+        name = f"{called}{kind}: "
         found += [
-            Check(f"{kind}: probability of so many outside their 95 % band, the rarer side", float(least), LEVEL / 2,
+            Check(f"{name}probability of so many outside their 95 % band, the rarer side", float(least), LEVEL / 2,
                   "at_least", "", "two-sided 1 %, under the fitted correlation"),
-            Check(f"{kind}: CRPS over that of one friction factor", float(one["crps"] / plain["crps"]), 1.0, "at_most",
-                  "", TARGET),
+            Check(f"{name}CRPS over that of one friction factor", float(one["crps"] / plain["crps"]), 1.0,
+                  "at_most", "", TARGET),
         ]  # fmt: skip
         if pd.notna(one["crps_carried_on"]):
             found.append(
-                Check(f"{kind}: CRPS over that of the last reading carried on",
+                Check(f"{name}CRPS over that of the last reading carried on",
                       float(one["crps"] / one["crps_carried_on"]), 1.0, "at_most", "", TARGET)
             )  # fmt: skip
-    ratio = float(wide["width"].median() / wide["scatter_width"].median())
-    return [
-        *found,
-        Check("pick-up minus slack-off: median 95 % width over that of the scatter between days", ratio, WIDEST,
-              "at_most", "", TARGET),
-    ]  # fmt: skip
+    ratio, name = float(wide["width"].median() / wide["scatter_width"].median()), f"{called}pick-up minus slack-off: "
+    found.append(
+        Check(f"{name}median 95 % width over that of the scatter between days", ratio, WIDEST, "at_most", "", TARGET)
+    )  # fmt: skip
+    return found
 
 
 def which_is_better(tables: Mapping[str, pd.DataFrame]) -> str:

@@ -2,7 +2,8 @@
 
 Split, cases, priors and rules of judging (`validation/parts/volve_f4.py`), the frozen values and the first prediction
 were committed in this order.  A short run predicts from the frozen values; a full one also fits again, fits the soft
-string the same way, and makes the second round, which is not a prediction: it was thought of after the look.
+string the same way, and makes the second round, which is not a prediction: it was thought of after the look.  Models
+with pairs of friction factors and scatter between days belong to that round; a short run judges their frozen values.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -18,6 +19,9 @@ from fctd.calibration.unknowns import with_values
 from fctd.case.load import Case
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts import volve_f4 as split
+from validation.parts import volve_f4_days as days
+from validation.parts.judged_well import CAPTIONS, STIFF, which_is_better
+from validation.parts.judged_well import checks_of as checks_of_days
 from validation.parts.volve_f4_fits import Frozen, fit_of_b, fit_of_rig, fits_of_a, freeze, frozen, setup_of, setup_of_b
 from validation.parts.volve_f4_judging import predict
 from validation.parts.volve_f4_rounds import second_round
@@ -46,6 +50,10 @@ def run(context: Context) -> Outcome:
         "points": points([*series_rows(data, strings), *report_rows(data, strings, tuple(split.STRINGS))]),
     }
     checks = checks_of(tables["rows"], "stiff string")
+    judged = days.tables_of(data, strings)
+    checks += [check for name in days.SPLITS for check in days_checks(judged, name)]
+    tables |= judged
+    tables["rows"] = pd.concat([tables["rows"], second_rows(judged["judged"])], ignore_index=True)
     if not context.quick:
         more, found = full(context, data, strings, fits)
         tables |= more
@@ -58,6 +66,7 @@ def run(context: Context) -> Outcome:
             "splits": "Which rows fit and which judge", "parameters": "Frozen values with 95 % intervals (Hessian)",
             "correlations": f"Correlations of {STRONG:g} and more", "rows": "Measured range and predicted bands",
         }
+        | CAPTIONS
         | ({} if context.quick else {name: caption for name, caption in FULL.items() if name in tables}),
     )  # fmt: skip
 
@@ -67,6 +76,8 @@ FULL = {
     "left_out": "Model B without each of its rows, and its prediction of that row (N, N m)",
     "soft_parameters": "The soft string calibrated the same way",
     "soft_rows": "Measured range and predicted bands, soft string",
+    "day_values": "Second round, pairs and days, fitted again (SI)",
+    "days_left_out": "Second round, pairs and days, split B without each day, and its prediction of that day (N, N m)",
     "second_round": "Second round, thought of after the look: model B with one change each",
 }
 
@@ -136,6 +147,32 @@ def checks_of(rows: pd.DataFrame, string: str) -> list[Check]:
     ]  # fmt: skip
 
 
+def of_split(judged: Mapping[str, pd.DataFrame], name: str) -> dict[str, pd.DataFrame]:
+    """The tables of one split of the models with pairs and days."""
+    well = days.well_of(name)
+    return {key: judged[key][judged[key]["well"] == well] for key in CAPTIONS}
+
+
+def days_checks(judged: Mapping[str, pd.DataFrame], name: str) -> list[Check]:
+    """The numbers of a split with pairs and days."""
+    one, called = of_split(judged, name), f"second round, split {name}, "
+    rows = one["judged"].query("model == @STIFF and quantity == 'torque'")
+    found = checks_of_days(one, called)
+    if len(rows):
+        found.append(
+            Check(f"{called}off-bottom torque against measured, largest distance",
+                  float(rows["distance_percent"].max()), 10, "at_most", "%", "§6.2, §7: within 10 % of the measured")
+        )  # fmt: skip
+    return found
+
+
+def second_rows(judged: pd.DataFrame) -> pd.DataFrame:
+    """The stiff string's judged rows with pairs and days, as those of models A and B."""
+    stiff = judged[judged["model"] == STIFF]
+    model = stiff["well"].str[-1] + ", second round: pairs and days"
+    return stiff.drop(columns=["well", "day", "error"]).assign(model=model)
+
+
 def curves(strings: Mapping[str, Case], fits: Mapping[str, Frozen]) -> pd.DataFrame:
     """Readings of the rig over bit depth: the string of the first section, and the wiper string."""
     parts = []
@@ -178,6 +215,7 @@ def full(
     soft["rig"] = freeze(fit_of_rig(data, strings, SoftForward))
     soft["B"] = freeze(fit_of_b(data, strings, soft["rig"], SoftForward))
     soft_rows = judge(data, strings, soft, SoftForward)
+    day_tables, day_checks = days.refitted(context, data, strings)
     left = again["B"].leave_one_out[["id", "load", "low", "high", "predicted", "off"]]
     torque = left[left["load"] == "torque"]
     beyond = (torque["predicted"] - torque["high"]).clip(lower=0) + (torque["low"] - torque["predicted"]).clip(lower=0)
@@ -188,6 +226,7 @@ def full(
         Check("frozen values against the fit repeated, largest difference", max(off.values()), 1, "at_most",
               "standard deviations", "the loss of the tool grew from one standard deviation to three meanwhile"),
         *checks_of(soft_rows, "soft string"),
+        *day_checks,
     ]  # fmt: skip
     tables = {
         "repeated": pd.DataFrame({"model": [*off], "difference_sd": [*off.values()]}),
@@ -196,6 +235,7 @@ def full(
         "soft_parameters": pd.concat([parameters(name, one) for name, one in soft.items()], ignore_index=True),
         "soft_rows": soft_rows,
         "second_round": second_round(context, data, strings, fits["rig"]),
+        **day_tables,
     }
     return tables, checks
 
@@ -238,6 +278,10 @@ def notes(tables: Mapping[str, pd.DataFrame], fits: Mapping[str, Frozen]) -> lis
         "no weight of a daily report.",
         "Data: Volve data village, Equinor and partners: surveys, daily drilling reports, and a 4-second series by way "
         "of a public redistribution; non-commercial, share-alike, attribution.",
+    ]
+    found += [
+        f"Second round with pairs and scatter between days, split {name}: {which_is_better(of_split(tables, name))}"
+        for name in days.SPLITS
     ]
     if "second_round" in tables:
         by = tables["second_round"].set_index("change")["friction_cased"]

@@ -65,7 +65,10 @@ def test_the_string_that_turns_on_its_way_has_no_torque_of_its_own_and_a_slow_sp
 
 
 def test_torque_at_rest_is_left_out(tmp_path: Path) -> None:
-    assert [row.operation for row in reports(tmp_path, "F4-07,2008-03-06,500,0,2,3,150,120,")] == ["trip_out", "trip_in"]
+    assert [row.operation for row in reports(tmp_path, "F4-07,2008-03-06,500,0,2,3,150,120,")] == [
+        "trip_out",
+        "trip_in",
+    ]
 
 
 def test_a_spread_is_scored_with_the_errors_of_its_two_readings() -> None:
