@@ -5,6 +5,7 @@ STUDIES: dict[str, str] = {
     "paper_times": "validation.studies.paper_times",
     "volve_f4": "validation.studies.volve_f4",
     "s_well_onshore": "validation.studies.s_well_onshore",
+    "forge_16a": "validation.studies.forge_16a",
     "well_profile": "validation.studies.well_profile",
     "curved_chain": "validation.studies.curved_chain",
     "scaled_section": "validation.studies.scaled_section",
