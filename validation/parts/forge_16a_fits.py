@@ -66,9 +66,11 @@ MODELS: Final[dict[str, Model]] = {
 }
 
 
-def setup_of(found: Mapping[str, Assembly], keys: Sequence[str], model: Model = MODELS[STIFF]) -> Setup:
-    """The setup with the priors of another well, and with the masses of these rows' assemblies, for a model."""
-    setup = base_setup()
+def setup_of(
+    found: Mapping[str, Assembly], keys: Sequence[str], model: Model = MODELS[STIFF], base: Setup | None = None
+) -> Setup:
+    """A setup, by default ``base_setup``, with the masses of these rows' assemblies, for a model."""
+    setup = base_setup() if base is None else base
     unknowns = {name: spec for name, spec in setup.unknowns.items() if model.depth or not gradient_of(name)}
     unknowns |= {f"mass.{found[key].carrier}": _mass(found[key]) for key in keys}
     setup = setup.model_copy(update={"unknowns": unknowns})
@@ -91,13 +93,14 @@ def _mass(assembly: Assembly) -> UnknownSpec:
 
 
 def fit(
-    strings: Mapping[str, Case], rows: Sequence[Row], found: Mapping[str, Assembly], model: Model, starts: int = 1
-) -> Calibration:
-    """A calibration of rows with scatter between days."""
+    strings: Mapping[str, Case], rows: Sequence[Row], found: Mapping[str, Assembly], model: Model,
+    base: Setup | None = None,
+) -> Calibration:  # fmt: skip
+    """A calibration of rows with scatter between days, from one start."""
     keys = list(dict.fromkeys(row.string for row in rows))
-    setup = setup_of(found, keys, model)
+    setup = setup_of(found, keys, model, base)
     pieces = {key: in_pieces(strings[key], setup.unknowns) for key in keys}
-    return fit_by_day(pieces, rows, setup, model.route, starts)
+    return fit_by_day(pieces, rows, setup, model.route, starts=1)
 
 
 def fit_of_tare(data: Path, strings: Mapping[str, Case], found: Mapping[str, Assembly]) -> Calibration:
