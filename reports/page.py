@@ -1,4 +1,4 @@
-"""From stored results to pages: the first page with its chapters, the claims, and a page for every study."""
+"""From stored results to pages: the first with its chapters, the claims, measured wells, and one for every study."""
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -7,8 +7,10 @@ from typing import Any
 import jinja2
 
 from fctd.store.whole_folder import whole_folder
-from reports import chapters, results, words
+from reports import chapters, results, wells, words
 from reports.claims import LOOKS, judged
+from reports.figures import Tables
+from reports.figures.judged import WELLS
 from reports.figures.leading import LEADING
 from reports.sections import Picture, Section, anchor, section_of
 from validation.claims.ledger import CLAIMS
@@ -25,7 +27,9 @@ def render(
     ledger: Path = CLAIMS,
     questions: Mapping[str, str] | None = None,
 ) -> list[str]:
-    """Write ``out/index.html``, ``claims.html``, ``studies``, ``figures`` and ``results.json``; return what is missing.
+    """Write the pages, ``figures`` and ``results.json`` into a folder; return what is missing.
+
+    Pages: ``index.html``, ``claims.html``, ``wells.html`` and those of ``studies``.
 
     A folder of that name is replaced at the end, as a whole: an interruption leaves the pages before.
 
@@ -52,11 +56,14 @@ def _render(
     sections: dict[str, Section] = {}
     first = {each.study: each for each in LEADING}
     drawn: dict[str, Picture | None] = {}
+    measured: dict[str, Tables] = {}
     for study in dict.fromkeys([*studies, *found]):
         section, tables = section_of(stored / study, out)
         section.changed = changes.get(study, "")
         section.asked = questions.get(study, "")
         sections[study] = section
+        if study in WELLS:
+            measured[study] = tables
         if study in first and tables:
             drawn[study] = section.draw(first[study].figure, tables, out)
     leading = [(each.study, each.figure.caption, drawn.get(each.study)) for each in LEADING]
@@ -67,6 +74,7 @@ def _render(
         "looks": LOOKS,
         "changes": changes,
         "leading": leading,
+        "wells": wells.page_of(sections, measured, claims),
         "chapters": _chapters(sections),
         "paper": [(each, _ours(each.ours, sections)) for each in chapters.contents().paper],
         "findings": [(section, judged) for section in sections.values() for judged in section.findings],
@@ -102,6 +110,7 @@ def _write_pages(out: Path, given: Mapping[str, Any]) -> None:
 
     write("index.html", "index.html")
     write("claims.html", "claims.html")
+    write("wells.html", "wells.html")
     for section in given["sections"].values():
         write("study.html", f"studies/{section.study}.html", section=section)
 

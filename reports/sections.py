@@ -121,7 +121,7 @@ def section_of(folder: Path, out: Path) -> tuple[Section, figures.Tables]:
         return section, {}
     if found.status != "finished":
         return section, {}
-    section.tables = [_print(tables[name], caption) for name, caption in found.display.items()]
+    section.tables = [printed(tables[name], caption) for name, caption in found.display.items()]
     # A study whose package is missing finishes with a note only.
     drawn = figures.by_study().get(section.study, []) if tables or found.checks else []
     section.pictures = [picture for figure in drawn if (picture := section.draw(figure, tables, out))]
@@ -156,7 +156,7 @@ def _small(canvas: Canvas) -> str:
     return "data:image/png;base64," + base64.b64encode(drawn.getvalue()).decode()
 
 
-def _print(table: pd.DataFrame, caption: str) -> Printed:
+def printed(table: pd.DataFrame, caption: str) -> Printed:
     """A table's columns as text."""
     columns = [(*words.heading(name), pd.api.types.is_numeric_dtype(table[name])) for name in map(str, table.columns)]
     cells = [words.column(table[name]) for name in table.columns]

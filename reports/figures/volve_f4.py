@@ -52,12 +52,11 @@ def chart(tables: Tables) -> Canvas:
     caption="Judged rows: predicted 95 % band (thin) and 50 % band (thick), recorded value or range (black).",
 )
 def rows(tables: Tables) -> Canvas:
-    """Bands of judged rows: torque by model A, half spread by A and B."""
+    """Bands of judged rows: torque by models of split A, half spread by those of A and B."""
     table = tables["rows"]
     canvas, axes = style.subplots(4.4, 1, 2)
     for ax, (quantity, unit) in zip(axes, (("torque", "kN·m"), ("half spread", "kN")), strict=True):
         part = table[table["quantity"] == quantity]
-        part = part[(part["model"] == "B") | part["model"].str.startswith("A")].reset_index(drop=True)
         part = part.sort_values(["row", "model"], kind="stable").reset_index(drop=True)
         models = list(dict.fromkeys(table["model"]))
         for at, one in part.iterrows():
@@ -71,5 +70,5 @@ def rows(tables: Tables) -> Canvas:
         style.rows_downwards(ax, [str(row) if new else "" for row, new in zip(part["row"], first, strict=True)])
         ax.set(xlabel=f"{quantity}, {unit}")
         if quantity == "half spread":
-            style.legend_outside(canvas, ax, columns=4)
+            style.legend_outside(canvas, ax, columns=3)
     return canvas

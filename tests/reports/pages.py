@@ -35,8 +35,8 @@ def finished(name, **changes):
 
 
 def pages_of(out):
-    """The first page, the claims, and the pages of the studies."""
-    return [out / "index.html", out / "claims.html", *sorted((out / "studies").glob("*.html"))]
+    """The first page, the claims, the measured wells, and the pages of the studies."""
+    return [out / "index.html", out / "claims.html", out / "wells.html", *sorted((out / "studies").glob("*.html"))]
 
 
 def study_page(tmp_path, name="overlap"):

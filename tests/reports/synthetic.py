@@ -147,7 +147,43 @@ def volve_f4() -> dict[str, pd.DataFrame]:
             "measured_low": [7.0, 132.0, 132.0], "measured_high": [7.0, 132.0, 132.0],
         }
     )  # fmt: skip
-    return {"curves": curves, "points": points, "rows": rows}
+    return {"curves": curves, "points": points, "rows": rows, **judged_well("Volve F-4, split A")}
+
+
+def judged_well(well: str) -> dict[str, pd.DataFrame]:
+    """The tables of a judged well: a weight that lies in its bands, and a torque beside them."""
+    models = ["stiff string", "soft string", "one factor"]
+    readings = [("F4-07", "weight up", "kN", 1460.0, 1450.0, 30.0), ("F4-06", "torque", "kN m", 7.0, 19.0, 6.0)]
+    judged = pd.DataFrame(
+        [
+            {"well": well, "model": model, "day": "2008-03-06", "row": row, "quantity": quantity, "unit": unit,
+             "measured_low": read - 0.5, "measured_high": read + 0.5, "median": middle + k,
+             "low_50": middle + k - width / 2, "high_50": middle + k + width / 2,
+             "low_95": middle + k - width, "high_95": middle + k + width, "in_50": unit == "kN", "in_95": unit == "kN",
+             "distance_percent": 0.6 if unit == "kN" else 164.0, "crps": 1.0 + k, "error": middle + k - read}
+            for row, quantity, unit, read, middle, width in readings
+            for k, model in enumerate(models)
+        ]
+    )  # fmt: skip
+    every = {
+        "well": well, "readings": 1, "days": 1, "in_50": 1, "coverage_95": 1.0, "coverage_low": 0.5,
+        "coverage_high": 1.0, "compatible": True, "crps_carried_on": 3.0, "bias": -0.5,
+    }  # fmt: skip
+    scores = pd.DataFrame(
+        [
+            every | {"model": model, "unit": unit, "in_95": int(unit == "kN"), "crps": 1.0 + k}
+            for unit in ("kN", "kN m")
+            for k, model in enumerate(models)
+        ]
+    )
+    widths = pd.DataFrame(
+        [
+            {"well": well, "model": model, "row": "F4-07", "difference_kN": 265.0, "width": 0.5, "scatter_width": 0.4,
+             "ratio": 1.25}
+            for model in models
+        ]
+    )  # fmt: skip
+    return {"judged": judged, "scores": scores, "widths": widths}
 
 
 STUDIES = {of.__name__: of for of in (overlap, ownership, contact_accuracy, paper_well, volve_f4)}

@@ -48,11 +48,21 @@ def notes(context: Context, tables: dict[str, pd.DataFrame]) -> list[str]:
     )
     before = carried_on(known, judged, lambda row: row.bit_depth)
     rows = tables["judged"].query("model == @STIFF")
+    out = rows[~rows["in_95"]]
+    missed = [
+        f"{row} {quantity} ({error:+.0f} kN predicted less read)"
+        for row, quantity, error in zip(out["row"], out["quantity"], out["error"], strict=True)
+    ]
     middle = 0.5 * (rows["measured_low"] + rows["measured_high"])
     keys = zip(rows["row"], rows["quantity"], strict=True)
     off = [abs(before[key] - value) for key, value in zip(keys, middle, strict=True)]
     return [
         which_is_better(tables),
+        f"{len(out)} of {len(rows)} readings lie outside their band: {', '.join(missed)}. The rotating weight rises "
+        "by 13 and 18 kN to 4001 and 4317 ft, where the added pipe weighs 30 and 25 kN in mud, and by 58 to 5009 ft, "
+        "where it weighs 30; pick-up and slack-off do not follow it. So it is not the string's mass that is wrong, but "
+        "what was read while it turned, such as with the bit on bottom, of which nothing is recorded. Nothing was "
+        "changed after this look.",
         f"The readings of the depth before, which the forecasts do not use, are {sum(off) / len(off):.2f} kN off.",
         "The well has no torque, so that its pair of factors is one factor; what one factor says is one number for "
         "casing and hole.",

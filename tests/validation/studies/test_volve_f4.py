@@ -6,12 +6,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from fctd.calibration.predict import read_posterior
 from fctd.calibration.rows import Range, Row
-from fctd.calibration.setup import Setup
+from fctd.calibration.setup import Setup, read_setup
 from fctd.calibration.unknowns import find_unknowns, parse_fits
 from fctd.model.operations import SteadyRates, rad_per_s
 from tests.cases import make_case, pipe
 from validation.parts import volve_f4 as split
+from validation.parts import volve_f4_days as days
+from validation.parts.judged_well import ONE_FACTOR
 from validation.parts.volve_f4_fits import Frozen, frozen, setup_of, setup_of_b
 from validation.parts.volve_f4_judging import predict
 from validation.parts.volve_f4_rows import FOLDER, REPORTS, TONNE, report_rows
@@ -39,6 +42,26 @@ def test_the_first_stage_is_the_prior_of_the_second() -> None:
     assert block.prior is not None
     assert block.prior.mean == rig.best["rig.block_weight"]
     assert "rig.block_weight" not in setup_of("reports").unknowns
+
+
+@pytest.mark.parametrize("name", days.SPLITS)
+def test_the_second_round_has_the_splits_of_the_first(name: str) -> None:
+    one = days.SPLITS[name]
+    assert not set(one.fit) & set(one.judged)
+    for model in days.ROUTES:
+        kept = read_posterior(days.frozen_file(name, model))
+        paired = [unknown.name for unknown in kept.unknowns if unknown.name.endswith((".axial", ".rotational"))]
+        assert bool(paired) == (model != ONE_FACTOR)
+        assert kept.mixture is not None
+        assert kept.setup.model_error.hookload == 0.0
+
+
+def test_what_the_well_says_of_others_is_wider_than_what_it_says_of_itself() -> None:
+    others = read_setup(days.FOR_OTHERS)
+    prior = others.unknowns["friction.cased.axial"].prior
+    assert prior is not None
+    assert float(prior.sd) / float(prior.mean) > np.sqrt(np.expm1(days.AMONG_WELLS**2)) > 0.4
+    assert others.scatter.friction == pytest.approx(0.217, abs=0.001)
 
 
 def reports(tmp_path: Path, *lines: str) -> list[Row]:
