@@ -14,7 +14,7 @@ from reports.sections import Picture, Printed, Section, printed
 from validation.claims.ledger import Finding
 from validation.parts.judged_well import CAPTIONS, STIFF, which_is_better
 
-CLAIM: Final = "measured-torque-of-a-public-well"
+CLAIMS: Final = "measured-torque-of-"  # what their names begin with
 SHARE: Final = 10.0  # the paper's, of torque [%]
 _SCORES: Final = {
     "model": "model", "unit": "unit", "readings": "readings", "in_95": "in 95 % band", "coverage": "coverage (95 %)",
@@ -45,18 +45,18 @@ class Well:
 
 @dataclass(frozen=True)
 class Page:
-    """The wells, the torques that were judged, why there are none of a well, and the claim on torque."""
+    """The wells, the torques that were judged, the wells without any, and the claims on measured torque."""
 
     wells: list[Well]
     torques: Printed | None
     without: list[str]
-    claim: Finding | None
+    claims: list[Finding]
 
 
 def page_of(sections: Mapping[str, Section], tables: Mapping[str, Tables], claims: Claims) -> Page:
     """The page from the sections and the tables of the studies that have been run."""
     wells = [_well(study, name, sections.get(study), tables.get(study, {})) for study, name in WELLS.items()]
-    claim = next((each for each in claims.judgement.findings if each.claim.id == CLAIM), None)
+    asked = [each for each in claims.judgement.findings if each.claim.id.startswith(CLAIMS)]
     torques = [
         stiff_torques(tables[well.study]["judged"]).assign(of=well.name) for well in wells if not well.missing
     ]  # fmt: skip
@@ -64,7 +64,7 @@ def page_of(sections: Mapping[str, Section], tables: Mapping[str, Tables], claim
         well.name for well, found in zip([w for w in wells if not w.missing], torques, strict=True) if found.empty
     ]
     every = pd.concat(torques, ignore_index=True) if torques else pd.DataFrame()
-    return Page(wells, _print_torques(every) if len(every) else None, without, claim)
+    return Page(wells, _print_torques(every) if len(every) else None, without, asked)
 
 
 def _well(study: str, name: str, section: Section | None, tables: Tables) -> Well:

@@ -5,7 +5,7 @@ Tables of a study: ``judged`` (a row for each model and quantity), ``scores`` (f
 """
 
 from collections.abc import Callable, Iterable, Mapping
-from typing import Final
+from typing import Any, Final
 
 import pandas as pd
 
@@ -51,13 +51,15 @@ def checks_of(tables: Mapping[str, pd.DataFrame], called: str = "") -> list[Chec
 
     called : what the names of the checks begin with, where a study has several.
     """
-    scores = tables["scores"].set_index(["model", "unit"])
+    scores: dict[tuple[str, str], dict[Any, Any]] = {
+        (row["model"], row["unit"]): row for row in tables["scores"].to_dict("records")
+    }
     wide = tables["widths"].query("model == @STIFF")
     found = []
     for unit, kind in KINDS.items():
-        if (STIFF, unit) not in scores.index:
+        if (STIFF, unit) not in scores:
             continue
-        one, plain = scores.loc[(STIFF, unit)], scores.loc[(ONE_FACTOR, unit)]
+        one, plain = scores[STIFF, unit], scores[ONE_FACTOR, unit]
         least = min(one["probability_of_as_few_outside"], one["probability_of_as_many_outside"])
         name = f"{called}{kind}: "
         found += [

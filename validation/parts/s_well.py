@@ -69,11 +69,11 @@ def setup_of(model: str = STIFF) -> Setup:
 
 def measured_rows(data: Path, case: Case, depths: Sequence[int]) -> list[Row]:
     """The readings at these bit depths [ft], and no other."""
-    table = pd.read_csv(data / FOLDER / "measured.csv").set_index("MD_ft").loc[[*depths]]
+    table = pd.read_csv(data / FOLDER / "measured.csv").set_index("MD_ft").loc[[*depths]].reset_index()
     return [
-        Row(f"{depth} ft {label}", "", float(depth) * FOOT, kind, steady_rates(case, kind), _reading(cells[column]),
-            day=f"{depth} ft")
-        for depth, cells in table.iterrows()
+        Row(f"{cells['MD_ft']} ft {label}", "", float(cells["MD_ft"]) * FOOT, kind, steady_rates(case, kind),
+            _reading(cells[column]), day=f"{cells['MD_ft']} ft")
+        for cells in table.to_dict("records")
         for column, (kind, label) in COLUMNS.items()
         if pd.notna(cells[column])
     ]  # fmt: skip

@@ -1,6 +1,7 @@
 """Fits with scatter between days: one factor of a setup, readings carried on, frozen posteriors."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -39,14 +40,16 @@ def test_one_factor_takes_the_place_of_a_pair() -> None:
     assert setup.unknowns["friction.open"].prior is not None
 
 
-def test_a_frozen_posterior_is_that_of_its_fit(tmp_path) -> None:
+def test_a_frozen_posterior_is_that_of_its_fit(tmp_path: Path) -> None:
     found = fit_by_day({"": LEVEL}, rows(0.25, 0.3, 0.36), SETUP, starts=1)
     freeze(found, tmp_path / "one.fit.json")
     kept = read_posterior(tmp_path / "one.fit.json")
     assert kept.best == pytest.approx(found.fit.best, rel=1e-8)
     assert furthest(found, kept) < 1e-6
     assert kept.mixture is not None
-    assert len(kept.mixture.weight) < len(found.posterior.mixture.weight)
+    whole = found.posterior.mixture
+    assert whole is not None
+    assert len(kept.mixture.weight) < len(whole.weight)
     assert kept.mixture.weight.sum() == pytest.approx(1.0)
     assert found.fit.best[0] == pytest.approx(0.3, abs=0.02)
 
