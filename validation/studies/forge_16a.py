@@ -91,7 +91,8 @@ def run(context: Context) -> Outcome:
     }
     checks = [*checks_of(judged[WELL]), *checks_of(judged[APART], "apart, "), *own_checks(tables)]
     if not context.quick:
-        tables["repeated"], found_checks = again(context, well)
+        more, found_checks = again(context, well, picked[STIFF])
+        tables |= more
         named = context.progress(changes(), "second round")
         tables["second_round"] = second_round(context.data, well.strings, found, named)
         checks += found_checks
@@ -113,6 +114,7 @@ SHOWN = {
     **CAPTIONS,
     "rotating": "Rotating weights: band and residual",
     "repeated": "The fits repeated, against the frozen values",
+    "left_out": "The rows that fit, each predicted without its day (N, N m)",
     "second_round": "Second round, thought of after the look: one change each, none of which is judged",
     "other_form": "The same rows by the form of friction over depth that was not chosen",
 }
@@ -202,17 +204,20 @@ def own_checks(tables: Mapping[str, pd.DataFrame]) -> list[Check]:
     return found
 
 
-def again(context: Context, well: Well) -> tuple[pd.DataFrame, list[Check]]:
-    """Every fit again, and the time of one with two assemblies."""
-    rows = []
+def again(context: Context, well: Well, judged: str) -> tuple[dict[str, pd.DataFrame], list[Check]]:
+    """Every fit again, the rows that fit without their day by the judged model, and the time of two assemblies."""
+    rows, left_out = [], pd.DataFrame()
     for name in context.progress([ALONE, *MODELS], "fits"):
-        found = freeze(fits_of(well.data, [name])[name])
+        fitted = fits_of(well.data, [name])[name]
+        if name == judged:
+            left_out = fitted.leave_one_out[["id", "load", "low", "high", "predicted", "low95", "high95"]]
+        found = freeze(fitted)
         off = {key: abs(found.best[key][0] - value) / sd for key, (value, sd) in well.fits[name].best.items()}
         furthest = max(off, key=lambda key: off[key])
         rows.append({"model": name, "unknown": furthest, "difference_sd": off[furthest]})
     table = pd.DataFrame(rows)
     first, both = two_assemblies(well)
-    return table, [
+    return {"repeated": table, "left_out": left_out}, [
         Check("frozen values against the fit repeated, largest difference", float(table["difference_sd"].max()), 0.1,
               "at_most", "standard deviations", "the digits of the file, and the last digits of another machine"),
         Check("processor time of a fit of twelve rows with two assemblies", first, FIT_TIME, "at_most", "s",
