@@ -112,7 +112,7 @@ def interval_options(stiffness: str | None) -> st.SearchStrategy[dict[str, Any]]
     """Optional keys of an interval, with the same kind of stiffness as the hole."""
     unit = {"stiffness": "N/m", "stiffness_per_length": "N/m/m"}
     own = {stiffness: positive(1e4, 1e9).map(lambda k: f"{k!r} {unit[stiffness]}")} if stiffness else {}
-    return optional({"name": st.text("abc åé\"'\\", max_size=5), **own})
+    return optional({"name": st.text("abc åé\"'\\", max_size=5), "rotational_friction": positive(0, 1), **own})
 
 
 @st.composite

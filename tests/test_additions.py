@@ -174,21 +174,21 @@ PER_SPEED = 0.5  # share of the limit for each metre per second
 
 
 @inlined
-def impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit):
+def impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit, around):
     r = S[RADIUS + j]
     k, q = PER_SPEED * limit * S[INVERSE_MASS + j], PER_SPEED * limit * r * r * S[INVERSE_JA + j]
     return 0.0 * w, 0.0 * w, -w * k / (1 + k), 0.0 * w, 0.0 * w, -c * q / (1 + q)
 
 
 @inlined
-def steady_load(speed, spin, limit, radius, ax, ay, az, nx, ny, nz, tx, ty, tz):
+def steady_load(speed, spin, limit, around, radius, ax, ay, az, nx, ny, nz, tx, ty, tz):
     drag, torque = -PER_SPEED * limit * speed, -PER_SPEED * limit * radius * radius * spin
     return drag * ax, drag * ay, drag * az, torque * ax, torque * ay, torque * az, torque
 
 
 @inlined
-def shares(speed, turning):
-    return PER_SPEED * speed, PER_SPEED * turning, 0.0
+def shares(speed, turning, limit, around):
+    return PER_SPEED * limit * speed, PER_SPEED * limit * turning, 0.0
 
 
 LAW = Law(impulse, steady_load, shares)

@@ -56,9 +56,14 @@ def sliders_of(case: Case, units: System) -> list[Slider]:
     """The sliders of a case, at its own values."""
     found = []
     for kind in dict.fromkeys(interval.kind for interval in case.wellbore.intervals):
-        first = next(interval for interval in case.wellbore.intervals if interval.kind == kind)
+        same = [interval for interval in case.wellbore.intervals if interval.kind == kind]
         label = KIND_LABELS[kind] if kind or _lacks_kinds(case) else "friction, elsewhere"
-        found.append(_slider(f"friction_{kind}", label, "friction", first.friction, units))
+        pairs = [interval for interval in same if interval.rotational_friction is not None]
+        along = label.replace("friction", "friction along", 1) if pairs else label
+        found.append(_slider(f"friction_{kind}", along, "friction", same[0].friction, units))
+        if pairs:
+            around = label.replace("friction", "friction around", 1)
+            found.append(_slider(f"rotational_{kind}", around, "friction", pairs[0].friction_around, units))
     found.append(_slider("mud", "mud density", "mud", case.mud.density, units))
     found.append(_slider("wob", "weight on bit", "wob", case.bit.weight_on_bit, units))
     found.append(_slider("bit_torque", "bit torque", "bit_torque", case.bit.torque, units))
@@ -91,6 +96,10 @@ def changes(
                     found[f"wellbore.intervals[{i}].friction"] = value
                     if static is not MISSING:
                         found[f"wellbore.intervals[{i}].static_friction"] = static
+        elif name.startswith("rotational_"):
+            for i, interval in enumerate(case.wellbore.intervals):
+                if f"rotational_{interval.kind}" == name and interval.rotational_friction is not None:
+                    found[f"wellbore.intervals[{i}].rotational_friction"] = value
         elif name == RPM:
             for i, operation in enumerate(case.operations):
                 if KINDS[operation.kind].turns:

@@ -18,6 +18,7 @@ from fctd.app.sessions import Source
 from fctd.app.sliders import RPM, changes, sliders_of, turning_at
 from fctd.calibration.measured import read_measured
 from fctd.case.errors import InputError
+from fctd.case.friction import table_of
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.case.text import counted
@@ -66,8 +67,7 @@ class Well:
             rpm = next((slider for slider in self.sliders if slider.name == RPM and RPM in values), None)
             case = case if rpm is None else turning_at(case, rpm.check(values[RPM]))
             # No slider moves the hole: its wall alone changes.
-            factors = np.array([interval.friction for interval in case.wellbore.intervals])
-            self._last = key, case, self.hole.with_friction(factors)
+            self._last = key, case, self.hole.with_friction(table_of(case.wellbore.intervals))
         return self._last[1]
 
     def overrides(self, values: Mapping[str, object]) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from fctd.calibration.rows import Load, Range, Row
 from fctd.calibration.setup import Setup
 from fctd.calibration.unknowns import Unknown, with_values
 from fctd.case.errors import InputError
+from fctd.case.friction import table_of
 from fctd.case.load import Case
 from fctd.case.rig import RigSpec
 from fctd.model.operations import drive_torque, rad_per_s, weight_indicator
@@ -210,8 +211,7 @@ class Forward:
         """The solver of a string's case with values of the unknowns."""
         of = self._solvers[name]
         case = with_values(of.case, dict(zip(self.names, map(float, values), strict=True)))
-        factors = np.array([interval.friction for interval in case.wellbore.intervals])
-        return Solver(case, of.hole.with_friction(factors), of.work)
+        return Solver(case, of.hole.with_friction(table_of(case.wellbore.intervals)), of.work)
 
     def _solve_row(self, row: Row, solvers: Sequence[Solver], steps: Array) -> StringLoads:
         """Loads of a row's string; solvers : at the values, and at the step of each unknown that changes the string."""

@@ -1,6 +1,7 @@
 """The unknowns of a calibration: their names, default bounds and units, and what they change in a case.
 
-``friction``, ``friction.cased``, ``friction.open``, ``friction[k]`` (of the interval with index k);
+``friction``, ``friction.cased``, ``friction.open``, ``friction[k]`` (of the interval with index k), each also with
+``.axial`` or ``.rotational``, along or around the hole alone;
 ``friction.cased.gradient``, ``friction.open.gradient`` (``gradient``);
 ``rig.block_weight``, ``rig.guide_friction``, ``rig.sheave_efficiency``, ``rig.torque_offset``, ``rig.torque_per_rpm``;
 ``mass.NAME``, the linear mass in kg/m of the components of that name in every string; ``mud.density``;
@@ -15,7 +16,7 @@ from typing import Any, Final, NamedTuple
 from fctd.calibration.gradient import gradient_of, multipliers
 from fctd.calibration.setup import PriorSpec, Setup, UnknownSpec, Written
 from fctd.case.errors import MISSING, InputError, join_key, nearest, show
-from fctd.case.friction import KINDS
+from fctd.case.friction import KINDS, Pair, changed, pairs_of
 from fctd.case.load import Case
 from fctd.case.units import DENSITY, FORCE, LINEAR_MASS, TORQUE, Dimension, Number, Quantity
 from fctd.model.section import section_of
@@ -48,8 +49,11 @@ MUD: Final = Form(DENSITY, 500.0, 2500.0, 50.0)
 MASS: Final = (0.3, 3.0, 0.1)
 # Bounds of a bias in standard deviations of its prior; without a prior those of the form.
 BIAS: Final = {"hookload": Form(FORCE, -200e3, 200e3, 10e3), "torque": Form(TORQUE, -10e3, 10e3, 500.0)}
+# Directions of a friction factor, and the keys of an interval that hold them; without one both are alike.
+DIRECTIONS: Final = {"axial": "friction", "rotational": "rotational_friction"}
 NAMES: Final = (
     "friction", *(f"friction.{kind}" for kind in KINDS), "friction[k]",
+    *(f"friction.{kind}.{direction}" for kind in KINDS for direction in DIRECTIONS),
     *(f"friction.{kind}.gradient" for kind in KINDS), *RIG, "mass.NAME", "mud.density",
     "bias.hookload.SOURCE", "bias.torque.SOURCE",
 )  # fmt: skip
@@ -117,8 +121,10 @@ def find_unknowns(fit: Mapping[str, UnknownSpec], setup: Setup, cases: Sequence[
             raise InputError(error.expected, key="fit", value=written) from None
     _check_overlaps([unknown.name for unknown in found], cases)
     for name in specs:
-        if gradient_of(name) and f"friction.{gradient_of(name)}" not in specs:
-            raise InputError(f"also friction.{gradient_of(name)}, which a gradient needs", key="fit", value=name)
+        factor = f"friction.{gradient_of(name)}"
+        whole = factor in specs or all(f"{factor}.{direction}" in specs for direction in DIRECTIONS)
+        if gradient_of(name) and not whole:
+            raise InputError(f"also {factor}, which a gradient needs", key="fit", value=name)
     return found
 
 
@@ -173,9 +179,11 @@ def _form_of(name: str, cases: Sequence[Case]) -> tuple[Form, float]:
     if name.startswith("mass.") and owned:
         low, high, share = MASS
         return Form(LINEAR_MASS, low * owned[0], high * owned[0], share * owned[0]), owned[0]
-    if re.fullmatch(r"friction(\.\w+|\[\d+\])?", name) and owned:
+    if is_factor(name) and owned:
+        _check_pair(name, cases)
         return FRICTION, sum(owned) / len(owned)
-    known = name.startswith("mass.") or re.fullmatch(r"friction(\.(cased|open)(\.gradient)?|\[\d+\])", name)
+    of_kind = r"friction(\.(cased|open)(\.gradient|\.axial|\.rotational)?|\[\d+\](\.axial|\.rotational)?)"
+    known = name.startswith("mass.") or re.fullmatch(of_kind, name)
     parts = sorted({part.name for case in cases for part in case.string.components})
     kinds = " and ".join(f'kind = "{kind}"' for kind in KINDS)
     expected = nearest(name, NAMES, "unknown")
@@ -191,7 +199,22 @@ def _own_values(name: str, case: Case) -> list[float]:
     if name.startswith("mass."):
         parts = [part for part in case.string.components if part.name == name.removeprefix("mass.")]
         return [section_of(part, 0.0).mass for part in parts]
-    return [case.wellbore.intervals[i].friction for i in intervals_of(name, case)]
+    intervals = [case.wellbore.intervals[i] for i in intervals_of(name, case)]
+    around = direction_of(name) == "rotational"
+    return [interval.friction_around if around else interval.friction for interval in intervals]
+
+
+def _check_pair(name: str, cases: Sequence[Case]) -> None:
+    """Raise InputError where one factor would take the place of two."""
+    intervals = (case.wellbore.intervals[i] for case in cases for i in intervals_of(name, case))
+    if not direction_of(name) and any(one.rotational_friction is not None for one in intervals):
+        raise InputError(f"{name}.axial and {name}.rotational, since the case has a rotational_friction")
+
+
+def direction_of(name: str) -> str:
+    """The direction of a friction factor, one of ``DIRECTIONS``, or "" for one of both."""
+    last = name.rpartition(".")[2]
+    return last if name.startswith("friction") and last in DIRECTIONS else ""
 
 
 def is_factor(name: str) -> bool:
@@ -202,6 +225,7 @@ def is_factor(name: str) -> bool:
 def intervals_of(name: str, case: Case) -> list[int]:
     """Indices of the intervals of a friction factor."""
     intervals = case.wellbore.intervals
+    name = name.removesuffix(f".{direction_of(name)}")
     if name == "friction":
         return list(range(len(intervals)))
     index = re.fullmatch(r"friction\[(\d+)\]", name)
@@ -217,7 +241,8 @@ def keys_of(name: str, case: Case) -> list[str]:
     if name.startswith("mass."):
         parts = enumerate(case.string.components)
         return [f"string.components[{i}].linear_mass" for i, part in parts if part.name == name.removeprefix("mass.")]
-    return [f"wellbore.intervals[{i}].friction" for i in intervals_of(name, case)]
+    key = DIRECTIONS.get(direction_of(name), "friction")
+    return [f"wellbore.intervals[{i}].{key}" for i in intervals_of(name, case)]
 
 
 def refuse_overridden(names: Iterable[str], case: Case, overrides: Mapping[str, Any]) -> None:
@@ -271,19 +296,19 @@ def _check_overlaps(names: Iterable[str], cases: Sequence[Case]) -> None:
     """Raise InputError where two friction factors are those of one interval."""
     factors = [name for name in names if is_factor(name)]
     for case in cases:
-        taken: dict[int, str] = {}
+        taken: dict[tuple[int, str], str] = {}
         for name in factors:
             for i in intervals_of(name, case):
-                if i in taken:
-                    raise InputError(
-                        f"one friction factor for an interval, {taken[i]} or {name}", key="fit", value=name
-                    )
-                taken[i] = name
+                for direction in [direction_of(name)] if direction_of(name) else DIRECTIONS:
+                    if (i, direction) in taken:
+                        expected = f"one friction factor for an interval, {taken[i, direction]} or {name}"
+                        raise InputError(expected, key="fit", value=name)
+                    taken[i, direction] = name
 
 
 def with_values(case: Case, values: Mapping[str, float]) -> Case:
     """The case with values of unknowns [SI]; biases change no case."""
-    friction = [interval.friction for interval in case.wellbore.intervals]
+    pairs = [*pairs_of(case.wellbore.intervals)]
     components = list(case.string.components)
     changes: dict[str, dict[str, Any]] = {"rig": {}, "mud": {}}
     for name, value in values.items():
@@ -294,13 +319,13 @@ def with_values(case: Case, values: Mapping[str, float]) -> Case:
             components = [
                 part.model_copy(update={"linear_mass": value}) if part.name == key else part for part in components
             ]
+        direction = direction_of(name)
         for i in intervals_of(name, case):
-            friction[i] = value
-    friction = [factor * by for factor, by in zip(friction, multipliers(case, values), strict=True)]
-    intervals = tuple(
-        interval.model_copy(update={"friction": factor})
-        for interval, factor in zip(case.wellbore.intervals, friction, strict=True)
-    )
+            along = pairs[i].along if direction == "rotational" else value
+            pairs[i] = Pair(along, pairs[i].around if direction == "axial" else value)
+    by = multipliers(case, values)
+    pairs = [Pair(pair.along * more, pair.around * more) for pair, more in zip(pairs, by, strict=True)]
+    intervals = changed(case.wellbore.intervals, pairs)
     return case.model_copy(
         update={
             "wellbore": case.wellbore.model_copy(update={"intervals": intervals}),

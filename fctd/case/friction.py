@@ -1,19 +1,24 @@
-"""Friction as it is planned: one factor for the whole hole, or one for each kind of interval."""
+"""Friction as it is planned: one factor for the whole hole, or one for each kind of interval.
+
+A factor is one number for all directions, or a pair, along and around the hole.
+"""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any, Final, TypeVar, get_args
+from typing import Any, Final, Self, TypeVar, get_args
 
 import numpy as np
 
+from fctd.arrays import Array
 from fctd.case.errors import MISSING, InputError, nearest
 from fctd.case.units import FRICTION
 from fctd.case.wall import IntervalKind, IntervalSpec
 
 KINDS: Final[tuple[str, ...]] = get_args(IntervalKind)
 _FORM: Final = (
-    "a factor such as 0.25, a list of them such as 0.1,0.2,0.3, or factors by kind such as cased=0.2,open=0.3"
+    "a factor such as 0.25, a list of them such as 0.1,0.2,0.3, or factors by kind such as cased=0.2,open=0.3, where "
+    "each factor may be a pair such as 0.3/0.2, along and around the hole"
 )
 _MOST_PARTS: Final = 4  # intervals that the label of a case's own factors lists
 
@@ -21,41 +26,82 @@ T = TypeVar("T")
 
 
 @dataclass(frozen=True)
+class Pair:
+    """Kinetic friction factors along the hole and around it."""
+
+    along: float
+    around: float
+
+    def __str__(self) -> str:
+        return f"{self.along:g}/{self.around:g}"
+
+    def shifted(self, by: float) -> Self:
+        """Both factors and a number more."""
+        return type(self)(self.along + by, self.around + by)
+
+
+Factor = float | Pair
+
+
+@dataclass(frozen=True)
 class FrictionSet:
     """Kinetic friction factors: ``every`` for all intervals, or those of kinds; a kind without one keeps the case's."""
 
-    every: float | None = None
-    cased: float | None = None
-    open: float | None = None
+    every: Factor | None = None
+    cased: Factor | None = None
+    open: Factor | None = None
 
     @property
-    def by_kind(self) -> dict[str, float]:
+    def by_kind(self) -> dict[str, Factor]:
         """Factor of each kind that has one."""
         return {kind: factor for kind in KINDS if (factor := getattr(self, kind)) is not None}
 
     @property
     def factors(self) -> tuple[float, ...]:
         """All factors of the set."""
-        return tuple(self.by_kind.values()) if self.every is None else (self.every,)
+        some = tuple(self.by_kind.values()) if self.every is None else (self.every,)
+        return tuple(
+            number for one in some for number in ((one.along, one.around) if isinstance(one, Pair) else (one,))
+        )
 
     @property
-    def override(self) -> float | dict[str, float]:
+    def override(self) -> float | str | dict[str, float | str]:
         """The value of the override "friction" that sets these factors (`load_case`)."""
-        return self.by_kind if self.every is None else self.every
+        return {kind: _written(factor) for kind, factor in self.by_kind.items()} if self.every is None else (
+            _written(self.every)
+        )  # fmt: skip
 
     @property
     def label(self) -> str:
-        """A name for tables and pictures, "0.25" or "cased 0.20, open 0.30"."""
+        """A name for tables and pictures: "0.25", "0.3/0.2", "cased 0.20, open 0.30/0.25"."""
         if self.every is not None:
-            return f"{self.every:g}"
+            return _short(self.every)
         return ", ".join(f"{kind} {_two_digits(factor)}" for kind, factor in self.by_kind.items())
 
-    def of(self, intervals: Sequence[IntervalSpec]) -> tuple[float, ...]:
-        """The factor of each interval.  Raises InputError as `pick` does."""
+    def of(self, intervals: Sequence[IntervalSpec]) -> tuple[Pair, ...]:
+        """The factors of each interval.  Raises InputError as `pick` does."""
         if self.every is not None:
-            return (self.every,) * len(intervals)
+            return (_pair(self.every),) * len(intervals)
         picked = pick(self.by_kind, [interval.kind for interval in intervals])
-        return tuple(i.friction if new is None else new for i, new in zip(intervals, picked, strict=True))
+        return tuple(own if new is None else _pair(new) for own, new in zip(pairs_of(intervals), picked, strict=True))
+
+
+def pairs_of(intervals: Sequence[IntervalSpec]) -> tuple[Pair, ...]:
+    """The factors of intervals as they stand."""
+    return tuple(Pair(interval.friction, interval.friction_around) for interval in intervals)
+
+
+def table_of(intervals: Sequence[IntervalSpec]) -> Array:
+    """The factors of intervals (k, 2), as `Wellbore.with_friction` takes them."""
+    return np.array([(interval.friction, interval.friction_around) for interval in intervals])
+
+
+def changed(intervals: Sequence[IntervalSpec], factors: Sequence[Pair]) -> tuple[IntervalSpec, ...]:
+    """Intervals with other kinetic factors, one pair for each."""
+    return tuple(
+        interval.model_copy(update={"friction": new.along, "rotational_friction": _own_around(new)})
+        for interval, new in zip(intervals, factors, strict=True)
+    )
 
 
 def pick(by_kind: Mapping[str, T], kinds: Sequence[object]) -> list[T | None]:
@@ -99,7 +145,16 @@ def _parse(text: str, key: str) -> list[FrictionSet]:
     raise InputError(_FORM, key=key, value=text)
 
 
-def _factor(text: str) -> float:
+def _factor(text: str) -> Factor:
+    return _parse_pair(text) if "/" in text else _one_factor(text)
+
+
+def _parse_pair(text: str) -> Factor:
+    along, around = (_one_factor(part) for part in text.split("/", 1))
+    return along if along == around else Pair(along, around)
+
+
+def _one_factor(text: str) -> float:
     try:
         number = float(text)
     except ValueError:
@@ -107,18 +162,39 @@ def _factor(text: str) -> float:
     return FRICTION.parse(number)
 
 
+def _given(value: object) -> Factor:
+    """A factor, a pair, or a text such as "0.3/0.2"; InputError for others."""
+    if isinstance(value, Pair):
+        return _parse_pair(str(_written(value)))
+    return _parse_pair(value) if isinstance(value, str) and "/" in value else FRICTION.parse(value)
+
+
+def split_factor(value: object) -> tuple[object, object]:
+    """The values of `friction` and `rotational_friction` of an override; None for the latter sets both alike.
+
+    A text such as "0.3/0.2" is a pair; raises InputError for one that is none.  Validation judges other values.
+    """
+    if not (isinstance(value, str) and "/" in value):
+        return value, None
+    pair = _pair(_parse_pair(value))
+    return pair.along, _own_around(pair)
+
+
 def friction_set(value: object) -> FrictionSet:
-    """A factor, factors by kind such as {"cased": 0.2, "open": 0.3}, or a set, as a set; InputError for others."""
+    """A factor, a pair such as "0.3/0.2", either by kind such as {"cased": 0.2, "open": "0.4/0.3"}, or a set, as a set.
+
+    Raises InputError for others.
+    """
     if isinstance(value, FrictionSet):
         return value
     if not isinstance(value, Mapping):
-        return FrictionSet(every=FRICTION.parse(value))
+        return FrictionSet(every=_given(value))
     for kind in value:
         if kind not in KINDS:
             raise InputError(nearest(kind, KINDS, "kind"), value=dict(value))
     if not value:
         raise InputError(_FORM, value={})
-    return FrictionSet(**{kind: FRICTION.parse(factor) for kind, factor in value.items()})
+    return FrictionSet(**{kind: _given(factor) for kind, factor in value.items()})
 
 
 def friction_sets(value: Any) -> list[FrictionSet]:
@@ -135,26 +211,50 @@ def friction_sets(value: Any) -> list[FrictionSet]:
 
 
 def own_label(intervals: Sequence[IntervalSpec]) -> str:
-    """The factors of a case as it stands: "0.25", or "case's own: 0.2 down to 1500 m, 0.3 below"."""
+    """The factors of a case as it stands: "0.25", "0.3/0.2", or "case's own: 0.2 down to 1500 m, 0.3 below"."""
     label = factors_label(intervals)
-    return label if label.replace(".", "").isdecimal() else f"case's own: {label}"
+    return label if label.replace(".", "").replace("/", "").isdecimal() else f"case's own: {label}"
 
 
 def factors_label(intervals: Sequence[IntervalSpec]) -> str:
-    """The factors of intervals: "0.25", "0.2 down to 1500 m, 0.3 below", or of many intervals "0.11 to 0.16"."""
-    ends: list[tuple[float, float]] = []  # factor, lower end
-    for interval in intervals:
-        if ends and ends[-1][0] == interval.friction:
+    """The factors of intervals: "0.25", "0.2 down to 1500 m, 0.3/0.2 below", or of many intervals "0.11 to 0.16"."""
+    ends: list[tuple[Pair, float]] = []  # factors, lower end
+    for pair, interval in zip(pairs_of(intervals), intervals, strict=True):
+        if ends and ends[-1][0] == pair:
             ends.pop()
-        ends.append((interval.friction, interval.to_md))
+        ends.append((pair, interval.to_md))
     if len(ends) == 1:
-        return f"{ends[0][0]:g}"
+        return _short(ends[0][0])
     if len(ends) > _MOST_PARTS:
-        factors = [factor for factor, _ in ends]
-        return f"{min(factors):g} to {max(factors):g}"
-    parts = ", ".join(f"{factor:g} down to {to_md:g} m" for factor, to_md in ends[:-1])
-    return f"{parts}, {ends[-1][0]:g} below"
+        along, around = ([getattr(pair, name) for pair, _ in ends] for name in ("along", "around"))
+        if along == around:
+            return f"{min(along):g} to {max(along):g}"
+        return f"{min(along):g} to {max(along):g} along, {min(around):g} to {max(around):g} around"
+    parts = ", ".join(f"{_short(pair)} down to {to_md:g} m" for pair, to_md in ends[:-1])
+    return f"{parts}, {_short(ends[-1][0])} below"
 
 
-def _two_digits(factor: float) -> str:
+def _pair(factor: Factor) -> Pair:
+    return factor if isinstance(factor, Pair) else Pair(factor, factor)
+
+
+def _own_around(pair: Pair) -> float | None:
+    """The value of `rotational_friction`: None where both factors are equal."""
+    return None if pair.around == pair.along else pair.around
+
+
+def _written(factor: Factor) -> float | str:
+    """A factor as an override takes it, with all of its digits."""
+    return f"{factor.along!r}/{factor.around!r}" if isinstance(factor, Pair) else factor
+
+
+def _short(factor: Factor) -> str:
+    if isinstance(factor, Pair):
+        return f"{factor.along:g}" if factor.along == factor.around else str(factor)
+    return f"{factor:g}"
+
+
+def _two_digits(factor: Factor) -> str:
+    if isinstance(factor, Pair):
+        return f"{_two_digits(factor.along)}/{_two_digits(factor.around)}"
     return f"{factor:.2f}" if round(factor, 2) == factor else f"{factor:g}"

@@ -189,7 +189,8 @@ def load_case(path: str | os.PathLike[str], overrides: Mapping[str, Any] | None 
 
     overrides: dotted keys ("operations[0].speed" or "operations.0.speed") to values as in a case
     file; None deletes a key. The key "friction" sets the friction of every interval, or with {"cased": 0.2,
-    "open": 0.3} that of the intervals of these kinds.
+    "open": 0.3} that of the intervals of these kinds; "0.3/0.2" in place of a factor is one along the hole and one
+    around it. The key "rotational_friction" sets the factor around the hole alone, in the same ways.
     """
     path = Path(path)
     with naming(path):

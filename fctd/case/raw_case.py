@@ -4,7 +4,7 @@ import copy
 import os
 import re
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final, TypeVar
 
@@ -12,7 +12,7 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 from fctd.case.errors import MISSING, InputError, join_key, naming
-from fctd.case.friction import pick
+from fctd.case.friction import pick, split_factor
 from fctd.case.input_file import read_toml
 from fctd.case.text import is_utf8
 
@@ -86,22 +86,41 @@ def parse_override(text: str) -> tuple[str, Any]:
 def apply_override(raw: dict[str, Any], key: str, value: Any) -> None:
     """Set or delete one dotted key of an unvalidated case."""
     if key == "friction":
-        intervals = look_up(raw, "wellbore", "intervals")
-        count = len(intervals) if isinstance(intervals, list) else 0
-        picked = [value] * count
-        if isinstance(value, Mapping):
-            picked = pick(value, [look_up(raw, "wellbore", "intervals", i, "kind") for i in range(count)])
-        for i, factor in enumerate(picked):
-            if factor is not None or not isinstance(value, Mapping):
-                at = f"wellbore.intervals[{i}]"
-                static = scaled_static(look_up(raw, "wellbore", "intervals", i), factor)
-                set_key(raw, f"{at}.friction", factor)
-                if static is not MISSING:
-                    set_key(raw, f"{at}.static_friction", static)
+        for i, factor in _of_intervals(raw, value):
+            _set_friction(raw, i, factor)
+    elif key == "rotational_friction":
+        for i, factor in _of_intervals(raw, value):
+            set_key(raw, f"wellbore.intervals[{i}].{key}", factor)
     elif key == "wellbore.survey" and isinstance(value, str | os.PathLike) and os.path.exists(value):
         set_key(raw, key, os.path.abspath(value))  # a typed path is relative to the current folder
     else:
         set_key(raw, key, value)
+
+
+def _of_intervals(raw: Mapping[str, Any], value: Any) -> Iterator[tuple[int, Any]]:
+    """Index of each interval that a factor for all, or factors by kind, are of, and its factor."""
+    intervals = look_up(raw, "wellbore", "intervals")
+    count = len(intervals) if isinstance(intervals, list) else 0
+    if not isinstance(value, Mapping):
+        yield from enumerate([value] * count)
+        return
+    picked = pick(value, [look_up(raw, "wellbore", "intervals", i, "kind") for i in range(count)])
+    yield from ((i, factor) for i, factor in enumerate(picked) if factor is not None)
+
+
+def _set_friction(raw: dict[str, Any], i: int, factor: object) -> None:
+    """Set the kinetic factors of an interval, and scale its static one along."""
+    at, interval = f"wellbore.intervals[{i}]", look_up(raw, "wellbore", "intervals", i)
+    try:
+        along, around = split_factor(factor)
+    except InputError as error:
+        raise InputError(error.expected, key="friction", value=factor) from None
+    static = scaled_static(interval, along)
+    set_key(raw, f"{at}.friction", along)
+    if around is not None or look_up(interval, "rotational_friction") is not MISSING:
+        set_key(raw, f"{at}.rotational_friction", around)
+    if static is not MISSING:
+        set_key(raw, f"{at}.static_friction", static)
 
 
 def scaled_static(interval: object, factor: object) -> object:

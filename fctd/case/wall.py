@@ -28,15 +28,19 @@ class IntervalSpec(Table):
     `--friction cased=0.2,open=0.3` set it. `stiffness` or `stiffness_per_length` of an interval replaces the
     wellbore's key of the same name.
 
+    With a `rotational_friction`, `friction` is the factor along the hole and this the one around it; together they are
+    the half axes of an ellipse of friction. Without it both are the same.
+
     In a simulation with `contact.friction_law` "karnopp" or "stribeck" a string at rest sticks up to `static_friction`,
-    without which the static factor is the kinetic one. With "stribeck" half of their difference is left where the
-    string slides at `decay_speed` [m/s]. `overbalance` [Pa], the pressure of the mud beyond that of the rock, makes the
-    wall permeable: a string at rest sticks in mud cake there.
+    without which the static factor is the kinetic one; `rotational_friction` is scaled by the same share. With
+    "stribeck" half of their difference is left where the string slides at `decay_speed` [m/s]. `overbalance` [Pa], the
+    pressure of the mud beyond that of the rock, makes the wall permeable: a string at rest sticks in mud cake there.
     """
 
     to_md: units.PositiveLength
     diameter: units.Diameter
     friction: units.Friction
+    rotational_friction: units.Friction | None = None
     kind: IntervalKind | None = None
     name: str | None = None
     stiffness: units.PositiveStiffness | None = None
@@ -53,6 +57,11 @@ class IntervalSpec(Table):
             if self.static_friction > 0 and self.friction == 0:
                 raise InputError("a kinetic factor above 0 beside a static one", key="friction")
         return self
+
+    @property
+    def friction_around(self) -> float:
+        """The kinetic friction factor around the hole."""
+        return self.friction if self.rotational_friction is None else self.rotational_friction
 
     @property
     def static_excess(self) -> float:

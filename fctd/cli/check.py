@@ -6,6 +6,7 @@ import numpy as np
 from rich.box import SIMPLE_HEAD
 from rich.table import Table
 
+from fctd.case.friction import factors_label
 from fctd.case.load import Case, naming_file
 from fctd.case.text import counted, printable
 from fctd.case.units import DENSITY, Quantity
@@ -106,7 +107,7 @@ def _hole(case: Case, metre: Shown, across: Shown) -> Table:
     start = 0.0
     for k, interval in enumerate(case.wellbore.intervals, start=1):
         sizes = (start * metre.factor, interval.to_md * metre.factor, interval.diameter * across.factor)
-        cells = (f"{sizes[0]:.1f}", f"{sizes[1]:.1f}", f"{sizes[2]:.4g}", f"{interval.friction:g}")
+        cells = (f"{sizes[0]:.1f}", f"{sizes[1]:.1f}", f"{sizes[2]:.4g}", factors_label([interval]))
         table.add_row(_name(interval.name, k), interval.kind or "–", *cells)
         start = interval.to_md
     return table

@@ -7,7 +7,7 @@ mud, and adds Δp b to the wall's force per metre, with the cake's own friction 
 import math
 
 from fctd.mechanics.contact import OVERBALANCE
-from fctd.mechanics.friction import ON_AXIS, along_wall, wall_normal
+from fctd.mechanics.friction import ON_AXIS, along_wall, factor_around, wall_normal
 from fctd.mechanics.jit import inlined, kernel
 from fctd.mechanics.joints import cross
 from fctd.mechanics.rotations import rotation_columns
@@ -15,6 +15,7 @@ from fctd.mechanics.state import (
     ARM_BOTTOM,
     ARM_CONTACT,
     CAKE_AGE,
+    CAKE_AROUND,
     CAKE_IMPULSE,
     FRICTION,
     HOLE,
@@ -106,7 +107,7 @@ def press_into_cake(S, owner, n, C, laws, dt):
     this pressure: it moves towards the string by as much as the pressure would press the string into it.
     """
     for j in range(1, n + 1):
-        S[CAKE_IMPULSE + j] = 0.0
+        S[CAKE_IMPULSE + j] = S[CAKE_AROUND + j] = 0.0
         pressure = C[owner[j], OVERBALANCE]
         px, py, pz = radial(S, j)
         distance = math.sqrt(px * px + py * py + pz * pz)
@@ -129,5 +130,8 @@ def press_into_cake(S, owner, n, C, laws, dt):
         S[HOLE + j] -= force / S[K_WALL + j]
         # The moved wall is valid for this step only; an empty interval makes the next step look it up again.
         S[MARGIN_END + j] = -math.inf
+        # The cake has one factor for both directions.
+        around = factor_around(S, j, laws.orthotropic)
         S[CAKE_IMPULSE + j] = laws.friction_scale * (laws.cake_friction - S[FRICTION + j]) * force * dt
-        S[SUM_R_MU_N + j] += S[RADIUS + j] * S[CAKE_IMPULSE + j]
+        S[CAKE_AROUND + j] = laws.friction_scale * (laws.cake_friction - around) * force * dt
+        S[SUM_R_MU_N + j] += S[RADIUS + j] * S[CAKE_AROUND + j]

@@ -20,7 +20,6 @@ from fctd.mechanics.joints import cross
 from fctd.mechanics.rotations import arctan_ratio
 from fctd.mechanics.state import (
     ARCS,
-    ARM_CONTACT,
     CURVE,
     CYLINDERS,
     DECAY,
@@ -28,6 +27,7 @@ from fctd.mechanics.state import (
     END_SIN,
     EXCESS,
     FRICTION,
+    FRICTION_AROUND,
     HOLE,
     K_WALL,
     MARGIN_END,
@@ -48,13 +48,12 @@ from fctd.mechanics.state import (
     TX,
     TY,
     TZ,
-    axis,
-    position,
+    contact_point,
     radial,
 )
 
 # Columns of both tables.  Start point A [m], unit axis (arcs: tangent) at A, length including the overlap
-# [m], hole radius [m], wall stiffness [N/m or N/m/m], friction factor, measured depth of A [m].
+# [m], hole radius [m], wall stiffness [N/m or N/m/m], friction factor along the string, measured depth of A [m].
 START, DIRECTION, LENGTH = 0, 3, 6
 HOLE_RADIUS, STIFFNESS, FACTOR, START_MD = 7, 8, 9, 10
 # Cylinders: the length shared with the next one [m], and the distances from A between which the wall depends on
@@ -69,7 +68,9 @@ HALF_COS, HALF_SINE = 18, 19
 # Both tables: excess of the static over the kinetic friction factor, as a share of it; speed at which half of it is
 # left [m/s]; pressure of the mud beyond that of the rock, 0 where the wall lets no mud pass [Pa].
 STATIC_EXCESS, DECAY_SPEED, OVERBALANCE = 20, 21, 22
-COLUMNS = 23
+# Both tables: friction factor around the string; arcs: its gain along the piece [1/m].
+FACTOR_AROUND, GAIN_AROUND = 23, 24
+COLUMNS = 25
 
 
 @inlined
@@ -116,13 +117,14 @@ def axis_offset(C, i, x, y, z):
 
 @inlined
 def cylinder_wall(C, i, x, y, z):
-    """Stage 3 for cylinders: PT [m], hole radius [m], wall stiffness, friction factor, depth [m] at T.
+    """Stage 3 for cylinders: PT [m], hole radius [m], wall stiffness, friction factor along the string, depth [m] at T,
+    friction factor around the string.
 
     In the overlap the penetrations, each against its own radius, the radial vectors, stiffness and friction
     are blended (Eq. 24 with lengths in place of Q); the radius returned makes |PT| − radius the blend.
     """
     px, py, pz, s = axis_offset(C, i, x, y, z)
-    hole, stiffness, friction = C[i, HOLE_RADIUS], C[i, STIFFNESS], C[i, FACTOR]
+    hole, stiffness, friction, around = C[i, HOLE_RADIUS], C[i, STIFFNESS], C[i, FACTOR], C[i, FACTOR_AROUND]
     md = C[i, START_MD] + s
     into = s - C[i, ALONE_TO]
     if into > 0:
@@ -135,8 +137,9 @@ def cylinder_wall(C, i, x, y, z):
         hole = root(px * px + py * py + pz * pz) - excess
         stiffness = u * stiffness + v * C[i + 1, STIFFNESS]
         friction = u * friction + v * C[i + 1, FACTOR]
+        around = u * around + v * C[i + 1, FACTOR_AROUND]
         md = u * md + v * (C[i + 1, START_MD] + along)
-    return px, py, pz, hole, stiffness, friction, md
+    return px, py, pz, hole, stiffness, friction, md, around
 
 
 @inlined
@@ -201,6 +204,8 @@ class Arc(NamedTuple):
     friction_gain: float
     half_cos: float
     half_sine: float
+    around: float
+    around_gain: float
 
 
 @inlined
@@ -209,12 +214,13 @@ def read_arc(C, i):
     return Arc(
         C[i, 0], C[i, 1], C[i, 2], C[i, 3], C[i, 4], C[i, 5], C[i, 6], C[i, 7], C[i, 8], C[i, 9],
         C[i, 10], C[i, 11], C[i, 12], C[i, 13], C[i, 14], C[i, 15], C[i, 16], C[i, 17], C[i, 18], C[i, 19],
+        C[i, 23], C[i, 24],
     )  # fmt: skip
 
 
 @inlined
 def wall_of_arc(arc, x, y, z):
-    """Stage 3 for arcs: PT [m], hole radius [m], wall stiffness, friction factor, depth [m] at T."""
+    """Stage 3 for arcs: what ``cylinder_wall`` returns."""
     dx, dy, dz = x - arc.x, y - arc.y, z - arc.z
     tx, ty, tz, nx, ny, nz, k = arc.tx, arc.ty, arc.tz, arc.nx, arc.ny, arc.nz, arc.curvature
     bx, by, bz = cross(tx, ty, tz, nx, ny, nz)
@@ -231,7 +237,8 @@ def wall_of_arc(arc, x, y, z):
     hole = arc.hole + within * arc.hole_gain
     stiffness = arc.stiffness + within * arc.stiffness_gain
     friction = arc.friction + within * arc.friction_gain
-    return px, py, pz, hole, stiffness, friction, arc.md + s
+    around = arc.around + within * arc.around_gain
+    return px, py, pz, hole, stiffness, friction, arc.md + s, around
 
 
 @inlined
@@ -254,10 +261,10 @@ def arc_direction(C, i, x, y, z):
 
 
 @inlined
-def store_wall(S, j, px, py, pz, hole, stiffness, friction):
-    """Write the wall beside contact point j."""
+def store_wall(S, j, px, py, pz, hole, stiffness, friction, around):
+    """Write the wall beside contact point j; friction, around : factors along and around the string."""
     S[PX + j], S[PY + j], S[PZ + j], S[HOLE + j] = px, py, pz, hole
-    S[K_WALL + j], S[FRICTION + j] = stiffness * S[TRIBUTARY + j], friction
+    S[K_WALL + j], S[FRICTION + j], S[FRICTION_AROUND + j] = stiffness * S[TRIBUTARY + j], friction, around
 
 
 @inlined
@@ -285,21 +292,12 @@ def lean_wall(S, j, gx, gy, gz):
 @inlined
 def store_cylinder(S, j, C, i, x, y, z):
     """Write the wall of cylinder i beside contact point j at T, and whether no other one has a part in it."""
-    px, py, pz, hole, stiffness, friction, _ = cylinder_wall(C, i, x, y, z)
-    store_wall(S, j, px, py, pz, hole, stiffness, friction)
+    px, py, pz, hole, stiffness, friction, _, around = cylinder_wall(C, i, x, y, z)
+    store_wall(S, j, px, py, pz, hole, stiffness, friction, around)
     alone = distance_along(C, i, x, y, z) <= C[i, ALONE_TO]
     if not alone:
         lean_wall(S, j, *rise_in_overlap(C, i, x, y, z, S[RADIUS + j]))
     return alone
-
-
-@inlined
-def contact_point(S, j):
-    """T (§4.1): the contact point on the axis of body j [m], global."""
-    x, y, z = position(S, j)
-    ax, ay, az = axis(S, j)
-    arm = S[ARM_CONTACT + j]
-    return x + arm * ax, y + arm * ay, z + arm * az
 
 
 @inlined
@@ -366,8 +364,8 @@ def refresh_arcs(S, owner, n, C):
         x, y, z = contact_point(S, j)
         i = arc_owner(C, owner[j], x, y, z)
         owner[j] = i
-        px, py, pz, hole, stiffness, friction, _ = arc_wall(C, i, x, y, z)
-        store_wall(S, j, px, py, pz, hole, stiffness, friction)
+        px, py, pz, hole, stiffness, friction, _, around = arc_wall(C, i, x, y, z)
+        store_wall(S, j, px, py, pz, hole, stiffness, friction, around)
         store_sticking(S, j, C[i, STATIC_EXCESS], C[i, DECAY_SPEED])
         S[OX + j], S[OY + j], S[OZ + j] = C[i, START], C[i, START + 1], C[i, START + 2]
         S[TX + j], S[TY + j], S[TZ + j] = C[i, DIRECTION], C[i, DIRECTION + 1], C[i, DIRECTION + 2]
@@ -377,6 +375,7 @@ def refresh_arcs(S, owner, n, C):
         S[CURVE + j], S[END_COS + j], S[END_SIN + j] = k, np.cos(angle), np.sin(angle)
         end = np.sin(angle) / k if angle > 1e-6 else length
         changes = C[i, RADIUS_GAIN] != 0 or C[i, STIFFNESS_GAIN] != 0 or C[i, FACTOR_GAIN] != 0
+        changes |= C[i, GAIN_AROUND] != 0
         end = end if i < last else np.inf
         S[MARGIN_TOP + j] = 0.0 if i > 0 else -np.inf
         # A wall that changes along its piece is looked up at every step.

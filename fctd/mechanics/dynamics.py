@@ -13,7 +13,14 @@ from fctd.mechanics.bit import drill, press_bit
 from fctd.mechanics.cake import press_into_cake
 from fctd.mechanics.contact import update_walls
 from fctd.mechanics.derrick import immerse
-from fctd.mechanics.friction import approach, normal_impulse, wall_normal
+from fctd.mechanics.friction import (
+    approach,
+    factor_around,
+    limit_around,
+    normal_impulse,
+    turning_limit,
+    wall_normal,
+)
 from fctd.mechanics.given_loads import count_given, push_given
 from fctd.mechanics.jit import entry, inlined
 from fctd.mechanics.joints import bend_housings, update_joint_loads
@@ -187,11 +194,12 @@ def touch_wall(S, j, u, v, w, a, b, c, friction_impulse, laws, dt):
     q = normal * S[ARM_CONTACT + j] * S[INVERSE_JT + j]
     u, v, w, a, b = u - h * nx, v - h * ny, w - k * nz, a + q * ny, b - q * nx
     limit = laws.friction_scale * S[FRICTION + j] * normal
-    du, dv, dw, da, db, dc = friction_impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit)
+    around = limit_around(laws.orthotropic, laws.friction_scale, factor_around(S, j, laws.orthotropic), normal)
+    du, dv, dw, da, db, dc = friction_impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit, around)
     u, v, w, a, b, c = brake(S, j, u + du, v + dv, w + dw, a + da, b + db, c + dc, laws, dt)
     m, jt, ja = S[MASS + j], S[J_TRANSVERSE + j], S[J_AXIAL + j]
     S[SUM_NORMAL + j] += normal
-    S[SUM_R_MU_N + j] += S[RADIUS + j] * limit
+    S[SUM_R_MU_N + j] += S[RADIUS + j] * turning_limit(limit, around)
     S[SUM_FRICTION_TORQUE + j] -= ja * dc
     S[LOST_CONTACT + j] += damper * approach(S, j, u, v, w, a, b, nx, ny, nz)
     S[LOST_FRICTION + j] -= m * (du * u + dv * v + dw * w) + jt * (da * a + db * b) + ja * dc * c

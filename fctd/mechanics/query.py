@@ -9,6 +9,7 @@ from fctd.mechanics.contact import (
     ALONE_FROM,
     ALONE_TO,
     FACTOR,
+    FACTOR_AROUND,
     HOLE_RADIUS,
     START_MD,
     STIFFNESS,
@@ -27,15 +28,16 @@ from fctd.mechanics.state import ARCS, LANES
 TOGETHER, FEW = 64, 2
 
 
-# Columns of the walls beside free points: PT, hole radius, stiffness, friction, measured depth.
-WALL_COLUMNS = 7
+# Columns of the walls beside free points: PT, hole radius, stiffness, friction along the string, measured depth,
+# friction around the string.
+WALL_COLUMNS = 8
 
 
 class Walls(NamedTuple):
     """Walls beside points, one row per point.
 
     offset (n, 3) : PT, from the hole axis to the point [m]; radius (n,) : hole radius [m]; stiffness (n,) [N/m, or
-    N/m/m]; friction (n,) : factor; md (n,) : measured depth [m].
+    N/m/m]; friction (n,) : factor along the string; md (n,) : measured depth [m]; around (n,) : factor around it.
     """
 
     offset: NDArray[np.float64]
@@ -43,17 +45,18 @@ class Walls(NamedTuple):
     stiffness: NDArray[np.float64]
     friction: NDArray[np.float64]
     md: NDArray[np.float64]
+    around: NDArray[np.float64]
 
 
 def walls_in(out: NDArray[np.float64]) -> Walls:
     """The columns of ``query_walls`` by name."""
-    return Walls(out[:, :3], out[:, 3], out[:, 4], out[:, 5], out[:, 6])
+    return Walls(out[:, :3], out[:, 3], out[:, 4], out[:, 5], out[:, 6], out[:, 7])
 
 
 @inlined
 def write_wall(out, j, wall):
     """Write the wall beside free point j."""
-    out[j, 0], out[j, 1], out[j, 2], out[j, 3], out[j, 4], out[j, 5], out[j, 6] = wall
+    out[j, 0], out[j, 1], out[j, 2], out[j, 3], out[j, 4], out[j, 5], out[j, 6], out[j, 7] = wall
 
 
 @kernel
@@ -75,25 +78,26 @@ def query_cylinders(C, points, owner, out):
         in_hole = px * px + py * py + pz * pz <= hole * hole
         # One branch: the processor predicts two separate ones wrongly more often.
         if in_hole & (C[i, ALONE_FROM] < s) & (s <= C[i, ALONE_TO]):
-            write_wall(out, j, (px, py, pz, hole, C[i, STIFFNESS], C[i, FACTOR], C[i, START_MD] + s))
+            md, around = C[i, START_MD] + s, C[i, FACTOR_AROUND]
+            write_wall(out, j, (px, py, pz, hole, C[i, STIFFNESS], C[i, FACTOR], md, around))
         else:
             look_up_cylinder(C, points, j, owner, out)
 
 
 @kernel
 def walls_of_arc(arc, W, count):
-    """Walls beside ``count`` points of one arc; W : 3 rows of ``TOGETHER`` coordinates, then 7 of walls."""
+    """Walls beside ``count`` points of one arc; W : 3 rows of ``TOGETHER`` coordinates, then WALL_COLUMNS of walls."""
     for k in range(count):
-        px, py, pz, hole, stiffness, friction, md = wall_of_arc(arc, W[k], W[TOGETHER + k], W[2 * TOGETHER + k])
+        px, py, pz, hole, stiffness, friction, md, around = wall_of_arc(arc, W[k], W[TOGETHER + k], W[2 * TOGETHER + k])
         W[3 * TOGETHER + k], W[4 * TOGETHER + k], W[5 * TOGETHER + k] = px, py, pz
         W[6 * TOGETHER + k], W[7 * TOGETHER + k], W[8 * TOGETHER + k] = hole, stiffness, friction
-        W[9 * TOGETHER + k] = md
+        W[9 * TOGETHER + k], W[10 * TOGETHER + k] = md, around
 
 
 @kernel
 def query_arcs(C, points, owner, out):
     """``query_walls`` in a hole of arcs: consecutive points in one arc are packed."""
-    W = np.zeros(10 * TOGETHER)
+    W = np.zeros((3 + WALL_COLUMNS) * TOGETHER)
     first, n = 0, points.shape[0]
     while first < n:
         i = arc_owner(C, owner[first], points[first, 0], points[first, 1], points[first, 2])

@@ -59,7 +59,7 @@ UX, UY, UZ = 42 * STRIDE, 43 * STRIDE, 44 * STRIDE
 LX, LY, LZ = 45 * STRIDE, 46 * STRIDE, 47 * STRIDE
 
 # Wall beside the contact point: vector PT from the hole axis to the point [m], hole radius such that
-# |PT| - HOLE + RADIUS is the penetration [m], stiffness [N/m], friction factor.
+# |PT| - HOLE + RADIUS is the penetration [m], stiffness [N/m], friction factor along the string.
 PX, PY, PZ, HOLE = 48 * STRIDE, 49 * STRIDE, 50 * STRIDE, 51 * STRIDE
 K_WALL, FRICTION = 52 * STRIDE, 53 * STRIDE
 # Copy of the piece of hole that owns the contact point (see contact.py): start, axis there; for arcs also normal,
@@ -104,8 +104,11 @@ LAYER_DRAG, LAYER_SPEED = 94 * STRIDE, 95 * STRIDE
 WAVES = 96 * STRIDE
 # Loads that are given to a body (given_loads.py): a force along its axis towards the bit [N], a torque about it [N m].
 GIVEN_FORCE, GIVEN_TORQUE = 97 * STRIDE, 98 * STRIDE
+# Friction that differs along and around the string (laws.orthotropic), of the wall beside the contact point: the factor
+# around it, and what mud cake adds to the limit there [N s].
+FRICTION_AROUND, CAKE_AROUND = 99 * STRIDE, 100 * STRIDE
 
-ROWS = 99
+ROWS = 101
 
 
 class Laws(NamedTuple):
@@ -123,6 +126,8 @@ class Laws(NamedTuple):
     layer_rate : rate at which the mud's boundary layers follow the string along itself [1/s].
     unbalanced : whether any body has an unbalance; bent : whether any joint has a bent housing; given : whether any
     body has given loads.
+    orthotropic : True where friction factors along and around the string differ, else None, a type of its own: code for
+    factors that differ is compiled where it is needed, and that for equal factors does without it.
     """
 
     geometry: int
@@ -143,6 +148,7 @@ class Laws(NamedTuple):
     unbalanced: bool = False
     bent: bool = False
     given: bool = False
+    orthotropic: bool | None = None
 
 
 # Keeps 0/0 out of packed arithmetic, where a branch would cost more, and changes no other result.
@@ -238,3 +244,12 @@ def joint_force(S, j):
 def radial(S, j):
     """Vector PT from the hole axis to contact point j [m], global."""
     return S[PX + j], S[PY + j], S[PZ + j]
+
+
+@inlined
+def contact_point(S, j):
+    """T (§4.1): the contact point on the axis of body j [m], global."""
+    x, y, z = position(S, j)
+    ax, ay, az = axis(S, j)
+    arm = S[ARM_CONTACT + j]
+    return x + arm * ax, y + arm * ay, z + arm * az

@@ -34,7 +34,7 @@ def with_derrick(hole: Wellbore, height: float) -> Wellbore:
     pieces[0, contact.START : contact.START + 3] -= above * tangent
     pieces[0, contact.START_MD] -= above
     pieces[0, contact.LENGTH] += above
-    pieces[0, contact.FACTOR] = 0.0
+    pieces[0, [contact.FACTOR, contact.FACTOR_AROUND]] = 0.0
     if hole.geometry == CYLINDERS:
         pieces[0, contact.ALONE_FROM], pieces[0, contact.ALONE_TO] = -np.inf, pieces[0, contact.LENGTH]
     else:

@@ -10,9 +10,10 @@ from fctd.model import survey
 # The first and last piece extend this far beyond surface and total depth [m].
 RUN_OUT = 10.0
 # Columns of the intervals and of what lies along the hole: lower end (or depth) [m], hole radius [m], wall stiffness
-# [N/m or N/m/m], friction factor, excess of the static factor as a share of it, decay speed [m/s], overbalance [Pa].
-TO_MD, RADIUS, STIFFNESS, FRICTION, EXCESS, DECAY, OVERBALANCE = range(7)
-INTERVAL_COLUMNS = 7
+# [N/m or N/m/m], friction factor along the string, excess of the static factor as a share of it, decay speed [m/s],
+# overbalance [Pa], friction factor around the string.
+TO_MD, RADIUS, STIFFNESS, FRICTION, EXCESS, DECAY, OVERBALANCE, AROUND = range(8)
+INTERVAL_COLUMNS = 8
 
 
 def cylinders(longest_overlap: float, md: Array, points: Array) -> Array:
@@ -69,8 +70,9 @@ def fill_wall(pieces: Array, geometry: int, md: Array, intervals: Array, shoe: f
     if geometry == ARCS:  # with a straight piece before the first and after the last
         middle = np.concatenate([md[:1], middle, md[-1:]])
     k = np.minimum(np.searchsorted(intervals[:, TO_MD], middle), len(intervals) - 1)
-    pieces[:, [contact.HOLE_RADIUS, contact.STIFFNESS, contact.FACTOR]] = intervals[k][:, [RADIUS, STIFFNESS, FRICTION]]
-    pieces[:, contact.STATIC_EXCESS : contact.COLUMNS] = intervals[k][:, EXCESS:]
+    values = [contact.HOLE_RADIUS, contact.STIFFNESS, contact.FACTOR, contact.FACTOR_AROUND]
+    pieces[:, values] = intervals[k][:, [RADIUS, STIFFNESS, FRICTION, AROUND]]
+    pieces[:, contact.STATIC_EXCESS : contact.OVERBALANCE + 1] = intervals[k][:, EXCESS : OVERBALANCE + 1]
     if geometry == ARCS:
         _lead_into_next(pieces, md, middle, intervals, shoe)
     else:
@@ -80,8 +82,8 @@ def fill_wall(pieces: Array, geometry: int, md: Array, intervals: Array, shoe: f
 
 def _lead_into_next(pieces: Array, md: Array, middle: Array, intervals: Array, length: float) -> None:
     """Make the wall of the shoe pieces below each interval change linearly from its values to the next one's."""
-    values = [contact.HOLE_RADIUS, contact.STIFFNESS, contact.FACTOR]
-    gains = [contact.RADIUS_GAIN, contact.STIFFNESS_GAIN, contact.FACTOR_GAIN]
+    values = [contact.HOLE_RADIUS, contact.STIFFNESS, contact.FACTOR, contact.FACTOR_AROUND]
+    gains = [contact.RADIUS_GAIN, contact.STIFFNESS_GAIN, contact.FACTOR_GAIN, contact.GAIN_AROUND]
     start = np.concatenate([md[:1], md])
     for to_md in intervals[:-1, TO_MD]:
         (shoe,) = np.nonzero((middle > to_md) & (middle < to_md + length))

@@ -17,6 +17,7 @@ from fctd.mechanics.query import WALL_COLUMNS, Walls, query_walls, walls_in
 from fctd.mechanics.state import ARCS, CYLINDERS
 from fctd.model import survey
 from fctd.model.pieces import (
+    AROUND,
     FRICTION,
     INTERVAL_COLUMNS,
     RUN_OUT,
@@ -94,10 +95,21 @@ class Wellbore:
         """Measured depth of the last station [m]."""
         return float(self.md[-1])
 
+    @property
+    def orthotropic(self) -> bool | None:
+        """True where friction factors along and around the string differ anywhere, else None; see ``state.Laws``."""
+        return True if (self.pieces[:, contact.FACTOR] != self.pieces[:, contact.FACTOR_AROUND]).any() else None
+
     def with_friction(self, factors: Array | float) -> "Wellbore":
-        """The same hole with one friction factor for every interval, or (k,) one for each."""
+        """The same hole with other friction factors.
+
+        factors : one for every interval and every direction, (k,) one for each interval, or (k, 2) those along and
+        around the string.
+        """
         pieces, intervals = self.pieces.copy(), self.intervals.copy()
-        intervals[:, FRICTION] = factors
+        given = np.asarray(factors, dtype=float)
+        pairs = given if given.ndim == 2 else np.stack([given, given], axis=-1)
+        intervals[:, FRICTION], intervals[:, AROUND] = pairs[..., 0], pairs[..., 1]
         fill_wall(pieces, self.geometry, self.md, intervals, self.shoe)
         return replace(self, pieces=pieces, intervals=intervals)
 
@@ -317,7 +329,7 @@ def _intervals(hole: WellboreSpec) -> Array:
     rows = [
         [
             i.to_md, 0.5 * i.diameter, _stiffness(hole, i), i.friction,
-            i.static_excess, i.decay_speed or 0.0, i.overbalance or 0.0,
+            i.static_excess, i.decay_speed or 0.0, i.overbalance or 0.0, i.friction_around,
         ]
         for i in hole.intervals
     ]  # fmt: skip

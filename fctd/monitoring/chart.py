@@ -9,7 +9,7 @@ import numpy as np
 
 from fctd.arrays import Array
 from fctd.case.errors import InputError
-from fctd.case.friction import FrictionSet
+from fctd.case.friction import FrictionSet, Pair, changed, table_of
 from fctd.case.load import Case
 from fctd.case.operations import KINDS as OPERATIONS
 from fctd.model.operations import drive_torque, rad_per_s, rates_of_all, weight_indicator
@@ -67,15 +67,15 @@ class Chart:
         hole = build_wellbore(case)
         intervals = case.wellbore.intervals
 
-        def solver(factors: tuple[float, ...]) -> Solver:
-            changed = [i.model_copy(update={"friction": f}) for i, f in zip(intervals, factors, strict=True)]
-            wellbore = case.wellbore.model_copy(update={"intervals": tuple(changed)})
-            return Solver(case.model_copy(update={"wellbore": wellbore}), hole.with_friction(np.array(factors)))
+        def solver(factors: tuple[Pair, ...]) -> Solver:
+            own = changed(intervals, factors)
+            wellbore = case.wellbore.model_copy(update={"intervals": own})
+            return Solver(case.model_copy(update={"wellbore": wellbore}), hole.with_friction(table_of(own)))
 
         self._own = Solver(case, hole)
         self._solvers = [solver(self._set(float(factor)).of(intervals)) for factor in FACTORS]
         held = tuple(
-            factor + (CASED_STEP if self.fit != "all" and interval.kind != self.fit else 0.0)
+            factor.shifted(CASED_STEP if self.fit != "all" and interval.kind != self.fit else 0.0)
             for factor, interval in zip(self._set(float(FACTORS[HELD])).of(intervals), intervals, strict=True)
         )
         self._other = solver(held)

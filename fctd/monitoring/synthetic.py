@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 
 from fctd.case.errors import InputError
+from fctd.case.friction import Pair, changed, pairs_of
 from fctd.case.load import Case
 from fctd.model.operations import SteadyRates, rates_of_all
 from fctd.monitoring.stretches import OF_KIND
@@ -23,7 +24,8 @@ def with_step(case: Case, from_md: float, share: float) -> Case:
     intervals = []
     top = 0.0
     for interval in case.wellbore.intervals:
-        raised = interval.model_copy(update={"friction": interval.friction * (1 + share)})
+        (own,) = pairs_of([interval])
+        (raised,) = changed([interval], [Pair(own.along * (1 + share), own.around * (1 + share))])
         if interval.kind != "open" or interval.to_md <= from_md:
             intervals.append(interval)
         elif top >= from_md:

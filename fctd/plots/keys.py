@@ -14,6 +14,7 @@ from fctd.case.units import Quantity
 WORDS: Final = {
     "rpm": "rotation",
     "friction": "friction factor",
+    "rotational_friction": "friction factor around the hole",
     "static_friction": "static friction factor",
     "youngs_modulus": "Young's modulus",
     "poisson_ratio": "Poisson's ratio",
@@ -31,8 +32,8 @@ SIGNS: Final = {"*": "·", "^2": "²", "^3": "³", "rpm": "rev/min"}
 def in_words(key: str) -> str:
     """A key of a case in words: ``operations[0].rpm`` is "rotation, operation 1"."""
     *tables, last = parts = split_key(key)
-    if parts[0] == "friction":  # --friction of all intervals, or of those of a kind
-        return ", ".join([WORDS["friction"], *(KINDS.get(str(part), str(part)) for part in parts[1:])])
+    if parts[0] in ("friction", "rotational_friction"):  # of all intervals, or of those of a kind
+        return ", ".join([WORDS[parts[0]], *(KINDS.get(str(part), str(part)) for part in parts[1:])])
     text = WORDS.get(str(last), str(last).replace("_", " "))
     before = [part for part in tables if isinstance(part, str) and part not in (*PLAIN, *ITEMS)]
     if before and before[-1] not in text:

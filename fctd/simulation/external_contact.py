@@ -10,14 +10,14 @@ import numpy as np
 
 from fctd.arrays import Array
 from fctd.mechanics import state
-from fctd.mechanics.contact import contact_point, store_sticking, store_wall
+from fctd.mechanics.contact import store_sticking, store_wall
 from fctd.mechanics.dynamics import load, move, padded_columns, update_axes
 from fctd.mechanics.jit import entry
 from fctd.mechanics.moving_string import MovingString
-from fctd.mechanics.state import Laws
+from fctd.mechanics.state import Laws, contact_point
 from fctd.mechanics.topdrive import Motion
 from fctd.mechanics.wall_law import stiffen_walls
-from fctd.model.pieces import DECAY, EXCESS, FRICTION, RADIUS, STIFFNESS, TO_MD
+from fctd.model.pieces import AROUND, DECAY, EXCESS, FRICTION, RADIUS, STIFFNESS, TO_MD
 from fctd.model.wellbore import Contacts, Wellbore
 
 # Where a method reports no contact the wall is placed this far from the string [m].
@@ -58,14 +58,15 @@ def _store(S, n, radii, penetration, normal, md, wall):
             hole = wall[i, RADIUS] + v * (wall[below, RADIUS] - wall[i, RADIUS])
             stiffness = wall[i, STIFFNESS] + v * (wall[below, STIFFNESS] - wall[i, STIFFNESS])
             friction = wall[i, FRICTION] + v * (wall[below, FRICTION] - wall[i, FRICTION])
+            around = wall[i, AROUND] + v * (wall[below, AROUND] - wall[i, AROUND])
             distance = hole - radii[k] + penetration[k]
             store_wall(
                 S, j, distance * normal[k, 0], distance * normal[k, 1], distance * normal[k, 2],
-                hole, stiffness, friction,
+                hole, stiffness, friction, around,
             )  # fmt: skip
             store_sticking(S, j, wall[i, EXCESS], wall[i, DECAY])
         else:
-            store_wall(S, j, 0.0, 0.0, 0.0, radii[k] + OUT_OF_REACH, 0.0, 0.0)
+            store_wall(S, j, 0.0, 0.0, 0.0, radii[k] + OUT_OF_REACH, 0.0, 0.0, 0.0)
 
 
 @entry

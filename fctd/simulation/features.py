@@ -83,6 +83,16 @@ def _along_hole(*keys: str) -> Callable[[Run], Use]:
     return _at_wall(used)
 
 
+def _orthotropic(run: Run) -> Use:
+    pairs = enumerate(run.case.wellbore.intervals)
+    differ = [
+        (f"wellbore.intervals[{k}].rotational_friction", one.rotational_friction)
+        for k, one in pairs
+        if one.friction_around != one.friction
+    ]
+    return differ[0] if differ else None
+
+
 def _cake(run: Run) -> Use:
     pressed = [
         (f"wellbore.intervals[{k}].overbalance", one.overbalance) for k, one in enumerate(run.case.wellbore.intervals)
@@ -158,6 +168,10 @@ FEATURES: dict[str, Feature] = {
     "friction_along_hole": Feature(
         "several friction factors", "one friction factor for the whole hole", (INTERVAL + "friction",),
         _along_hole("friction"),
+    ),
+    "orthotropic": Feature(
+        "friction that differs along and around the hole", "the factor of the interval's friction",
+        (INTERVAL + "rotational_friction",), _at_wall(_orthotropic),
     ),
     "cake": Feature(
         "mud cake", "no overbalance",

@@ -159,6 +159,7 @@ def _run(
         unbalanced=any(component.eccentricity for component in case.string.components),
         bent=any(component.bend for component in case.string.components),
         given=False,
+        orthotropic=hole.orthotropic if case.contact.enabled else None,
     )
     limit = min(_step_limit(probe, count, case, hole, laws) for probe, count in probes)
     wanted = case.solver.step

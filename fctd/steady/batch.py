@@ -69,7 +69,7 @@ class Hole(NamedTuple):
     """The hole with its sets of friction factors: a table of pieces for each of them.
 
     with_wall : its geometry, or OPEN where the string does not touch it; bends : of ``Wellbore``; wall_exponent,
-    wall_reference : as in ``Laws``.
+    wall_reference, orthotropic : as in ``Laws``.
     """
 
     pieces: Array
@@ -79,6 +79,7 @@ class Hole(NamedTuple):
     bends: Array
     wall_exponent: float
     wall_reference: float
+    orthotropic: bool | None
 
 
 class Strings(NamedTuple):
@@ -101,12 +102,13 @@ class Strings(NamedTuple):
 
 
 def hole_of(case: Case, holes: Sequence[Wellbore]) -> Hole:
-    """The hole of a case; holes : it with each set of friction factors."""
+    """The hole of a case; holes : it with each set of friction factors, all of them orthotropic or none."""
     geometry = holes[0].geometry
     pieces = np.stack([hole.pieces for hole in holes]) if len(holes) > 1 else holes[0].pieces[None]
     with_wall = geometry if case.contact.enabled else state.OPEN
     law = CODES[case.contact.friction_law]
-    return Hole(pieces, geometry, with_wall, law, holes[0].bends, *map(float, case.contact.wall_law))
+    wall_law = map(float, case.contact.wall_law)
+    return Hole(pieces, geometry, with_wall, law, holes[0].bends, *wall_law, holes[0].orthotropic)
 
 
 NO_ROOM = Workspace(0)
@@ -139,13 +141,25 @@ class Batches:
     """
 
     def __init__(self, case: Case, holes: Sequence[Wellbore]) -> None:
-        self._case, self._hole, self._own = case, hole_of(case, holes), local()
+        self._case, self._own = case, local()
+        # Two kinds of compiled code, for factors that are equal along and around the string and for others: a row does
+        # not depend on whether its chart needs both.
+        self._kinds = [hole.orthotropic for hole in holes]
+        self._places = [self._kinds[:k].count(kind) for k, kind in enumerate(self._kinds)]
+        self._holes = {
+            kind: hole_of(case, [hole for hole in holes if hole.orthotropic == kind]) for kind in set(self._kinds)
+        }
 
     def solve(self, rows: Sequence[Row]) -> list[Answer]:
         """What the first attempt finds of rows."""
         longest = max((row.laid.string.segments for row in rows), default=0)
-        self._own.work = getattr(self._own, "work", NO_ROOM).for_segments(longest)
-        return solve_batch(self._case, self._hole, rows, self._own.work)
+        self._own.work = work = getattr(self._own, "work", NO_ROOM).for_segments(longest)
+        found = {}
+        for kind, hole in self._holes.items():
+            of_kind = {k: row for k, row in enumerate(rows) if self._kinds[row.friction] == kind}
+            there = [row._replace(friction=self._places[row.friction]) for row in of_kind.values()]
+            found |= dict(zip(of_kind, solve_batch(self._case, hole, there, work), strict=True))
+        return [found[k] for k in range(len(rows))]
 
 
 def solve_batch(case: Case, hole: Hole, rows: Sequence[Row], work: Workspace) -> list[Answer]:
@@ -231,7 +245,7 @@ def solve_row(
     _, _, _, bx, by, bz = axis_at(C, hole.geometry, i, bit_depth)
     laws = Steady(
         hole.with_wall, hole.law, 1.0, loads[SPEED], loads[SPIN], -pressing * bx, -pressing * by, -pressing * bz,
-        torque, 0, hole.wall_exponent, hole.wall_reference, 1.0,
+        torque, 0, hole.wall_exponent, hole.wall_reference, 1.0, hole.orthotropic,
     )  # fmt: skip
     _, allowed = limits(S, n, bit_depth, pressing, fed, top_length)
     guess(S, n, C, laws, top_md, -pressing, SEED, G, P)

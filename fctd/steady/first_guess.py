@@ -7,7 +7,18 @@ chart would then depend on the rows before it.
 
 import numpy as np
 
-from fctd.mechanics.contact import CURVATURE, DIRECTION, FACTOR, HOLE_RADIUS, NORMAL, START, START_MD, STIFFNESS
+from fctd.mechanics.contact import (
+    CURVATURE,
+    DIRECTION,
+    FACTOR,
+    FACTOR_AROUND,
+    HOLE_RADIUS,
+    NORMAL,
+    START,
+    START_MD,
+    STIFFNESS,
+)
+from fctd.mechanics.friction import limit_around
 from fctd.mechanics.jit import entry, kernel
 from fctd.mechanics.joints import cross
 from fctd.mechanics.laws import shares
@@ -91,13 +102,13 @@ def soft_string(S, n, C, laws, top_md, bit_tension, G):
         qx, qy, qz = qx - inline * tx, qy - inline * ty, qz - inline * tz
         side = np.sqrt(qx * qx + qy * qy + qz * qz)
         mu = laws.friction_scale * C[i, FACTOR]
-        along, around, climbing = shares(laws.friction, laws.speed, S[RADIUS + j] * laws.spin)
+        mu_around = limit_around(laws.orthotropic, laws.friction_scale, C[i, FACTOR_AROUND], 1.0)
+        along, around, climb = shares(laws.friction, laws.speed, S[RADIUS + j] * laws.spin, mu, mu_around)
         if laws.geometry == OPEN or side == 0:
             side, ux, uy, uz = 0.0, 0.0, 0.0, 0.0
         else:
             # With law coulomb a turning string climbs the wall until friction and normal force together
             # carry the lateral load.
-            climb = mu * climbing
             norm = 1 / np.sqrt(1 + climb * climb)
             ux, uy, uz = norm * qx / side, norm * qy / side, norm * qz / side
             cx, cy, cz = cross(tx, ty, tz, ux, uy, uz)
@@ -105,8 +116,8 @@ def soft_string(S, n, C, laws, top_md, bit_tension, G):
             side *= norm
         out = C[i, HOLE_RADIUS] - S[RADIUS + j] + side / (C[i, STIFFNESS] * S[TRIBUTARY + j])
         G[j, OFFSET], G[j, OFFSET + 1], G[j, OFFSET + 2] = out * ux, out * uy, out * uz
-        tension -= along * mu * side
-        torque += around * mu * side * S[RADIUS + j] + S[MUD_SPIN + j] * laws.spin
+        tension -= along * side
+        torque += around * side * S[RADIUS + j] + S[MUD_SPIN + j] * laws.spin
         torque -= laws.given * S[GIVEN_TORQUE + j]
         G[j, TENSION], G[j, TORQUE] = tension, torque
         tension += S[WEIGHT + j] * az - S[MUD_AXIAL + j] * laws.speed + laws.given * S[GIVEN_FORCE + j]

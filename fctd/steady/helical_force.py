@@ -12,9 +12,12 @@ import numpy as np
 
 from fctd.arrays import Array
 from fctd.mechanics import state
+from fctd.mechanics.friction import limit_around
 from fctd.mechanics.jit import entry
 from fctd.mechanics.law_names import CODES
 from fctd.mechanics.laws import shares
+from fctd.mechanics.query import Walls
+from fctd.mechanics.state import TINY
 from fctd.results.buckling import HELICAL, MODE, NEEDED, buckling_along
 from fctd.steady.climb import LARGEST_PUSH, START_ITERATIONS, creep_of
 from fctd.steady.continuation import CONVERGED, Pace
@@ -39,26 +42,29 @@ class Added(NamedTuple):
 
 
 @entry
-def slide(law: int, speed: float, spin: float, radius: Array, along: Array, around: Array) -> None:
-    """Fill the shares of friction along the hole and about the axis of contact points with these radii [m]."""
+def slide(law, speed, spin, radius, orthotropic, factor, factor_around, along, around):
+    """Fill the friction along the hole and about the axis (n,) of contact points with a wall force of 1.
+
+    radius (n,) [m]; orthotropic : of ``Laws``; factor, factor_around (n,) : along the string and around it.
+    """
     for j in range(len(radius)):
-        along[j], around[j], _ = shares(law, speed, spin * radius[j])
+        of_turning = limit_around(orthotropic, 1.0, factor_around[j], 1.0)
+        along[j], around[j], _ = shares(law, speed, spin * radius[j], factor[j], of_turning)
 
 
 class Helical:
     """The missing wall force of a string, and its friction.
 
-    along, around (n,) : shares of the friction; wound (n,) : contact points with the wall force of a helix.  A helix
-    stays when the compression falls somewhat below its limit, and so do these.
+    wound (n,) : contact points with the wall force of a helix.  A helix stays when the compression falls somewhat below
+    its limit, and so do these.
     """
 
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
         n, rates, S = problem.n, problem.rates, problem.work.S
         self.radius = problem.string.contact_radius()
-        self.along, self.around = np.empty(n), np.empty(n)
-        law = CODES[problem.case.contact.friction_law]
-        slide(law, float(rates.speed), float(rates.spin), self.radius, self.along, self.around)
+        self.law = CODES[problem.case.contact.friction_law]
+        self.speed, self.spin = float(rates.speed), float(rates.spin)
         self.wound = np.zeros(n, np.bool_)
         self.force, self.torque = state.row(S, state.GIVEN_FORCE, n), state.row(S, state.GIVEN_TORQUE, n)
         self.other_force, self.other_torque = self.force.copy(), self.torque.copy()
@@ -75,13 +81,25 @@ class Helical:
         normal = found.contacts[:, NORMAL_FORCE]
         # The tension jumps at a contact point by the friction there: its mean is that of the pipe beside the point.
         below = np.append(tension[1:], problem.bit_tension())
-        compression = np.maximum(0.5 * walls.friction * normal * self.along - below, 0.0)
+        factor = np.maximum(walls.friction, walls.around)
+        along, around = self._shares(walls, factor)
+        compression = np.maximum(0.5 * factor * normal * along - below, 0.0)
         helix = (walls.radius - self.radius) * compression**2 / (4 * string.of("EI")) * string.tributary()
         missing = np.where(self.wound, np.maximum(helix - normal + problem.added[:, 0], 0.0), 0.0)
-        limit = walls.friction * missing
-        turning = self.radius * limit * self.around
-        self.force[:], self.torque[:] = self.other_force - limit * self.along, self.other_torque - turning
-        problem.added = np.column_stack([missing, turning, self.radius * limit])
+        limit = factor * missing
+        turning = self.radius * limit * around
+        self.force[:], self.torque[:] = self.other_force - limit * along, self.other_torque - turning
+        problem.added = np.column_stack([missing, turning, self.radius * (walls.around * missing)])
+
+    def _shares(self, walls: Walls, factor: Array) -> tuple[Array, Array]:
+        """Friction along the hole and about the axis (n,), as shares of that of a friction factor (n,)."""
+        along, around = np.empty(len(factor)), np.empty(len(factor))
+        over = np.maximum(factor, TINY)
+        slide(
+            self.law, self.speed, self.spin, self.radius, self.problem.hole.orthotropic, walls.friction / over,
+            walls.around / over, along, around,
+        )  # fmt: skip
+        return along, around
 
 
 def add_helical_force(problem: Problem, pace: Pace) -> Added:

@@ -10,7 +10,7 @@ from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.mechanics import state
-from fctd.mechanics.contact import FACTOR
+from fctd.mechanics.contact import FACTOR, FACTOR_AROUND
 from fctd.mechanics.law_names import CODES
 from fctd.mechanics.query import WALL_COLUMNS, Walls
 from fctd.model.bent_housings import bent_joints, kink_of
@@ -152,7 +152,7 @@ class Problem:
     @property
     def has_friction(self) -> bool:
         """Whether a wall holds the string anywhere."""
-        return bool(self.hole.pieces[:, FACTOR].any())
+        return bool(self.hole.pieces[:, [FACTOR, FACTOR_AROUND]].any())
 
     def laws(self, share: Share = FULL) -> Steady:
         """Motion, friction and bit loads at a share of the loads."""
@@ -161,6 +161,7 @@ class Problem:
         return Steady(
             geometry, CODES[self.case.contact.friction_law], share.friction, self.rates.speed, self.rates.spin, x, y, z,
             self.bit_torque * share.weight, self.at_axis, *self.wall_law,
+            orthotropic=self.hole.orthotropic,
         )  # fmt: skip
 
     def lay_guess(self, share: Share = FULL) -> None:

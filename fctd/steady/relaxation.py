@@ -68,9 +68,9 @@ def find_places(S, n, P, C, owner, geometry, places):
         arm = S[ARM_CONTACT + j]
         x, y, z = P[j, 0] + arm * zx, P[j, 1] + arm * zy, P[j, 2] + arm * zz
         if geometry == ARCS:
-            rx, ry, rz, hole, _, _, _ = arc_wall(C, owner[j], x, y, z)
+            rx, ry, rz, hole, _, _, _, _ = arc_wall(C, owner[j], x, y, z)
         else:
-            rx, ry, rz, hole, _, _, _ = cylinder_wall(C, owner[j], x, y, z)
+            rx, ry, rz, hole, _, _, _, _ = cylinder_wall(C, owner[j], x, y, z)
         places[j, 0], places[j, 1], places[j, 2], places[j, CLEARANCE] = rx, ry, rz, hole - S[RADIUS + j]
 
 

@@ -50,7 +50,7 @@ class Steady(NamedTuple):
     at_axis : 0, or 1 where the loads do no work on a buckled string that rolls round the hole (relaxation.py): friction
     along the hole acts at the string's axis and not at its surface, which leaves out its bending moment, and the torque
     at the bit is semi-tangential, half about the bit's axis and half about the hole's (Ziegler 1968).
-    wall_exponent, wall_reference : as in Laws.  given : share of the loads that are given to the bodies.
+    wall_exponent, wall_reference, orthotropic : as in Laws.  given : share of the loads that are given to the bodies.
     """
 
     geometry: int
@@ -66,6 +66,7 @@ class Steady(NamedTuple):
     wall_exponent: float = 1.0
     wall_reference: float = 1e-3
     given: float = 1.0
+    orthotropic: bool | None = None
 
 
 @entry
@@ -135,7 +136,7 @@ def frictionless_tangent(S, n, P, kinks, C, owner, laws, R, D, A, U):
     """
     bare = Steady(
         laws.geometry, laws.friction, 0.0, 0.0, 0.0, laws.bit_x, laws.bit_y, laws.bit_z, laws.bit_torque,
-        laws.at_axis, laws.wall_exponent, laws.wall_reference, 0.0,
+        laws.at_axis, laws.wall_exponent, laws.wall_reference, 0.0, laws.orthotropic,
     )  # fmt: skip
     assemble(S, n, P, kinks, C, owner, bare, R, D, A, U)
     for j in range(2, n + 1):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fctd.case.errors import InputError
-from fctd.case.friction import FrictionSet, friction_set, friction_sets, own_label
+from fctd.case.friction import FrictionSet, changed, friction_set, friction_sets, own_label, table_of
 from fctd.case.load import Case, naming_file
 from fctd.case.units import LENGTH, argument
 from fctd.model.operations import SteadyRates, rates_of_all
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 # Called after every row with the number of rows done and their total.
 Progress = Callable[[int, int], None]
-FrictionChoice = float | Mapping[str, float] | FrictionSet
+FrictionChoice = float | str | Mapping[str, float | str] | FrictionSet
 Row = dict[str, Any]
 # Largest number of rows in a batch: the progress of a chart comes in steps of it.
 ROWS = 16
@@ -50,13 +50,13 @@ def torque_drag(
 
     operation : kind or kinds.  bit_depths [m], or texts with units : rising.  friction : None for the case's own, or
     what is set in turn, each a kinetic factor for every interval or factors by kind, such as {"cased": 0.2, "open":
-    0.3}.  speed [m/s], rpm : see ``equilibrium``; only for kinds that have them.  threads : by default as many as
-    processors; the rows do not depend on it.
+    0.3}; a text "0.3/0.2" is a factor along the hole and one around it.  speed [m/s], rpm : see ``equilibrium``; only
+    for kinds that have them.  threads : by default as many as processors; the rows do not depend on it.
 
     Columns:
 
-    - operation, bit_depth_m; friction (NaN where intervals differ) and friction_label ("0.25", "cased 0.20, open 0.30",
-      or the case's own factors with their depths);
+    - operation, bit_depth_m; friction and rotational_friction (along and around the hole, NaN where intervals differ)
+      and friction_label ("0.25", "0.3/0.2", "cased 0.20, open 0.30", or the case's own factors with their depths);
     - the loads of ``columns.IN_CHART``, hookload_N and so on;
     - buckling (none, sinusoidal, helical, or unknown without loads), buckled_from_md_m and buckled_to_md_m (NaN where
       the string is not buckled);
@@ -199,21 +199,22 @@ def _solvers(case: Case, hole: Wellbore, sets: Sequence[FrictionSet] | None) -> 
     intervals = case.wellbore.intervals
     if sets is None:
         return [(own_label(intervals), Solver(case, hole))]
-    return [(s.label, Solver(with_friction(case, s), hole.with_friction(np.array(s.of(intervals))))) for s in sets]
+    cases = [(one.label, with_friction(case, one)) for one in sets]
+    return [(label, Solver(one, hole.with_friction(table_of(one.wellbore.intervals)))) for label, one in cases]
 
 
 def with_friction(case: Case, friction: FrictionChoice) -> Case:
     """The case with one kinetic friction factor in every interval, or with factors by kind."""
     old = case.wellbore.intervals
-    factors = friction_set(friction).of(old)
-    intervals = tuple(i.model_copy(update={"friction": factor}) for i, factor in zip(old, factors, strict=True))
+    intervals = changed(old, friction_set(friction).of(old))
     return case.model_copy(update={"wellbore": case.wellbore.model_copy(update={"intervals": intervals})})
 
 
-def own_friction(case: Case) -> float:
-    """The friction factor of the case if all its intervals have the same, else NaN."""
-    factors = {interval.friction for interval in case.wellbore.intervals}
-    return factors.pop() if len(factors) == 1 else float("nan")
+def own_friction(case: Case) -> dict[str, float]:
+    """The friction factors of the case along and around the hole, NaN where its intervals differ, by column."""
+    factors = table_of(case.wellbore.intervals)
+    same = (factors == factors[0]).all(axis=0)
+    return dict(zip(("friction", "rotational_friction"), np.where(same, factors[0], np.nan).tolist(), strict=True))
 
 
 def _lay_out(solver: Solver, depth: float) -> LaidString | InputError:
@@ -233,7 +234,7 @@ def _row(label: str, solver: Solver, kind: str, depth: float, point: Equilibrium
     found = {column.name: float("nan") if point is None else column.value(point) for column in (*SHAPES, *SHARES)}
     return {
         "operation": kind,
-        "friction": own_friction(solver.case),
+        **own_friction(solver.case),
         "friction_label": label,
         "bit_depth_m": depth,
         **loads,

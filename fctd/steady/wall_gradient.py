@@ -17,6 +17,7 @@ from fctd.mechanics.contact import (
     ALONE_TO,
     DIRECTION,
     FACTOR,
+    FACTOR_AROUND,
     HOLE_RADIUS,
     OVERLAP,
     STIFFNESS,
@@ -33,7 +34,7 @@ from fctd.mechanics.state import ARCS, TINY
 
 class Beside(NamedTuple):
     """The wall beside a point, as quantities: PT [m], its length beyond the hole's radius [m], stiffness, friction
-    factor, direction of the hole."""
+    factor along the string, direction of the hole, friction factor around the string."""
 
     x: Any
     y: Any
@@ -44,6 +45,7 @@ class Beside(NamedTuple):
     tx: Any
     ty: Any
     tz: Any
+    around: Any
 
 
 @inlined
@@ -54,8 +56,9 @@ def along_hole(value, slope, tx, ty, tz):
 
 @inlined
 def beside_piece(
-    px, py, pz, hole, stiffness, factor, tx, ty, tz, share, hole_gain, stiffness_gain, factor_gain, mx, my, mz
-):
+    px, py, pz, hole, stiffness, factor, around, tx, ty, tz, share, hole_gain, stiffness_gain, factor_gain, around_gain,
+    mx, my, mz,
+):  # fmt: skip
     """The wall beside a point of one piece: PT p, direction t and its slope m; share : 1/ρ."""
     distance = np.sqrt(px * px + py * py + pz * pz)
     k, loss = 1 / (distance + TINY), share * hole_gain
@@ -70,13 +73,14 @@ def beside_piece(
         along_hole(tx, share * mx, tx, ty, tz),
         along_hole(ty, share * my, tx, ty, tz),
         along_hole(tz, share * mz, tx, ty, tz),
+        along_hole(around, share * around_gain, tx, ty, tz),
     )
 
 
 @inlined
 def beside_arc(C, i, x, y, z):
     """The wall of arc i beside a point."""
-    px, py, pz, hole, stiffness, factor, md = arc_wall(C, i, x, y, z)
+    px, py, pz, hole, stiffness, factor, md, around = arc_wall(C, i, x, y, z)
     arc = read_arc(C, i)
     tx, ty, tz = arc_direction(C, i, x, y, z)
     bx, by, bz = cross(arc.tx, arc.ty, arc.tz, arc.nx, arc.ny, arc.nz)
@@ -90,8 +94,9 @@ def beside_arc(C, i, x, y, z):
     changes = 1.0 if arc.md <= md <= arc.md + arc.length else 0.0
     k = arc.curvature
     return beside_piece(
-        px, py, pz, hole, stiffness, factor, tx, ty, tz, 1 / rho,
-        changes * arc.hole_gain, changes * arc.stiffness_gain, changes * arc.friction_gain, k * mx, k * my, k * mz,
+        px, py, pz, hole, stiffness, factor, around, tx, ty, tz, 1 / rho,
+        changes * arc.hole_gain, changes * arc.stiffness_gain, changes * arc.friction_gain, changes * arc.around_gain,
+        k * mx, k * my, k * mz,
     )  # fmt: skip
 
 
@@ -101,8 +106,9 @@ def beside_cylinder(C, i, x, y, z):
     px, py, pz, s = axis_offset(C, i, x, y, z)
     tx, ty, tz = C[i, DIRECTION], C[i, DIRECTION + 1], C[i, DIRECTION + 2]
     return beside_piece(
-        px, py, pz, C[i, HOLE_RADIUS], C[i, STIFFNESS], C[i, FACTOR], tx, ty, tz, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    ), s
+        px, py, pz, C[i, HOLE_RADIUS], C[i, STIFFNESS], C[i, FACTOR], C[i, FACTOR_AROUND], tx, ty, tz,
+        1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+    ), s  # fmt: skip
 
 
 @inlined
@@ -164,7 +170,7 @@ def leaning(wall, gx, gy, gz, radius):
     across = product(total(wall.beyond, less), to_the_power(square, -0.5))
     return Beside(
         gx, gy, gz, total(across, times(-1.0, less)), product(wall.stiffness, square), wall.factor,
-        wall.tx, wall.ty, wall.tz,
+        wall.tx, wall.ty, wall.tz, wall.around,
     )  # fmt: skip
 
 
@@ -199,6 +205,7 @@ def beside_cylinders(C, i, x, y, z, radius):
     wall = Beside(
         blend(a.x, b.x, *v), blend(a.y, b.y, *v), blend(a.z, b.z, *v), blend(a.beyond, b.beyond, *v),
         blend(a.stiffness, b.stiffness, *v), blend(a.factor, b.factor, *v), tx, ty, tz,
+        blend(a.around, b.around, *v),
     )  # fmt: skip
     if wall.beyond[0] + radius > 0:
         return lean_in_overlap(a, b, wall, share, v, radius)

@@ -12,6 +12,7 @@ import numpy as np
 
 from fctd.mechanics.contact import arc_owner, cylinder_owner
 from fctd.mechanics.dual import power, reciprocal, root
+from fctd.mechanics.friction import limit_around, turning_limit
 from fctd.mechanics.jit import inlined
 from fctd.mechanics.joints import cross
 from fctd.mechanics.laws import LAWS, dispatch, steady_load
@@ -45,15 +46,18 @@ def depth_of(laws, penetration):
 
 
 @inlined
-def loads_of_wall(steady_load, laws, nx, ny, nz, normal, factor, tx, ty, tz, w, qx, qy, qz, arm, radius):
+def loads_of_wall(steady_load, laws, nx, ny, nz, normal, factor, around, tx, ty, tz, w, qx, qy, qz, arm, radius):
     """Loads of the wall on a body with its frame q, given the normal force on it [N] and the wall beside it.
 
-    steady_load : of a law of friction.  Returns force [N], global; moment about the centre [N m], in the body's frame:
-    six scalars.
+    steady_load : of a law of friction; factor, around : friction factors along and around the string.  Returns force
+    [N], global; moment about the centre [N m], in the body's frame: six scalars.
     """
     _, _, _, _, _, _, ax, ay, az = rotation_columns(w, qx, qy, qz)
     limit = laws.friction_scale * factor * normal
-    fx, fy, fz, mx, my, mz, _ = steady_load(laws.speed, laws.spin, limit, radius, ax, ay, az, nx, ny, nz, tx, ty, tz)
+    fx, fy, fz, mx, my, mz, _ = steady_load(
+        laws.speed, laws.spin, limit, limit_around(laws.orthotropic, laws.friction_scale, around, normal), radius,
+        ax, ay, az, nx, ny, nz, tx, ty, tz,
+    )  # fmt: skip
     if laws.at_axis:
         about = mx * ax + my * ay + mz * az
         mx, my, mz = about * ax, about * ay, about * az
@@ -97,7 +101,8 @@ def differentiate_with(steady_load: Any) -> Any:
             nx, ny, nz = unit_of(moved(wall.x, dx, dy, dz), moved(wall.y, dx, dy, dz), moved(wall.z, dx, dy, dz))
             normal = moved(wall.stiffness, dx, dy, dz) * complex(pressed, slope * moved(wall.beyond, dx, dy, dz).imag)
             fx, fy, fz, ma, mb, mc = loads_of_wall(
-                steady_load, laws, nx, ny, nz, normal, moved(wall.factor, dx, dy, dz),
+                steady_load, laws, nx, ny, nz, normal,
+                moved(wall.factor, dx, dy, dz), moved(wall.around, dx, dy, dz),
                 moved(wall.tx, dx, dy, dz), moved(wall.ty, dx, dy, dz), moved(wall.tz, dx, dy, dz),
                 cw, cx, cy, cz, arm, radius,
             )  # fmt: skip
@@ -144,10 +149,11 @@ def read_wall(S, j, P, C, i, laws):
         return 0.0, 0.0, 0.0
     normal = wall.stiffness[0] * S[TRIBUTARY + j] * depth_of(laws, penetration)
     limit = laws.friction_scale * wall.factor[0] * normal
+    around = limit_around(laws.orthotropic, laws.friction_scale, wall.around[0], normal)
     nx, ny, nz = unit_of(wall.x[0], wall.y[0], wall.z[0])
     _, _, _, _, _, _, ax, ay, az = rotation_columns(*quaternion(P, j))
     _, _, _, _, _, _, torque = steady_load(
-        laws.friction, laws.speed, laws.spin, limit, S[RADIUS + j], ax, ay, az, nx, ny, nz,
+        laws.friction, laws.speed, laws.spin, limit, around, S[RADIUS + j], ax, ay, az, nx, ny, nz,
         wall.tx[0], wall.ty[0], wall.tz[0],
     )  # fmt: skip
-    return normal, -torque, S[RADIUS + j] * limit
+    return normal, -torque, S[RADIUS + j] * turning_limit(limit, around)

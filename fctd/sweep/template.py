@@ -3,7 +3,7 @@
 import copy
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
@@ -13,6 +13,9 @@ from fctd.case.raw_case import apply_override, set_key, split_key
 from fctd.sweep.design import Sample, Value
 from fctd.sweep.spec import SweepSpec
 from fctd.sweep.survey_errors import erred
+
+ROTATIONAL: Final = "rotational_friction"
+FRICTION: Final = ("friction", ROTATIONAL)  # factors of all intervals, or of those of a kind
 
 
 @dataclass(frozen=True)
@@ -34,7 +37,8 @@ class Template:
         Drawn survey errors and seeds depend on the sweep's seed and the sample's number alone, see ``draw_of``.
         """
         raw = copy.deepcopy(self.raw)
-        for key, value in values.items():
+        fixed = {key: value for key, value in self.spec.set.items() if ROTATIONAL in key}
+        for key, value in in_order(fixed | dict(values)):
             set_value(raw, key, value, self.units.get(key, ""))
         draw = np.random.default_rng([self.spec.seed, draw_of(self.spec, sample)])
         seed = int(draw.integers(2**32))
@@ -49,6 +53,11 @@ class Template:
             raw["wellbore"]["stations"] = stations.tolist()
             case = make_case(raw, None)
         return case
+
+
+def in_order(values: Mapping[str, Any]) -> list[tuple[str, Any]]:
+    """Keys and values as they are set: a factor sets both directions, and that around the hole comes after it."""
+    return sorted(values.items(), key=lambda item: ROTATIONAL in item[0])
 
 
 def draw_of(spec: SweepSpec, sample: int) -> int:
@@ -72,8 +81,9 @@ def _base(spec: SweepSpec, raw: dict[str, Any], first: Sample) -> Case:
         return make_case(raw, folder)
     except InputError:
         filled = copy.deepcopy(raw)
-        for parameter in spec.parameters:
-            set_value(filled, parameter.key, first.by_key[parameter.key], parameter.unit)
+        units = {parameter.key: parameter.unit for parameter in spec.parameters}
+        for key, value in in_order(first.by_key):
+            set_value(filled, key, value, units[key])
         try:
             return make_case(filled, folder)
         except InputError:
@@ -88,7 +98,7 @@ def _check_apart(spec: SweepSpec, raw: Mapping[str, Any]) -> None:
     for i, parameter in enumerate(spec.parameters):
         name, _, kind = parameter.key.partition(".")
         places = [tuple(split_key(parameter.key))]
-        if name == "friction":
+        if name in FRICTION:
             places = [("wellbore", "intervals", k, name) for k, other in enumerate(kinds) if kind in ("", other)]
         for place in places:
             if (other := taken.setdefault(place, parameter.key)) != parameter.key:
@@ -97,11 +107,12 @@ def _check_apart(spec: SweepSpec, raw: Mapping[str, Any]) -> None:
 
 
 def set_value(raw: dict[str, Any], key: str, value: Any, unit: str) -> None:
-    """Set a key of an unvalidated case; ``friction.cased`` and ``friction.open`` are factors of kinds of interval."""
+    """Set a key of an unvalidated case; ``friction.cased`` and ``rotational_friction.open`` are factors of kinds of
+    interval."""
     # A text has its unit: that of a dataset which an earlier version began.
     written = f"{float(value)!r} {unit}" if unit and not isinstance(value, str) else value
     name, _, kind = key.partition(".")
-    if name == "friction" and kind:
+    if name in FRICTION and kind:
         apply_override(raw, name, {kind: written})
     else:
         apply_override(raw, key, written)
@@ -115,7 +126,7 @@ def template_of(spec: SweepSpec, first: Sample) -> Template:
     """
     try:
         raw = read_raw(spec.case)
-        for key, value in spec.set.items():
+        for key, value in in_order(spec.set):
             set_value(raw, key, value, "")
         base = _base(spec, raw, first).model_copy(update={"file": spec.case})
     except InputError as error:

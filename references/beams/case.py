@@ -87,6 +87,10 @@ def pipe_and_hole(case: Case) -> tuple[Section, Surroundings]:
         raise InputError("components of one section, for planar finite elements", key="string.components")
     if len(hole.intervals) > 1:
         raise InputError("one interval, for planar finite elements", key="wellbore.intervals")
+    if hole.intervals[0].friction_around != hole.intervals[0].friction:
+        raise InputError(
+            "that of friction, for planar finite elements", key="wellbore.intervals[0].rotational_friction"
+        )
     if hole.stiffness_per_length is None:
         raise InputError("set, for planar finite elements", key="wellbore.stiffness_per_length")
     try:

@@ -4,9 +4,9 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from fctd.mechanics.contact import DIRECTION, LENGTH, START, contact_point, distance_along, store_cylinder, store_wall
+from fctd.mechanics.contact import DIRECTION, LENGTH, START, distance_along, store_cylinder, store_wall
 from fctd.mechanics.dynamics import padded_columns, step, update_axes
-from fctd.mechanics.state import RADIUS
+from fctd.mechanics.state import RADIUS, contact_point
 
 
 @njit(error_model="numpy")
@@ -57,7 +57,7 @@ def find_walls(S, owner, n, packed, C, geometry):  # type: ignore[no-untyped-def
         x, y, z = contact_point(S, j)
         i = for_loop_owner(C, x, y, z)
         if i < 0:  # no cylinder, no wall
-            store_wall(S, j, 0.0, 0.0, 0.0, S[RADIUS + j] + 1.0, 0.0, 0.0)
+            store_wall(S, j, 0.0, 0.0, 0.0, S[RADIUS + j] + 1.0, 0.0, 0.0, 0.0)
         else:
             store_cylinder(S, j, C, i, x, y, z)
 

@@ -9,7 +9,9 @@ treat the same sections for pick-up and slack-off.  Every function integrates on
 where ``drag`` is the signed axial friction per load across the hole (`sliding.Friction.drag`): μ picking up, −μ
 slacking off, 0 rotating in place, smaller where the string also rotates and the law is ``coulomb``.
 ``load`` is ∫|q| ds [N]; contact force is Friction.normal times it, torque is radius × Friction.turning times it:
-rotating, μ for law ``paper`` and μ/√(1 + μ²) for ``coulomb``.  `sum_up` evaluates a whole string.
+rotating, μ for law ``paper`` and μ/√(1 + μ²) for ``coulomb``.  `sum_up` evaluates a whole string.  All this holds for
+factors that differ along and around the hole: where the whole string has one radius, speed and rotation, its friction
+has one direction, and ``drag`` is one number, f_a/√(1 + f_r²).
 
 Each form is exact where it is valid, and raises an error elsewhere: InputError for wrong geometry, and
 `SideChangeError` for a build or drop in which the load across the hole passes through zero.

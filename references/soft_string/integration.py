@@ -203,8 +203,10 @@ def _pieces(case: Case, operation: str, bit_depth: float, speed: float | None, r
     for top, bottom in pairwise(breaks):
         middle = 0.5 * (top + bottom)
         section = string.sections[components[np.searchsorted(ends, middle)]]
-        factor = case.wellbore.intervals[int(np.searchsorted(to_md, middle))].friction
-        friction = split_friction(case.contact.friction_law, factor, motion, section.contact_radius)
+        there = case.wellbore.intervals[int(np.searchsorted(to_md, middle))]
+        friction = split_friction(
+            case.contact.friction_law, there.friction, motion, section.contact_radius, there.friction_around
+        )
         course = int(np.searchsorted(stations, middle)) - 1
         pieces.append(Piece(float(top), float(bottom), course, section.weight, section.contact_radius, friction))
     return pieces

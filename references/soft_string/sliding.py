@@ -6,8 +6,11 @@ With the contact moving along the hole at V and around it at rΩ, tan ψ = rΩ/V
 - law ``coulomb``: one force μN opposite to the sliding velocity.  Its component around the hole, μN sin ψ, also acts
   across the hole, at right angles to the wall force N, so q² = N² + (μN sin ψ)²:
       N = q/√(1 + μ² sin²ψ),   drag = μ cos ψ N,   side friction = μ sin ψ N.
-  Sliding gives N = q and drag μq; rotating in place N = q/√(1 + μ²) and torque r μq/√(1 + μ²).
-- law ``paper`` (Eqs 15–16): N = q, drag μN when it slides and torque rμN when it rotates, both at once in full.
+  Sliding gives N = q and drag μq; rotating in place N = q/√(1 + μ²) and torque r μq/√(1 + μ²).  With factors μ_a along
+  and μ_r around the hole the force per N has the components f_a and f_r of `directions`, and
+      N = q/√(1 + f_r²),   drag = f_a N,   side friction = f_r N.
+- law ``paper`` (Eqs 15–16): N = q, drag μN when it slides and torque rμN when it rotates, both at once in full, with
+  μ_a and μ_r.
 """
 
 from typing import NamedTuple
@@ -18,6 +21,7 @@ from fctd.case.errors import InputError, nearest
 from fctd.case.load import Case
 from fctd.case.operations import KINDS, Operation
 from fctd.model.operations import rad_per_s
+from references.soft_string.directions import Direction, associated
 
 
 class Friction(NamedTuple):
@@ -40,15 +44,22 @@ class Motion(NamedTuple):
     spin: float
 
 
-def split_friction(law: str, factor: float, motion: Motion, radius: float) -> Friction:
-    """Friction of a law (``coulomb`` or ``paper``) with a factor μ at a contact radius [m]."""
-    around = radius * motion.spin
+def split_friction(
+    law: str, factor: float, motion: Motion, radius: float, around: float | None = None,
+    direction: Direction = associated,
+) -> Friction:  # fmt: skip
+    """Friction of a law (``coulomb`` or ``paper``) with a factor μ at a contact radius [m].
+
+    around : factor around the hole, None where it is the same; direction : of friction with two factors, for law
+    ``coulomb``.
+    """
+    around = factor if around is None else around
+    turning = radius * motion.spin
     if law == "paper":
-        return Friction(1.0, factor * motion.drag_sign, factor * float(around > 0))
-    resultant = float(np.hypot(motion.speed, around))
-    sine, cosine = around / resultant, motion.speed / resultant
-    normal = 1 / float(np.sqrt(1 + (factor * sine) ** 2))
-    return Friction(normal, factor * cosine * normal * motion.drag_sign, factor * sine * normal)
+        return Friction(1.0, factor * motion.drag_sign, around * float(turning > 0))
+    along, across = direction(factor, around, motion.speed, turning)
+    normal = 1 / float(np.sqrt(1 + across**2))
+    return Friction(normal, along * normal * motion.drag_sign, across * normal)
 
 
 def motion_of(case: Case, operation: str, speed: float | None = None, rpm: float | None = None) -> Motion:

@@ -37,6 +37,21 @@ def test_one_factor_for_intervals_without_kinds() -> None:
     assert (first.name, first.label) == ("friction_None", "friction")
 
 
+def test_a_pair_of_factors_has_two_sliders(tmp_path: Path) -> None:
+    text = TEXT.replace("friction = 0.25", "friction = 0.25\nrotational_friction = 0.15")
+    read = SourceCase(source(text), tmp_path)
+    sliders = sliders_of(read.case, "si")
+    shown = {slider.name: (slider.label, slider.value) for slider in sliders[:3]}
+    assert shown == {
+        "friction_cased": ("friction, cased", 0.2), "friction_open": ("friction along, open hole", 0.25),
+        "rotational_open": ("friction around, open hole", 0.15),
+    }  # fmt: skip
+    found = changes(read.case, read.raw, sliders, {"friction_open": 0.5, "rotational_open": 0.1})
+    case = read.changed(found)
+    assert [(one.friction, one.friction_around) for one in case.wellbore.intervals] == [(0.2, 0.2), (0.5, 0.1)]
+    assert case.wellbore.intervals[1].static_friction == pytest.approx(0.6)
+
+
 def test_every_slider_changes_its_keys(read: SourceCase) -> None:
     sliders = sliders_of(read.case, "si")
     values = {"friction_open": 0.5, "mud": 1500, "wob": 60, "bit_torque": 3, "rpm": 120, "segment": 12}

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fctd.case.errors import InputError
-from fctd.case.friction import FrictionSet, friction_sets, own_label, parse_frictions
+from fctd.case.friction import FrictionSet, Pair, changed, friction_sets, own_label, parse_frictions, table_of
 from fctd.case.wall import IntervalSpec
 
 
@@ -24,6 +24,8 @@ def intervals(*rows: tuple[float, float, str | None]) -> list[IntervalSpec]:
         (["cased=0.2,open=0.3"], ["cased 0.20, open 0.30"]),
         (["open=0.3 , cased = 0.125"], ["cased 0.125, open 0.30"]),
         (["open=0.3", "0.2", "open=0.30"], ["open 0.30", "0.2"]),
+        (["0.3/0.2", "0.1, 0.4 / 0.25", "0.3/0.30"], ["0.3/0.2", "0.1", "0.4/0.25", "0.3"]),
+        (["cased=0.2/0.15,open=0.4"], ["cased 0.20/0.15, open 0.40"]),
         ([], []),
     ],
 )
@@ -31,7 +33,22 @@ def test_options_are_sets_each_once(texts: list[str], labels: list[str]) -> None
     assert [one.label for one in parse_frictions(texts, "--friction")] == labels
 
 
-@pytest.mark.parametrize("text", ["", "low", "0.1,", "cased", "cased=", "cased=0.2,cased=0.3", "cased=0.2,0.3"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "low",
+        "0.1,",
+        "cased",
+        "cased=",
+        "cased=0.2,cased=0.3",
+        "cased=0.2,0.3",
+        "0.3/",
+        "/0.2",
+        "0.3/0.2/0.1",
+        "open=0.3/x",
+    ],
+)
 def test_what_is_no_option_is_refused(text: str) -> None:
     with pytest.raises(InputError, match=r"--friction = .*expected a factor such as 0\.25, a list of them"):
         parse_frictions([text], "--friction")
@@ -46,10 +63,21 @@ def test_a_decimal_comma_is_no_list(text: str) -> None:
 
 def test_a_set_gives_the_factor_of_each_interval() -> None:
     hole = intervals((500, 0.1, "cased"), (900, 0.15, "cased"), (1500, 0.4, "open"))
-    assert FrictionSet(every=0.2).of(hole) == (0.2, 0.2, 0.2)
-    assert FrictionSet(cased=0.2, open=0.3).of(hole) == (0.2, 0.2, 0.3)
-    assert FrictionSet(open=0.3).of(hole) == (0.1, 0.15, 0.3)  # what is not asked for stays
-    assert FrictionSet(cased=0.0).of(hole) == (0.0, 0.0, 0.4)
+
+    def alike(*factors: float) -> tuple[Pair, ...]:
+        return tuple(Pair(factor, factor) for factor in factors)
+
+    assert FrictionSet(every=0.2).of(hole) == alike(0.2, 0.2, 0.2)
+    assert FrictionSet(cased=0.2, open=0.3).of(hole) == alike(0.2, 0.2, 0.3)
+    assert FrictionSet(open=0.3).of(hole) == alike(0.1, 0.15, 0.3)  # what is not asked for stays
+    assert FrictionSet(cased=0.0).of(hole) == alike(0.0, 0.0, 0.4)
+    pair = Pair(0.4, 0.2)
+    assert FrictionSet(open=pair).of(hole) == (*alike(0.1, 0.15), pair)
+    changed_hole = changed(hole, FrictionSet(open=pair).of(hole))
+    assert [(one.friction, one.rotational_friction) for one in changed_hole] == [(0.1, None), (0.15, None), (0.4, 0.2)]
+    assert FrictionSet(cased=0.3).of(changed_hole) == (*alike(0.3, 0.3), pair)
+    assert FrictionSet(every=0.3).of(changed_hole) == alike(0.3, 0.3, 0.3)  # one number sets both directions
+    assert table_of(changed_hole).tolist() == [[0.1, 0.1], [0.15, 0.15], [0.4, 0.2]]
 
 
 @pytest.mark.parametrize(
@@ -77,13 +105,17 @@ def test_a_kind_must_be_there(kinds: tuple[str, str | None], expected: str) -> N
         (np.float64(0.2), ["0.2"]),
         ({"cased": 0.2, "open": 0.3}, ["cased 0.20, open 0.30"]),
         ([0.2, {"open": 0.3}, FrictionSet(cased=0.1)], ["0.2", "open 0.30", "cased 0.10"]),
+        ("0.3/0.2", ["0.3/0.2"]),
+        (["0.3/0.2", {"open": "0.4/0.1"}, Pair(0.25, 0.25)], ["0.3/0.2", "open 0.40/0.10", "0.25"]),
     ],
 )
 def test_python_takes_numbers_and_tables(value: Any, labels: list[str]) -> None:
     assert [one.label for one in friction_sets(value)] == labels
 
 
-@pytest.mark.parametrize("value", ["0.2", [], {}, [[0.1, 0.2]], {"casing": 0.2}, {"open": -0.1}, None, [True]])
+@pytest.mark.parametrize(
+    "value", ["0.2", "0.3/low", "0.3/-0.1", [], {}, [[0.1, 0.2]], {"casing": 0.2}, {"open": -0.1}, None, [True]]
+)
 def test_python_refuses_others(value: Any) -> None:
     with pytest.raises(InputError) as caught:
         friction_sets(value)

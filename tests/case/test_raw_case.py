@@ -96,6 +96,30 @@ def test_friction_by_kind_sets_the_intervals_of_that_kind(case_file: Path) -> No
     assert (error.key, error.value) == ("wellbore.intervals[1].friction", "rough")
 
 
+def test_a_pair_of_friction_factors(case_file: Path) -> None:
+    """One number sets both directions, a pair each, and the key of its own the one around the hole."""
+
+    def factors(*overrides: dict[str, Any]) -> list[tuple[float, float | None]]:
+        merged = {key: value for override in overrides for key, value in override.items()}
+        intervals = load_case(case_file, merged).wellbore.intervals
+        return [(interval.friction, interval.rotational_friction) for interval in intervals]
+
+    assert factors({"friction": "0.3/0.2"}) == [(0.3, 0.2)] * 2
+    assert factors({"friction": "0.3/0.3"}) == [(0.3, None)] * 2
+    assert factors({"friction": "0.3/0.2"}, {"rotational_friction": 0.1}) == [(0.3, 0.1)] * 2
+    assert factors({"wellbore.intervals[1].rotational_friction": 0.1, "friction": 0.4}) == [(0.4, None)] * 2
+    kinds = {"wellbore.intervals[0].kind": "cased", "wellbore.intervals[1].kind": "open"}
+    assert factors(kinds, {"friction": {"open": "0.4/0.25"}}) == [(0.2, None), (0.4, 0.25)]
+    assert factors(kinds, {"rotational_friction": {"cased": 0.15}})[0] == (0.2, 0.15)
+    with_static = {"contact.friction_law": "karnopp", "wellbore.intervals[0].static_friction": 0.3}
+    first = load_case(case_file, with_static | {"friction": "0.4/0.1"}).wellbore.intervals[0]
+    assert (first.static_friction, first.friction_around) == (pytest.approx(0.6), 0.1)
+    for value in ("0.3/", "0.3/low", "0.3/-0.1"):
+        assert refusal(case_file, {"friction": value}).key == "friction"
+    error = refusal(case_file, {"rotational_friction": -0.1})
+    assert (error.key, error.expected[:18]) == ("wellbore.intervals[0].rotational_friction", "a friction factor ")
+
+
 def test_numpy_numbers_may_override(case_file: Path) -> None:
     overrides = {"friction": np.float64(0.25), "string.components[0].segments": np.int64(7)}
     case = load_case(case_file, overrides)

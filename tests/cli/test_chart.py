@@ -20,7 +20,8 @@ from tests.commands import Command
 # Packages that a chart as CSV does without; each takes a tenth to half a second to import.
 SPARED = {"pandas", "pyarrow", "pint", "matplotlib", "plotly"}
 CHART_COLUMNS = [
-    "operation", "friction", "friction_label", "bit_depth_m", "hookload_N", "surface_torque_N_m", "weight_indicator_N",
+    "operation", "friction", "rotational_friction", "friction_label", "bit_depth_m", "hookload_N", "surface_torque_N_m",
+    "weight_indicator_N",
     "drive_torque_N_m", "total_contact_force_N", "buckling", "buckled_from_md_m", "buckled_to_md_m", "shape",
     "hookload_low_N", "hookload_high_N", "slack_off_spent_at", "locked_up_at", "status", "iterations", "notes",
     "reason",
@@ -74,6 +75,18 @@ def test_a_chart_is_the_one_of_the_library_with_its_origin_beside_it(
     assert origin["case"]["name"] == "tiny"
     assert origin["rates"]["trip_in"] == {"speed_m_s": 0.3, "spin_rad_s": pytest.approx(80 * np.pi / 30)}
     assert {"fctd", "numpy", "numba", "python"} <= origin["versions"].keys()
+
+
+def test_a_pair_of_friction_factors(case_file: Path, tmp_path: Path, cli: Command) -> None:
+    out = tmp_path / "chart.csv"
+    given = ("--operation", "trip_out", "--depths", "850", "--friction", "0.1,0.3/0.1")
+    assert "0.3/0.1" in cli("chart", case_file, *given, "--out", out, "--plot", tmp_path / "chart.png").out
+    table = pd.read_csv(out, dtype={"friction_label": str})
+    assert table[["friction", "rotational_friction"]].to_numpy().tolist() == [[0.1, 0.1], [0.3, 0.1]]
+    expected = fctd.torque_drag(fctd.load_case(case_file), "trip_out", [850], [0.1, "0.3/0.1"])
+    pd.testing.assert_frame_equal(table, expected, check_dtype=False)
+    point = fctd.equilibrium(fctd.load_case(case_file, {"friction": "0.3/0.1"}), "trip_out", 850)
+    assert point.hookload == table["hookload_N"].iloc[1]
 
 
 def test_the_screen_says_how_many_rows_it_leaves_out(case_file: Path, cli: Command) -> None:

@@ -12,7 +12,7 @@ ROOT = Path(__file__).parents[2]
 TEXT = (ROOT / "docs" / "theory.md").read_text(encoding="utf-8")
 PARTS = [part.strip() for part in re.split(r"\n\n+", TEXT)]
 EQUATIONS = [at for at, part in enumerate(PARTS) if part.startswith("$$")]
-NAME = re.compile(r"`(fctd(?:\.\w+)+)`")
+NAME = re.compile(r"`((?:fctd|references)(?:\.\w+)+)`")
 
 
 def numbers(text: str) -> set[int]:

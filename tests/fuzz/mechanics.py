@@ -10,6 +10,7 @@ from fctd import Case, Equilibrium, SimulationResult, Wellbore, find_contacts
 from fctd.case.operations import KINDS
 from fctd.model.drillstring import String, lay_out
 from fctd.model.operations import steady_rates
+from fctd.model.pieces import AROUND, FRICTION, TO_MD
 from fctd.results.columns import BUCKLED
 from fctd.results.status import RunStatus, SteadyStatus
 
@@ -91,7 +92,8 @@ def balance(case: Case, hole: Wellbore, point: Equilibrium) -> Iterator[str]:
         yield f"an imbalance of {point.imbalance:.3g} N"
     lifted = hanging_weight(string, hole)
     radius = np.append(0.0, string.contact_radius())
-    holds = _friction(hole, profile) * normal
+    along, around = _friction(hole, profile)
+    holds = along * normal
     full = not rates.spin or case.contact.friction_law == "paper"
     expected = lifted - weight_on_bit
     # Segments are straight where the hole bends: 0.3 % at the most in 2,750 rows, with segments of 9 to 30 m.
@@ -108,7 +110,7 @@ def balance(case: Case, hole: Wellbore, point: Equilibrium) -> Iterator[str]:
 
     if point.sum_r_ft > point.sum_r_mu_fn * (1 + 1e-9) + 1e-6:
         yield f"Σ r F_t {point.sum_r_ft:.6g} N*m beyond Σ r μ F_n {point.sum_r_mu_fn:.6g} N*m"
-    most = float((radius * holds).sum())
+    most = float((radius * around * normal).sum())
     if abs(point.sum_r_mu_fn - most) > 1e-3 * most + 1:
         yield f"Σ r μ F_n {point.sum_r_mu_fn:.6g} N*m, {most:.6g} N*m by the profile"
     taken = point.sum_r_ft + (case.mud.rotational_damping or 0.0) * rates.spin * length + bit_torque
@@ -184,10 +186,10 @@ def hanging_weight(string: String, hole: Wellbore) -> float:
     return float(string.of("weight") @ np.diff(hole.at(ends)[0][:, 2]))
 
 
-def _friction(hole: Wellbore, profile: pd.DataFrame) -> np.ndarray:
-    """Friction factors (n,) beside the rows of a profile."""
+def _friction(hole: Wellbore, profile: pd.DataFrame) -> list[np.ndarray]:
+    """Friction factors along and around the hole (n,) beside the rows of a profile."""
     wall = hole.wall_along()
-    return np.interp(profile["md_m"], wall[:, 0], wall[:, 3])
+    return [np.interp(profile["md_m"], wall[:, TO_MD], wall[:, column]) for column in (FRICTION, AROUND)]
 
 
 def _in_the_hole(profile: pd.DataFrame, string: String, point: Equilibrium) -> Iterator[str]:

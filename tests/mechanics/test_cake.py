@@ -90,7 +90,14 @@ def test_its_force_presses_string_and_wall_together_and_moves_neither() -> None:
     assert STIFFNESS * depth == pytest.approx(STIFFNESS * 1e-4 + force)
     assert at(S, 1, VELOCITY)[0] == pytest.approx(DT * force / MASS)  # what the moved wall takes back
     assert S[state.CAKE_IMPULSE + 1] == pytest.approx((CAKE_FACTOR - FACTOR) * force * DT)
+    assert S[state.CAKE_AROUND + 1] == S[state.CAKE_IMPULSE + 1]
     assert S[state.MARGIN_END + 1] == -np.inf
+    S = body(age=1e3)
+    S[state.FRICTION_AROUND + 1] = 0.05
+    press(S, OWNER, 1, table(), LAWS._replace(orthotropic=True), DT)
+    assert S[state.CAKE_IMPULSE + 1] == pytest.approx((CAKE_FACTOR - FACTOR) * force * DT)
+    assert S[state.CAKE_AROUND + 1] == pytest.approx((CAKE_FACTOR - 0.05) * force * DT)  # the cake's own, all around
+    assert S[state.SUM_R_MU_N + 1] == pytest.approx(RADIUS * S[state.CAKE_AROUND + 1])
 
 
 @pytest.mark.parametrize(("depth", "pressure", "age"), [(1e-4, 0.0, 10.0), (-1e-4, PRESSURE, 0.0), (-0.02, 1e3, 10.0)])

@@ -43,6 +43,7 @@ may_touch = kept(dynamics.may_touch)
 strain_energy, joint_twist = kept(joints.strain_energy), kept(joints.joint_twist)
 
 FREE = state.Laws(state.OPEN, CODES["coulomb"], 1.0, 0.0, 0.0, 0.0)
+ORTHOTROPIC = FREE._replace(orthotropic=True)
 STILL = topdrive.Motion(0.0, 1.0, 0.0, 0.0, 0.0, 0.0)
 NO_PIPE = topdrive.PerMetre(*[0.0] * 10)._replace(EA=1.0)
 NO_HOLE = np.zeros((1, COLUMNS))
@@ -236,6 +237,7 @@ def test_stepper_converges_at_first_order() -> None:
         (follow_cylinders, ()),
         pytest.param(follow_arcs, (), marks=pytest.mark.slow),
         pytest.param(dynamics.PUSHES[CODES["coulomb"]], (FREE, 1e-3), marks=pytest.mark.slow),
+        pytest.param(dynamics.PUSHES[CODES["coulomb"]], (ORTHOTROPIC, 1e-3), marks=pytest.mark.slow),
         pytest.param(dynamics.PUSHES[CODES["paper"]], (FREE, 1e-3), marks=pytest.mark.slow),
         pytest.param(dynamics.push_freely, (FREE, 1e-3), marks=pytest.mark.slow),
         pytest.param(dynamics.move_bodies, (1e-3,), marks=pytest.mark.slow),
@@ -256,7 +258,7 @@ def test_kernels_are_packed(kernel, arguments: tuple) -> None:
 @compiled
 @pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="reads x86-64 instructions")
 def test_the_query_of_one_arc_is_packed() -> None:
-    packed, scalar = operations(query.walls_of_arc, Arc(*[0.0] * 20), np.zeros(10 * query.TOGETHER), 8)
+    packed, scalar = operations(query.walls_of_arc, Arc(*[0.0] * 22), np.zeros(11 * query.TOGETHER), 8)
     assert packed > 10
     assert packed >= 0.8 * scalar
 

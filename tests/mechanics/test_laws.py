@@ -13,7 +13,7 @@ LIMIT, RADIUS = 10.0, 0.05  # μN [N], contact radius [m]
 @entry
 def chosen(code, speed, spin):
     """Steady load of a string along z that touches the wall on its x side, in a hole along z."""
-    return steady_load(code, speed, spin, LIMIT, RADIUS, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+    return steady_load(code, speed, spin, LIMIT, None, RADIUS, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
 def test_a_code_is_the_place_of_its_law() -> None:

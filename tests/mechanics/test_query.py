@@ -12,7 +12,10 @@ from fctd.model.wellbore import Wellbore
 from tests.cases import make_case
 
 BEND = [[0, 0, 0], [300, 0, 0], [600, 60, 40], [1000, 95, 130]]
-SHOE = [{"to_md": 500, "diameter": 0.3, "friction": 0.2}, {"to_md": 1000, "diameter": 0.2, "friction": 0.3}]
+SHOE = [
+    {"to_md": 500, "diameter": 0.3, "friction": 0.2, "rotational_friction": 0.1},
+    {"to_md": 1000, "diameter": 0.2, "friction": 0.3, "rotational_friction": 0.25},
+]
 
 
 @entry
@@ -51,7 +54,7 @@ def test_short_cuts_answer_as_the_table_does(geometry, furthest, order):
     from_table(hole.pieces, hole.geometry, points, guess.copy(), expected)
     found = np.column_stack(hole.walls(points, guess))
     assert np.ptp(expected[:, 3]) > 0.049  # both sizes of hole are met
-    scale = np.array([1, 1, 1, 1, 1e7, 1, 1e3])
+    scale = np.array([1, 1, 1, 1, 1e7, 1, 1e3, 1])
     assert np.abs((found - expected) / scale).max() < 1e-13
 
 

@@ -152,9 +152,9 @@ def test_the_wall_along_the_hole_by_hand() -> None:
     np.testing.assert_allclose(hole.wall_along()[:, 0], [500, 500.2, 700, 700.2])
     np.testing.assert_allclose(hole.wall_along()[:, 1], [0.16, 0.15, 0.15, 0.11])
     alone = hole_of([[0, 0, 0], [1000, 0, 0]])
-    np.testing.assert_allclose(alone.wall_along(), [[1000, 0.10795, 1e7, 0.2, 0, 0, 0]])
+    np.testing.assert_allclose(alone.wall_along(), [[1000, 0.10795, 1e7, 0.2, 0, 0, 0, 0.2]])
     alone.wall_along()[:] = 0.0
-    np.testing.assert_allclose(alone.intervals, [[1000, 0.10795, 1e7, 0.2, 0, 0, 0]])
+    np.testing.assert_allclose(alone.intervals, [[1000, 0.10795, 1e7, 0.2, 0, 0, 0, 0.2]])
 
 
 @pytest.mark.parametrize(("length", "overlap"), [(0.999, 0.0), (1.0, 0.1), (np.nan, 0.0)])

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fctd.mechanics.query import Walls, walls_in
+from fctd.mechanics.query import WALL_COLUMNS, Walls, walls_in
 from fctd.model.drillstring import String, lay_out
 from fctd.results.limits import LIMITS, ROW, SHARE, WORST, find_shares
 from fctd.results.notes import Note, limit_notes
@@ -19,7 +19,7 @@ N = STRING.segments
 
 def walls_of(string: String, depths: np.ndarray, hole: float = 0.108) -> Walls:
     """Walls of a hole of a radius [m] beside points that are so deep in it (n,) [m]."""
-    rows = np.zeros((string.segments, 7))
+    rows = np.zeros((string.segments, WALL_COLUMNS))
     rows[:, 1], rows[:, 3] = hole - string.contact_radius() + depths, hole
     rows[:, 6] = np.linspace(10.0, 100.0, string.segments)
     return walls_in(rows)

@@ -84,6 +84,10 @@ CROSSED: dict[str, Crossed] = {
         lambda on: case(wellbore=_hole(_interval(to_md=150), _interval(friction=0.4 if on else 0.2))),
         "surface_torque_N_m",
     ),
+    "orthotropic": Crossed(
+        lambda on: case(wellbore=_hole(_interval(**({"rotational_friction": 0.1} if on else {})))),
+        "surface_torque_N_m",
+    ),
     "cake": Crossed(
         lambda on: case(
             wellbore=_hole(_interval(overbalance=2e6 if on else 0.0)),

@@ -89,7 +89,7 @@ def test_walls_change_size_stiffness_and_friction_over_the_length_of_a_shoe() ->
     """The method gives the place of a contact; radius, stiffness and friction of the hole there come from the case."""
     intervals = [
         {"to_md": 100, "diameter": 0.32, "friction": 0.1, "stiffness": 2e7},
-        {"to_md": 300, "diameter": 0.22, "friction": 0.3},
+        {"to_md": 300, "diameter": 0.22, "friction": 0.3, "rotational_friction": 0.2},
     ]
     case = make_case([[0, 30, 0], [300, 30, 0]], [pipe(None, 30)], wellbore={"intervals": intervals, "overlap": 20.0})
     case = case.model_copy(update={"operations": make_case(operations=[rotation(300, 1)]).operations})
@@ -102,6 +102,8 @@ def test_walls_change_size_stiffness_and_friction_over_the_length_of_a_shoe() ->
     np.testing.assert_allclose(state.row(S, state.HOLE, 30), 0.16 - 0.05 * share)
     np.testing.assert_allclose(state.row(S, state.K_WALL, 30), 2e7 - 1e7 * share)
     np.testing.assert_allclose(state.row(S, state.FRICTION, 30), 0.1 + 0.2 * share)
+    np.testing.assert_allclose(state.row(S, state.FRICTION_AROUND, 30), 0.1 + 0.1 * share)
+    assert run.laws.orthotropic
     reach = state.row(S, state.HOLE, 30) - state.row(S, state.RADIUS, 30) + 0.001
     np.testing.assert_allclose(state.row(S, state.PX, 30), reach)
 

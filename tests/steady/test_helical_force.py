@@ -13,6 +13,7 @@ from fctd.steady.balance import ATTEMPTS, balance
 from fctd.steady.equilibrium import Solver
 from fctd.steady.helical_force import Helical
 from fctd.steady.problem import Problem
+from references.soft_string.directions import associated
 from tests.steady.buckled import HOLE, level_case
 
 FRICTION, PUSHED = 0.3, 1.5  # times the onset, above the helical limit of 1.41
@@ -100,6 +101,26 @@ def test_friction_acts_against_the_sliding_of_the_surface(law: str, operation: s
     np.testing.assert_allclose(torque, along[1] * radius * limit, rtol=1e-9)
     np.testing.assert_allclose(problem.added[:, 1], torque, rtol=1e-9)
     np.testing.assert_allclose(problem.added[:, 2], radius * limit, rtol=1e-9)
+
+
+@pytest.mark.parametrize("law", ["coulomb", "paper"])
+def test_friction_along_and_around_have_their_own_factors(law: str) -> None:
+    case, around = analytic(level_case(PUSHED, 300.0, 20.0, friction=FRICTION), friction_law=law), 0.1
+    (hole,) = case.wellbore.intervals
+    pair = hole.model_copy(update={"rotational_friction": around})
+    case = case.model_copy(update={"wellbore": case.wellbore.model_copy(update={"intervals": (pair,)})})
+    problem, _ = pressed(case, "back_ream")
+    n, S, rates, missing = problem.n, problem.work.S, problem.rates, problem.added[:, 0]
+    drag, torque = -state.row(S, state.GIVEN_FORCE, n), -state.row(S, state.GIVEN_TORQUE, n)
+    radius = section(case).contact_radius
+    down, about = -FRICTION, around
+    if law == "coulomb":
+        found = associated(FRICTION, around, -rates.speed, radius * rates.spin)
+        down, about = -found.along, found.around
+    assert missing.max() > 0
+    np.testing.assert_allclose(drag, down * missing, rtol=1e-9)
+    np.testing.assert_allclose(torque, about * radius * missing, rtol=1e-9)
+    np.testing.assert_allclose(problem.added[:, 2], radius * around * missing, rtol=1e-9)
 
 
 def pressed(case: Case, operation: str) -> tuple[Problem, float]:

@@ -16,11 +16,13 @@ from fctd.steady.laid_string import LaidString
 from fctd.steady.problem import Problem
 from fctd.steady.reading import Answer
 from fctd.steady.steady_string import Equilibrium
+from fctd.steady.torque_drag import with_friction
 from tests.cases import level_case, make_case, pipe
 
 STATIONS = [[0, 0, 0], [300, 0, 0], [600, 50, 0], [900, 50, 0]]
 COLUMNS = [
-    "operation", "friction", "friction_label", "bit_depth_m", "hookload_N", "surface_torque_N_m", "weight_indicator_N",
+    "operation", "friction", "rotational_friction", "friction_label", "bit_depth_m", "hookload_N", "surface_torque_N_m",
+    "weight_indicator_N",
     "drive_torque_N_m", "total_contact_force_N", "buckling", "buckled_from_md_m", "buckled_to_md_m", "shape",
     "hookload_low_N", "hookload_high_N", "slack_off_spent_at", "locked_up_at", "status", "iterations", "notes",
     "reason",
@@ -98,8 +100,43 @@ def test_friction_by_kind_of_interval() -> None:
     assert chart["friction"].isna().tolist() == [True, False, True]
     for row, case in zip(chart.to_dict("records"), (well(0.2, 0.4), well(0.3, 0.3), well(0.1, 0.4)), strict=True):
         assert row["hookload_N"] == equilibrium(case, "trip_out", 900.0).hookload
+    assert (chart["rotational_friction"].fillna(-1) == chart["friction"].fillna(-1)).all()
     own = torque_drag(case_of(), "trip_out", [900.0])
     assert own["friction_label"].tolist() == ["case's own: 0.1 down to 500 m, 0.3 below"]
+
+
+def test_friction_that_differs_along_and_around_the_hole() -> None:
+    """Drag has the one, torque the other; rows beside it in the chart, with equal factors, stay as they are."""
+    case, kinds = case_of(), ["trip_out", "rotate_off_bottom", "back_ream"]
+    sets: list[Any] = [0.3, "0.3/0.1", "0.1/0.3", 0.1, "0.3/0.2999999"]
+    chart = torque_drag(case, kinds, [700.0, 900.0], sets, rpm=15.0)
+    assert chart["friction_label"].unique().tolist() == ["0.3", "0.3/0.1", "0.1/0.3", "0.1", "0.3/0.3"]
+    assert chart["friction"].iloc[:10].tolist() == [0.3, 0.3, 0.3, 0.3, 0.1, 0.1, 0.1, 0.1, 0.3, 0.3]
+    assert chart["rotational_friction"].iloc[:8].tolist() == [0.3, 0.3, 0.1, 0.1, 0.3, 0.3, 0.1, 0.1]
+    assert (chart["status"] == "converged").all()
+    alone = torque_drag(case, kinds, [700.0, 900.0], [0.3, 0.1], rpm=15.0)
+    equal = chart[chart["friction_label"].isin(["0.3", "0.1"])].reset_index(drop=True)
+    pd.testing.assert_frame_equal(equal, alone, check_exact=True)
+    columns = ["hookload_N", "surface_torque_N_m"]
+    rows = chart.pivot_table(index=["operation", "bit_depth_m"], columns="friction_label", values=columns)
+    hook, torque = rows["hookload_N"], rows["surface_torque_N_m"]
+    still = torque_drag(case, "trip_out", [700.0, 900.0], sets)  # without rotation
+    drawn = still.pivot_table(index="bit_depth_m", columns="friction_label", values="hookload_N")
+    for label, along, around in (("0.3/0.1", "0.3", "0.1"), ("0.1/0.3", "0.1", "0.3")):
+        np.testing.assert_allclose(drawn[label], drawn[along], rtol=1e-9)
+        np.testing.assert_allclose(
+            torque.loc["rotate_off_bottom", label], torque.loc["rotate_off_bottom", around], rtol=1e-4
+        )
+    # A string that turns slowly as it slides has most of the larger one, more of it than by components.
+    for kind in ("back_ream", "trip_out"):
+        assert (hook.loc[kind, "0.3/0.1"] > hook.loc[kind, "0.3"]).all()
+    assert (torque.loc["back_ream", "0.1/0.3"] > torque.loc["back_ream", "0.3"]).all()
+    np.testing.assert_allclose(hook["0.3/0.3"], hook["0.3"], rtol=1e-6)
+    changed = with_friction(case, "0.3/0.1")
+    assert equilibrium(changed, "back_ream", 900.0, rpm=15.0).hookload == hook.loc[("back_ream", 900.0), "0.3/0.1"]
+    own = torque_drag(changed, "back_ream", [900.0], rpm=15.0)
+    assert own["friction_label"].tolist() == ["0.3/0.1"]
+    assert own["hookload_N"].iloc[0] == hook.loc[("back_ream", 900.0), "0.3/0.1"]
 
 
 @pytest.mark.parametrize(

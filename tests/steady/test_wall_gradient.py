@@ -15,15 +15,16 @@ from tests.compiled import kept
 
 arc_wall, cylinder_wall = kept(contact.arc_wall), kept(contact.cylinder_wall)
 BEND = [[0, 5, 10], [300, 40, 80], [600, 80, 40]]
-# Quantities of ``Beside``: PT, how far beyond the hole's radius, stiffness, friction factor, direction.
+# Quantities of ``Beside``: PT, how far beyond the hole's radius, stiffness, friction factors along and around the
+# string, direction.
 # Radii [m] of a string that is nowhere near the wall, and of one that mostly touches it.
 APART, TOUCHING = -1.0, 0.15
-PT, BEYOND, STIFFNESS, FACTOR, DIRECTION = slice(0, 3), 3, 4, 5, slice(6, 9)
+PT, BEYOND, STIFFNESS, FACTOR, DIRECTION, AROUND = slice(0, 3), 3, 4, 5, slice(6, 9), 9
 
 
 @entry
 def fill_beside(C, i, geometry, x, y, z, radius, out):
-    """Fill out (9, 4) : values and gradients of the quantities."""
+    """Fill out (10, 4) : values and gradients of the quantities."""
     wall = wall_beside(C, i, geometry, x, y, z, radius)
     for k, quantity in enumerate(wall):
         for c in range(4):
@@ -31,7 +32,7 @@ def fill_beside(C, i, geometry, x, y, z, radius, out):
 
 
 def beside(hole: Wellbore, i: int, point: np.ndarray, radius: float = APART) -> np.ndarray:
-    out = np.empty((9, 4))
+    out = np.empty((10, 4))
     fill_beside(hole.pieces, i, hole.geometry, *point, radius, out)
     return out
 
@@ -39,8 +40,8 @@ def beside(hole: Wellbore, i: int, point: np.ndarray, radius: float = APART) -> 
 def bent(geometry: str) -> Wellbore:
     """A hole that builds and turns, with two sizes, stiffnesses and friction factors that meet in a long shoe."""
     intervals = [
-        {"to_md": 300, "diameter": 0.3, "friction": 0.2},
-        {"to_md": 600, "diameter": 0.2159, "friction": 0.3},
+        {"to_md": 300, "diameter": 0.3, "friction": 0.2, "rotational_friction": 0.1},
+        {"to_md": 600, "diameter": 0.2159, "friction": 0.3, "rotational_friction": 0.35},
     ]
     wellbore = {"geometry": geometry, "intervals": intervals, "overlap": 0.5}
     return build_wellbore(make_case(BEND, [pipe(100, 5)], wellbore=wellbore))
@@ -60,11 +61,12 @@ def test_it_is_the_wall_of_the_stepper(geometry: str) -> None:
     assert hole.geometry == {"cylinders": CYLINDERS, "arcs": ARCS}[geometry]
     wall = cylinder_wall if geometry == "cylinders" else arc_wall
     for i, point in points(hole):
-        x, y, z, radius, stiffness, factor, _ = wall(hole.pieces, i, *point)
+        x, y, z, radius, stiffness, factor, _, around = wall(hole.pieces, i, *point)
         found = beside(hole, i, point)[:, 0]
         np.testing.assert_allclose(found[PT], [x, y, z], atol=1e-12)
         assert found[BEYOND] == pytest.approx(np.linalg.norm([x, y, z]) - radius, abs=1e-12)
         assert (found[STIFFNESS], found[FACTOR]) == pytest.approx((stiffness, factor), rel=1e-12)
+        assert found[AROUND] == pytest.approx(around, rel=1e-12)
 
 
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])

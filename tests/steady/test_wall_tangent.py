@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fctd.mechanics import state
-from fctd.mechanics.contact import FACTOR, STIFFNESS
+from fctd.mechanics.contact import FACTOR, FACTOR_AROUND, STIFFNESS
 from fctd.mechanics.jit import entry
 from fctd.mechanics.law_names import CODES, NAMES
 from fctd.mechanics.rotations import turned
@@ -16,7 +16,14 @@ from tests.cases import make_case, pipe
 
 Array = np.ndarray
 RADIUS, ARM, TRIBUTARY = 0.08, 0.7, 9.0
-HOLE = build_wellbore(make_case([[0, 30, 0], [300, 60, 40]], [pipe(100, 5)], wellbore={"geometry": "arcs"}))
+# Read with ``orthotropic`` laws alone, the factor around the string is another one.
+HOLE = build_wellbore(make_case(
+    [[0, 30, 0], [300, 60, 40]], [pipe(100, 5)],
+    wellbore={
+        "geometry": "arcs",
+        "intervals": [{"to_md": 300, "diameter": 0.2159, "friction": 0.2, "rotational_friction": 0.07}],
+    },
+))  # fmt: skip
 OWNER = int(HOLE.owners(HOLE.at(np.array([150.0]))[0])[0])
 
 
@@ -32,7 +39,7 @@ def read(S, P, C, owner, laws):
     return read_wall(S, 1, P, C, owner[1], laws)
 
 
-def laws(law: str = "coulomb", speed: float = 0.3, spin: float = 6.0, **more: float) -> Steady:
+def laws(law: str = "coulomb", speed: float = 0.3, spin: float = 6.0, **more: float | None) -> Steady:
     base = Steady(HOLE.geometry, CODES[law], 1.0, speed, spin, 0.0, 0.0, 0.0, 0.0)
     return base._replace(**more)
 
@@ -58,8 +65,8 @@ def found(S: Array, P: Array, of: Steady) -> tuple[Array, Array]:
 
 
 @pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("more", [{}, {"at_axis": 1}, {"wall_exponent": 1.5}])
-def test_derivatives_are_those_of_central_differences(name: str, more: dict[str, float]) -> None:
+@pytest.mark.parametrize("more", [{}, {"at_axis": 1}, {"wall_exponent": 1.5}, {"orthotropic": True}])
+def test_derivatives_are_those_of_central_differences(name: str, more: dict[str, float | None]) -> None:
     S, P = body(2e-3)
     of = laws(name, **more)
     R, D = found(S, P, of)
@@ -98,3 +105,15 @@ def test_what_is_read_are_the_loads_that_were_added(scale: float, exponent: floa
     added, _ = found(S, P, of)
     assert np.linalg.norm(added[:3]) == pytest.approx(normal * np.hypot(1, factor), rel=1e-6)
     assert added[5] == pytest.approx(-r_ft)
+
+
+def test_turning_has_the_factor_around_the_string() -> None:
+    S, P = body(2e-3)
+    owner, around = np.array([0, OWNER, 0]), float(HOLE.pieces[OWNER, FACTOR_AROUND])
+    along = float(HOLE.pieces[OWNER, FACTOR])
+    for of, factor in ((laws(speed=0.0, orthotropic=True), around), (laws(speed=0.0), along)):
+        normal, r_ft, r_mu_fn = read(S, P, HOLE.pieces, owner, of)
+        assert r_mu_fn == pytest.approx(factor * normal * RADIUS)
+        assert r_ft == pytest.approx(r_mu_fn, rel=0.02)  # the body is tilted against the wall
+        added, _ = found(S, P, of)
+        assert added[5] == pytest.approx(-r_ft)

@@ -31,6 +31,21 @@ def test_a_sample_is_the_case_with_its_values(tmp_path: Path) -> None:
     assert case.model_dump(exclude={"file"}) == wanted.model_dump(exclude={"file"})
 
 
+def test_the_factor_around_the_hole_is_set_after_the_one_that_sets_both(tmp_path: Path) -> None:
+    for order in (("rotational_friction.open", "friction"), ("friction", "rotational_friction.open")):
+        values = {"friction": 0.4, "rotational_friction.open": 0.1}
+        case = template(tmp_path).case(0, {key: values[key] for key in order})
+        factors = [(interval.friction, interval.friction_around) for interval in case.wellbore.intervals]
+        assert factors == [(0.4, 0.4), (0.4, 0.1)]
+
+
+def test_a_fixed_factor_around_the_hole_stays_beside_one_that_varies(tmp_path: Path) -> None:
+    made = template(tmp_path, HEAD + 'set = {"rotational_friction.open" = 0.1, "friction" = 0.2}\n')
+    first = [(interval.friction, interval.friction_around) for interval in made.base.wellbore.intervals]
+    varied = [(one.friction, one.friction_around) for one in made.case(0, {"friction": 0.4}).wellbore.intervals]
+    assert (first, varied) == ([(0.2, 0.2), (0.2, 0.1)], [(0.4, 0.4), (0.4, 0.1)])
+
+
 def test_fixed_keys_are_those_of_all_samples(tmp_path: Path) -> None:
     made = template(tmp_path, HEAD + 'set = {"bit.weight_on_bit" = "50 kN", "friction.cased" = 0.11}\n')
     case = made.case(3, {"friction.open": 0.41, "mud.density": 1.25})
@@ -69,7 +84,8 @@ def test_a_parameter_may_have_a_key_that_the_case_needs(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("key", "other"), [
     ("friction", "friction.open"), ("friction.open", "wellbore.intervals[1].friction"),
-    ("wellbore.intervals[0].friction", "friction"),
+    ("wellbore.intervals[0].friction", "friction"), ("rotational_friction", "rotational_friction.open"),
+    ("rotational_friction", "wellbore.intervals[1].rotational_friction"),
 ])  # fmt: skip
 def test_parameters_that_set_the_same_number_are_refused(tmp_path: Path, key: str, other: str) -> None:
     """The later one would hide the earlier one, whose influence would then be none."""

@@ -91,7 +91,7 @@ def engine_rows(run: Run, motion: Any, moments: int) -> list[dict[str, Any]]:
     """The engine's own helpers, means over all points and times of a trip; the FOR-loop at its last time."""
     n, pieces = run.segments, Counted(run.hole.pieces)
     follow, refresh = interpreted(contact.follow_cylinders), interpreted(contact.refresh_cylinders)
-    place, loop = interpreted(contact.contact_point), interpreted(for_loop_owner)
+    place, loop = interpreted(state.contact_point), interpreted(for_loop_owner)
     write = interpreted(own._write)
     followed, looked_up, searched = Counter[str](), Counter[str](), Counter[str]()
     for _ in range(moments):

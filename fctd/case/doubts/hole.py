@@ -57,6 +57,11 @@ def wider_below(hole: WellboreSpec) -> Doubts:
 def rough_wall(hole: WellboreSpec, frictions: Sequence[FrictionSet]) -> Doubts:
     """A friction factor beyond that of dry rock: the largest of those asked for, or without them of the case."""
     factors = {f"wellbore.intervals[{i}].friction": interval.friction for i, interval in enumerate(hole.intervals)}
+    factors |= {
+        f"wellbore.intervals[{i}].rotational_friction": interval.friction_around
+        for i, interval in enumerate(hole.intervals)
+        if interval.rotational_friction is not None
+    }
     if frictions:
         factors = {"friction": max(factor for one in frictions for factor in one.factors)}
     key = max(factors, key=lambda key: factors[key])

@@ -61,6 +61,10 @@ MUTATIONS = (
     Mutation("weight in time", "torque in a bend with weight", "stepper", of_section("linear_mass", "mass")),
     Mutation("μ", "bend with weight, hoisting", "steady", of_key("wellbore.intervals[0].friction", friction)),
     Mutation("μ in time", "bend with weight, hoisting", "stepper", of_key("wellbore.intervals[0].friction", friction)),
+    Mutation(
+        "μ around the hole", "wire with two factors, torque", "steady",
+        of_key("wellbore.intervals[0].rotational_friction", lambda case: case.wellbore.intervals[0].friction_around),
+    ),
     Mutation("clearance", "helix, wall force", "steady", clearance),
     Mutation("wall stiffness", "penetration of the wall", "steady", of_key("wellbore.stiffness_per_length", wall)),
     Mutation("inertia", "torsional frequency 1, squared", "stepper", of_section("linear_mass", "mass", 0, 1)),

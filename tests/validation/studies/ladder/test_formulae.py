@@ -11,15 +11,21 @@ from validation.studies.ladder import bends, bha, capstan, helix, statics, thres
 from validation.studies.ladder.rung import case_of, pipe_of, section
 
 
-def test_capstan_integrates_one_force_of_friction():
-    """dT/dθ = μ f_a N with N² + (μ f_r N)² = T²."""
-    case = case_of(capstan.tables(6.0))
-    (along, about), factor = capstan.shares(case), case.wellbore.intervals[0].friction
+@pytest.mark.parametrize("factors", [(0.3, 0.3), capstan.PAIR, (0.2, 0.4)])
+def test_capstan_integrates_one_force_of_friction(factors):
+    """dT/dθ = f_a N with N² + (f_r N)² = T²; f of all forces in the ellipse the one that takes most energy."""
+    case = case_of(capstan.tables(6.0, factors))
+    v = np.array(capstan.shares(case))
+    angle = minimize_scalar(
+        lambda phi: -factors[0] * np.cos(phi) * v[0] - factors[1] * np.sin(phi) * v[1], bounds=(0, 0.5 * np.pi),
+        options={"xatol": 1e-10},
+    ).x  # fmt: skip
+    along, about = factors[0] * np.cos(angle), factors[1] * np.sin(angle)
     radius = 0.5 * case.string.components[1].contact_diameter
 
     def slopes(_, y):
-        normal = y[0] / np.sqrt(1 + (factor * about) ** 2)
-        return [factor * along * normal, factor * about * radius * normal]
+        normal = y[0] / np.sqrt(1 + about**2)
+        return [along * normal, about * radius * normal]
 
     pull = capstan.hanging(case)
     end = solve_ivp(slopes, (0, np.radians(capstan.ANGLE)), [pull, 0.0], rtol=1e-9).y[:, -1]
