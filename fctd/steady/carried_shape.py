@@ -5,7 +5,7 @@ to rest in some fifty iterations, where the path from small loads (climb.py) tak
 """
 
 from collections.abc import Callable
-from typing import Any, NamedTuple, Self
+from typing import Any, Final, NamedTuple, Self
 
 import numpy as np
 
@@ -22,7 +22,7 @@ from fctd.steady.post_buckling import LAYOUTS, Resolved, is_resolved, lay_helix,
 from fctd.steady.problem import FULL, Problem
 from fctd.steady.tangent import JOINT_TENSION, JOINT_TORQUE
 
-LEAST_CLEARANCE = 1e-6  # [m]
+LEAST_CLEARANCE: Final = 1e-6  # [m]
 
 
 class CarriedShape(NamedTuple):

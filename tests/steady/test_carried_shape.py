@@ -12,7 +12,7 @@ from fctd.steady.carried_shape import Carried
 from fctd.steady.equilibrium import Solver
 from fctd.steady.steady_string import Equilibrium
 from fctd.steady.torque_drag import chart_rows
-from tests.steady.buckled import level_case
+from tests.steady.buckled import HOLE, level_case
 
 KIND, DEPTHS = "drill_sliding", [110.0, 120.0, 130.0, 140.0, 150.0]
 # Shapes of the same loads differ by a fraction of a wave.
@@ -95,3 +95,14 @@ def test_a_string_that_locks_up_leaves_nothing_to_begin_with() -> None:
     case = pushed(1.25, 0.1)
     stuck = case.model_copy(update={"rig": case.rig.model_copy(update={"block_weight": 0.0})})
     assert begun(stuck, 150.0, None).carried is None
+
+
+def test_a_bit_at_gauge_has_no_clearance_to_be_a_share_of() -> None:
+    case = pushed(1.25, 0.1)
+    (pipe,) = case.string.components
+    bit = pipe.model_copy(update={"name": "bit", "length": 0.3, "contact_diameter": HOLE, "segment_length": 0.3})
+    with_bit = case.model_copy(update={"string": case.string.model_copy(update={"components": (bit, pipe)})})
+    chart, own = chart_rows(with_bit, KIND, DEPTHS[2:4]), alone(with_bit, DEPTHS[3])
+    assert [row["status"] for row in chart] == ["converged", "converged"]
+    assert chart[1]["hookload_N"] == pytest.approx(own["hookload_N"], rel=ALIKE)
+    assert chart[1]["iterations"] < 0.5 * own["iterations"]
