@@ -37,9 +37,9 @@ class Template:
         Drawn survey errors and seeds depend on the sweep's seed and the sample's number alone, see ``draw_of``.
         """
         raw = copy.deepcopy(self.raw)
-        # A factor sets both directions: that around the hole comes after it.
-        for key in sorted(values, key=lambda key: ROTATIONAL in key):
-            set_value(raw, key, values[key], self.units.get(key, ""))
+        fixed = {key: value for key, value in self.spec.set.items() if ROTATIONAL in key}
+        for key, value in in_order(fixed | dict(values)):
+            set_value(raw, key, value, self.units.get(key, ""))
         draw = np.random.default_rng([self.spec.seed, draw_of(self.spec, sample)])
         seed = int(draw.integers(2**32))
         if self.spec.tortuosity_seeds:
@@ -53,6 +53,11 @@ class Template:
             raw["wellbore"]["stations"] = stations.tolist()
             case = make_case(raw, None)
         return case
+
+
+def in_order(values: Mapping[str, Any]) -> list[tuple[str, Any]]:
+    """Keys and values as they are set: a factor sets both directions, and that around the hole comes after it."""
+    return sorted(values.items(), key=lambda item: ROTATIONAL in item[0])
 
 
 def draw_of(spec: SweepSpec, sample: int) -> int:
@@ -76,8 +81,9 @@ def _base(spec: SweepSpec, raw: dict[str, Any], first: Sample) -> Case:
         return make_case(raw, folder)
     except InputError:
         filled = copy.deepcopy(raw)
-        for parameter in sorted(spec.parameters, key=lambda parameter: ROTATIONAL in parameter.key):
-            set_value(filled, parameter.key, first.by_key[parameter.key], parameter.unit)
+        units = {parameter.key: parameter.unit for parameter in spec.parameters}
+        for key, value in in_order(first.by_key):
+            set_value(filled, key, value, units[key])
         try:
             return make_case(filled, folder)
         except InputError:
@@ -120,7 +126,7 @@ def template_of(spec: SweepSpec, first: Sample) -> Template:
     """
     try:
         raw = read_raw(spec.case)
-        for key, value in spec.set.items():
+        for key, value in in_order(spec.set):
             set_value(raw, key, value, "")
         base = _base(spec, raw, first).model_copy(update={"file": spec.case})
     except InputError as error:

@@ -20,7 +20,7 @@ from references.contact.for_loop import for_loop_owner
 
 @njit(error_model="numpy")
 def _write(j, wall, radius, penetration, normal, md):  # type: ignore[no-untyped-def]
-    px, py, pz, hole, _stiffness, _friction, depth = wall
+    px, py, pz, hole, _stiffness, _friction, depth, _around = wall
     distance = np.sqrt(px * px + py * py + pz * pz)
     k = 1 / max(distance, 1e-300)
     penetration[j] = distance - hole + radius

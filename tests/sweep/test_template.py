@@ -39,6 +39,13 @@ def test_the_factor_around_the_hole_is_set_after_the_one_that_sets_both(tmp_path
         assert factors == [(0.4, 0.4), (0.4, 0.1)]
 
 
+def test_a_fixed_factor_around_the_hole_stays_beside_one_that_varies(tmp_path: Path) -> None:
+    made = template(tmp_path, HEAD + 'set = {"rotational_friction.open" = 0.1, "friction" = 0.2}\n')
+    first = [(interval.friction, interval.friction_around) for interval in made.base.wellbore.intervals]
+    varied = [(one.friction, one.friction_around) for one in made.case(0, {"friction": 0.4}).wellbore.intervals]
+    assert (first, varied) == ([(0.2, 0.2), (0.2, 0.1)], [(0.4, 0.4), (0.4, 0.1)])
+
+
 def test_fixed_keys_are_those_of_all_samples(tmp_path: Path) -> None:
     made = template(tmp_path, HEAD + 'set = {"bit.weight_on_bit" = "50 kN", "friction.cased" = 0.11}\n')
     case = made.case(3, {"friction.open": 0.41, "mud.density": 1.25})
