@@ -60,9 +60,9 @@ def notes(context: Context, tables: dict[str, pd.DataFrame]) -> list[str]:
         which_is_better(tables),
         f"{len(out)} of {len(rows)} readings lie outside their band: {', '.join(missed)}. The rotating weight rises "
         "by 13 and 18 kN to 4001 and 4317 ft, where the added pipe weighs 30 and 25 kN in mud, and by 58 to 5009 ft, "
-        "where it weighs 30; pick-up and slack-off do not follow it. So it is not the string's mass that is wrong, but "
-        "what was read while it turned, such as with the bit on bottom, of which nothing is recorded. Nothing was "
-        "changed after this look.",
+        "where it weighs 30; pick-up and slack-off do not follow it. That points to what was read while the string "
+        "turned, such as with the bit on bottom, and not to its mass; nothing recorded tells. Nothing was changed "
+        "after this look.",
         f"The readings of the depth before, which the forecasts do not use, are {sum(off) / len(off):.2f} kN off.",
         "The well has no torque, so that its pair of factors is one factor; what one factor says is one number for "
         "casing and hole.",
