@@ -122,9 +122,10 @@ def find_unknowns(fit: Mapping[str, UnknownSpec], setup: Setup, cases: Sequence[
     _check_overlaps([unknown.name for unknown in found], cases)
     for name in specs:
         factor = f"friction.{gradient_of(name)}"
-        whole = factor in specs or all(f"{factor}.{direction}" in specs for direction in DIRECTIONS)
-        if gradient_of(name) and not whole:
-            raise InputError(f"also {factor}, which a gradient needs", key="fit", value=name)
+        apart = [direction for direction in DIRECTIONS if f"{factor}.{direction}" not in specs]
+        if gradient_of(name) and factor not in specs and apart:
+            lacking = factor if len(apart) == len(DIRECTIONS) else f"{factor}.{apart[0]}"
+            raise InputError(f"also {lacking}, which a gradient needs", key="fit", value=name)
     return found
 
 

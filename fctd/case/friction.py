@@ -164,9 +164,13 @@ def _one_factor(text: str) -> float:
 
 def _given(value: object) -> Factor:
     """A factor, a pair, or a text such as "0.3/0.2"; InputError for others."""
-    if isinstance(value, Pair):
-        return _parse_pair(str(_written(value)))
-    return _parse_pair(value) if isinstance(value, str) and "/" in value else FRICTION.parse(value)
+    text = str(_written(value)) if isinstance(value, Pair) else value
+    if not (isinstance(text, str) and "/" in text):
+        return FRICTION.parse(text)
+    try:
+        return _parse_pair(text)
+    except InputError as error:
+        raise InputError(error.expected, value=text) from None
 
 
 def split_factor(value: object) -> tuple[object, object]:

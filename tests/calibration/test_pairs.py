@@ -72,6 +72,13 @@ def test_both_factors_are_found(days: bool) -> None:
 def test_overlaps_and_pairs_are_refused() -> None:
     with pytest.raises(InputError, match=r"one friction factor for an interval, friction or friction\.open\.axial"):
         calibrate(CASE, rows(), ["friction", "friction.open.axial"])
+    for given, lacking in (
+        ([], ""),
+        (["friction.open.axial"], ".rotational"),
+        (["friction.open.rotational"], ".axial"),
+    ):
+        with pytest.raises(InputError, match=rf"also friction\.open{lacking}, which a gradient needs"):
+            calibrate(CASE, rows(), [*given, "friction.open.gradient"])
     pair = with_values(CASE, TRUE)
     with pytest.raises(InputError, match=r"friction\.open\.axial and friction\.open\.rotational, since the case has a"):
         calibrate(pair, rows(), ["friction.open"])

@@ -120,6 +120,8 @@ def test_python_refuses_others(value: Any) -> None:
     with pytest.raises(InputError) as caught:
         friction_sets(value)
     assert caught.value.key == "friction"
+    if isinstance(value, str) and "/" in value:
+        assert caught.value.value == value
 
 
 @pytest.mark.parametrize(
