@@ -107,8 +107,8 @@ def hole_of(case: Case, holes: Sequence[Wellbore]) -> Hole:
     pieces = np.stack([hole.pieces for hole in holes]) if len(holes) > 1 else holes[0].pieces[None]
     with_wall = geometry if case.contact.enabled else state.OPEN
     law = CODES[case.contact.friction_law]
-    wall_law = map(float, case.contact.wall_law)
-    return Hole(pieces, geometry, with_wall, law, holes[0].bends, *wall_law, holes[0].orthotropic)
+    exponent, reference = map(float, case.contact.wall_law)
+    return Hole(pieces, geometry, with_wall, law, holes[0].bends, exponent, reference, holes[0].orthotropic)
 
 
 NO_ROOM = Workspace(0)
@@ -154,7 +154,7 @@ class Batches:
         """What the first attempt finds of rows."""
         longest = max((row.laid.string.segments for row in rows), default=0)
         self._own.work = work = getattr(self._own, "work", NO_ROOM).for_segments(longest)
-        found = {}
+        found: dict[int, Answer] = {}
         for kind, hole in self._holes.items():
             of_kind = {k: row for k, row in enumerate(rows) if self._kinds[row.friction] == kind}
             there = [row._replace(friction=self._places[row.friction]) for row in of_kind.values()]

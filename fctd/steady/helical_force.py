@@ -42,7 +42,17 @@ class Added(NamedTuple):
 
 
 @entry
-def slide(law, speed, spin, radius, orthotropic, factor, factor_around, along, around):
+def slide(
+    law: int,
+    speed: float,
+    spin: float,
+    radius: Array,
+    orthotropic: bool | None,
+    factor: Array,
+    factor_around: Array,
+    along: Array,
+    around: Array,
+) -> None:
     """Fill the friction along the hole and about the axis (n,) of contact points with a wall force of 1.
 
     radius (n,) [m]; orthotropic : of ``Laws``; factor, factor_around (n,) : along the string and around it.

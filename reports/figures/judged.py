@@ -3,7 +3,6 @@
 from typing import Final
 
 from reports.figures import Canvas, Tables, figure, style
-from validation.harness.registry import STUDIES
 
 # The studies of measured wells, and what the page of wells calls them.
 WELLS: Final = {
@@ -16,7 +15,7 @@ COLOURS: Final = [colour for k, colour in enumerate(style.COLOURS) if k != 2]
 
 
 @figure(
-    *(study for study in WELLS if study in STUDIES),
+    *WELLS,
     name="judged",
     caption=(
         "Every judged reading: predicted 95 % band (thin) and 50 % band (thick) less the middle of the recorded range, "
