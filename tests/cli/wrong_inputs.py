@@ -60,7 +60,8 @@ FORCES: Final = "a force such as '50 kN' or '12 klbf' (units: N, daN, kN, MN, kg
 TORQUES: Final = "a torque such as '0.5 kN*m' or '400 ft*lbf' (units: N*m, kN*m, daN*m, kgf*m, ft*lbf, kft*lbf)"
 ROTATIONS: Final = "a rotation such as 60 or '60 rev/min' (units: rpm, rev/min, c/min, rev/s, rad/s)"
 FRICTIONS: Final = (
-    "a factor such as 0.25, a list of them such as 0.1,0.2,0.3, or factors by kind such as cased=0.2,open=0.3"
+    "a factor such as 0.25, a list of them such as 0.1,0.2,0.3, or factors by kind such as cased=0.2,open=0.3, where "
+    "each factor may be a pair such as 0.3/0.2, along and around the hole"
 )
 
 # Refused, exit code 2.
@@ -113,8 +114,8 @@ REFUSED: Final[list[tuple[str, Any, str]]] = [
     (
         "wellbore.intervals[0].dia",
         "8.5 in",
-        "one of the keys to_md, diameter, friction, kind, name, stiffness, stiffness_per_length, static_friction, "
-        "decay_speed, overbalance",
+        "one of the keys to_md, diameter, friction, rotational_friction, kind, name, stiffness, stiffness_per_length, "
+        "static_friction, decay_speed, overbalance",
     ),
     ("wellbore.geometry", "arc", "'cylinders' or 'arcs'"),
     ("string", None, "a table [string]"),
@@ -156,6 +157,10 @@ REFUSED: Final[list[tuple[str, Any, str]]] = [
     ("--friction", "casing=0.2", "one of the kinds cased, open"),
     ("--friction", "cased=0.2,0.3", FRICTIONS),
     ("--friction", "cased=", FRICTIONS),
+    ("--friction", "0.3/", FRICTIONS),
+    ("--friction", "0.3/0.2/0.1", FRICTIONS),
+    ("--friction", "0.3/-1", "a friction factor at least 0 and at most 5"),
+    ("wellbore.intervals[0].rotational_friction", "rough", "a friction factor at least 0 and at most 5"),
     ("--speed", "fast", "a speed such as '0.5 m/s' or '60 ft/min' (units: m/s, m/min, m/h, ft/s, ft/min, ft/h)"),
     ("--rpm", "sixty", ROTATIONS),
     ("--rpm", "-60", "a rotation at least 0"),
