@@ -31,6 +31,7 @@ from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.model import survey
 from fctd.model.drillstring import lay_out
+from references.soft_string.directions import Direction, associated
 from references.soft_string.sliding import Friction, loads_at_bit, motion_of, split_friction
 
 # Tangent and its derivative (…, 3) at measured depths (…) [m] in a course between two stations.
@@ -83,17 +84,18 @@ def soft_string(
     speed: float | None = None,
     rpm: float | None = None,
     element: float = ELEMENT,
+    direction: Direction = associated,
 ) -> SoftString:
     """Johancsik's recursion from the bit upwards, in elements of at most ``element`` [m]; error of second order.
 
     The load of an element depends on the tension in its middle, which depends on the load: a quadratic equation.
-    speed [m/s] and rpm [1/min] as in `sliding.motion_of`.
+    speed [m/s] and rpm [1/min] as in `sliding.motion_of`; direction : of friction with two factors.
     Raises InputError as `motion_of` and `lay_out`, and for a depth beyond survey or intervals.
     """
     axis = _axis(case)
     tension, torque = loads_at_bit(case, operation)
     contact, rows = 0.0, []
-    for piece in reversed(_pieces(case, operation, bit_depth, speed, rpm)):
+    for piece in reversed(_pieces(case, operation, bit_depth, speed, rpm, direction)):
         ends = _divide(piece, element)
         tangents = axis(ends, piece.course)[0]
         length = float(ends[1] - ends[0])
@@ -185,7 +187,14 @@ def _divide(piece: Piece, element: float) -> Array:
     return np.linspace(piece.top, piece.bottom, int(np.ceil((piece.bottom - piece.top) / element - 1e-9)) + 1)
 
 
-def _pieces(case: Case, operation: str, bit_depth: float, speed: float | None, rpm: float | None) -> list[Piece]:
+def _pieces(
+    case: Case,
+    operation: str,
+    bit_depth: float,
+    speed: float | None,
+    rpm: float | None,
+    direction: Direction = associated,
+) -> list[Piece]:
     """Pieces of hole and string from top to bit."""
     motion = motion_of(case, operation, speed, rpm)
     stations = case.wellbore.trajectory[:, 0]
@@ -205,7 +214,7 @@ def _pieces(case: Case, operation: str, bit_depth: float, speed: float | None, r
         section = string.sections[components[np.searchsorted(ends, middle)]]
         there = case.wellbore.intervals[int(np.searchsorted(to_md, middle))]
         friction = split_friction(
-            case.contact.friction_law, there.friction, motion, section.contact_radius, there.friction_around
+            case.contact.friction_law, there.friction, motion, section.contact_radius, there.friction_around, direction
         )
         course = int(np.searchsorted(stations, middle)) - 1
         pieces.append(Piece(float(top), float(bottom), course, section.weight, section.contact_radius, friction))

@@ -24,6 +24,7 @@ from validation.parts.judged_well import CAPTIONS, STIFF, which_is_better
 from validation.parts.judged_well import checks_of as checks_of_days
 from validation.parts.volve_f4_fits import Frozen, fit_of_b, fit_of_rig, fits_of_a, freeze, frozen, setup_of, setup_of_b
 from validation.parts.volve_f4_judging import predict
+from validation.parts.volve_f4_laws import spreads
 from validation.parts.volve_f4_rounds import second_round
 from validation.parts.volve_f4_rows import cases, report_rows, series_rows
 from validation.parts.volve_f4_soft import SoftForward
@@ -79,6 +80,7 @@ FULL = {
     "day_values": "Second round, pairs and days, fitted again (SI)",
     "days_left_out": "Second round, pairs and days, split B without each day, and its prediction of that day (N, N m)",
     "second_round": "Second round, thought of after the look: model B with one change each",
+    "laws": "Pick-up minus slack-off of F4-13r, which turns, by two laws of friction at speeds that may be its own",
 }
 
 
@@ -235,6 +237,7 @@ def full(
         "soft_parameters": pd.concat([parameters(name, one) for name, one in soft.items()], ignore_index=True),
         "soft_rows": soft_rows,
         "second_round": second_round(context, data, strings, fits["rig"]),
+        "laws": spreads(data, strings),
         **day_tables,
     }
     return tables, checks
