@@ -2,6 +2,7 @@
 
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 
 from reports.figures import Canvas, Tables, figure, style
 
@@ -47,10 +48,10 @@ def shapes(tables: Tables) -> Canvas:
         "wall force, and with it the friction, differs by up to a factor of two."
     ),
 )
-def wall_force(tables: Tables) -> Canvas:
+@style.panels(3.6)
+def wall_force(tables: Tables, ax: Axes) -> None:
     """Mean wall force along the paths of load, with the closed form of the helix."""
     table = tables["paths"]
-    canvas, ax = style.subplots(3.6)
     for index, path in enumerate(table["path"].unique()):
         of_path = table[table["path"] == path]
         ax.plot(of_path["times_onset"], of_path["wall_force_over_weight"], **style.marked(index), label=path)
@@ -59,7 +60,6 @@ def wall_force(tables: Tables) -> Canvas:
     ax.plot(ratio, ratio**2, **style.ZERO, label="helix, rF²/4EI")
     ax.set(xlabel="compression over the onset of snaking, –", ylabel="mean wall force over weight, –")
     ax.legend()
-    return canvas
 
 
 @figure(
@@ -69,17 +69,16 @@ def wall_force(tables: Tables) -> Canvas:
         "Push that slides a helix through a level hole. The tan law adds the weight, which averages out over a turn."
     ),
 )
-def transmitted(tables: Tables) -> Canvas:
+@style.panels(3.4)
+def transmitted(tables: Tables, ax: Axes) -> None:
     """Push at the top against the length of a helix that slides."""
     table = tables["pushed"]
-    canvas, ax = style.subplots(3.4)
     labels = {"reciprocal_kN": "reciprocal law", "tan_kN": "tan law", "push_kN": "engine"}
     for index, (column, label) in enumerate(labels.items()):
         drawn = style.dots(index) if column == "push_kN" else style.line(index)
         ax.plot(table["length_m"], table[column], **drawn, label=label)
     ax.set(xlabel="length of pipe, m", ylabel="push at the top, kN")
     ax.legend()
-    return canvas
 
 
 @figure(
@@ -91,11 +90,11 @@ def transmitted(tables: Tables) -> Canvas:
         "too long to bend as it does."
     ),
 )
-def statuses(tables: Tables) -> Canvas:
+@style.panels(4.2)
+def statuses(tables: Tables, ax: Axes) -> None:
     """Share of the rows of each class with each status other than converged."""
     rows = tables["rows"]
     share = 100 * pd.crosstab(rows["class"], rows["status"], normalize="index").reindex(rows["class"].unique())
-    canvas, ax = style.subplots(4.2)
     begun = pd.Series(0.0, share.index)
     for index, status in enumerate(sorted(set(share.columns) - {"converged"})):
         ax.barh(
@@ -105,4 +104,3 @@ def statuses(tables: Tables) -> Canvas:
     style.rows_downwards(ax, list(share.index))
     ax.set_xlabel("share of the rows that did not converge, %")
     style.legend_above(ax, columns=3)
-    return canvas

@@ -4,8 +4,9 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 
-from reports.figures import Canvas, Tables, figure, style
+from reports.figures import Tables, figure, style
 
 
 @figure(
@@ -17,14 +18,18 @@ from reports.figures import Canvas, Tables, figure, style
         "the gap and blends one cylinder into the next."
     ),
 )
-def drag(tables: Tables) -> Canvas:
+@style.panels(4.6, 2, 1, sharex=True)
+def drag(tables: Tables, force: Axes, direction: Axes) -> None:
     """Contact force and direction over the distance dragged, with overlap and without."""
     table = tables["drag"]
-    canvas, (force, direction) = style.subplots(4.6, 2, 1, sharex=True)
     # The run without overlap is a thin line over the other; dashes would not show in its jumps.
     for index, overlap in enumerate(sorted(table["overlap"].unique(), reverse=True)):
         ordered = table[table["overlap"] == overlap].sort_values("s_m")
-        look = {"color": style.COLOURS[index], "linewidth": (3.2, 1.0)[index], "alpha": (0.55, 1.0)[index]}
+        look: dict[str, Any] = {
+            "color": style.COLOURS[index],
+            "linewidth": (3.2, 1.0)[index],
+            "alpha": (0.55, 1.0)[index],
+        }
         label = f"with an overlap of {overlap:g} m" if overlap else "without overlap"
         force.plot(ordered["s_m"], ordered["contact_force_N"] / 1e3, **look, label=label)
         touching = ordered["contact_force_N"] > 0
@@ -32,7 +37,6 @@ def drag(tables: Tables) -> Canvas:
     force.set(ylabel="contact force, kN", ylim=(0, None))
     direction.set(xlabel="distance dragged, m", ylabel="direction of the force, °")
     style.legend_above(force)
-    return canvas
 
 
 @figure(
@@ -44,11 +48,11 @@ def drag(tables: Tables) -> Canvas:
         "between chord and arc, which falls with the square of the length."
     ),
 )
-def errors(tables: Tables) -> Canvas:
+@style.panels(3.6, 1, 2, sharex=True)
+def errors(tables: Tables, penetration: Axes, angle: Axes) -> None:
     """Error of penetration, with its bound, and of direction against the length of a cylinder."""
     table = tables["errors"].sort_values("cylinder_length_m")
     length = table["cylinder_length_m"]
-    canvas, (penetration, angle) = style.subplots(3.6, 1, 2, sharex=True)
     penetration.plot(length, table["bound_mm"], color=style.QUIET, linewidth=3.5, alpha=0.6, label="bound ℓ²/8R")
     penetration.plot(length, table["max_penetration_error_mm"], **style.marked(0), label="largest")
     penetration.plot(length, table["rms_penetration_error_mm"], **style.marked(1), label="root mean square")
@@ -59,7 +63,6 @@ def errors(tables: Tables) -> Canvas:
     for ax in (penetration, angle):
         ax.set(xscale="log", yscale="log", xlabel="cylinder length, m")
         style.plain_log_ticks(ax.xaxis, ax.yaxis)
-    return canvas
 
 
 FROM_M = 1900.0  # above this depth the start of the trip still rings
@@ -77,10 +80,10 @@ EXPECTED: dict[str, Any] = {"color": style.COLOURS[0], "linestyle": style.DASHES
         "falls to the frequency at which all collars pass half a cylinder, 0.5 Hz."
     ),
 )
-def swing(tables: Tables) -> Canvas:
+@style.panels(5.6, 2, 1, sharex=True, height_ratios=(3, 2))
+def swing(tables: Tables, load: Axes, tones: Axes) -> None:
     """Hook load about its mean with the expected swing (above); the frequencies of string and seams (below)."""
     histories, expected, runs = tables["swing"], tables["expected"], tables["runs"]
-    canvas, (load, tones) = style.subplots(5.6, 2, 1, sharex=True, height_ratios=(3, 2))
     histories = histories[histories["bit_depth_m"] > FROM_M]
     expected = expected[expected["bit_depth_m"] > FROM_M]
     # Hundreds of periods leave no room for dashes: the three lie one inside the other, the smallest on top.
@@ -97,7 +100,6 @@ def swing(tables: Tables) -> Canvas:
     tones.plot(own["at_m"], own["frequency_Hz"], **style.dots(1), markersize=7, label="largest swing")
     tones.set(xlabel="bit depth, m", ylabel="frequency, Hz", xlim=(FROM_M, 2450))
     tones.legend(loc="upper right")
-    return canvas
 
 
 def _size(group: tuple[Any, pd.DataFrame]) -> float:
@@ -113,11 +115,11 @@ def _size(group: tuple[Any, pd.DataFrame]) -> float:
         "longest stable step of the stepper. Shaded: the string leaves the hole somewhere, no solution."
     ),
 )
-def stiffness(tables: Tables) -> Canvas:
+@style.panels(3.8, 1, 2, sharex=True)
+def stiffness(tables: Tables, left: Axes, right: Axes) -> None:
     """Changes of loads (left), penetration and step (right), each over stiffness."""
     table = tables["summary"]
     answered = table[(table["without_answer"] == 0) & (table["loads_change_percent"] > 0)]
-    canvas, (left, right) = style.subplots(3.8, 1, 2, sharex=True)
     for index, (column, label) in enumerate(
         (("loads_change_percent", "hook load and torque"), ("contact_force_change_percent", "contact force"))
     ):
@@ -144,7 +146,6 @@ def stiffness(tables: Tables) -> Canvas:
         if len(none):
             ax.axvspan(none.min(), none.max(), color=style.SHADE, linewidth=0, zorder=0)
         style.legend_above(ax, columns=1)
-    return canvas
 
 
 @figure(
@@ -155,10 +156,10 @@ def stiffness(tables: Tables) -> Canvas:
         "The grey lines fall with the first and the second power of the step."
     ),
 )
-def closure(tables: Tables) -> Canvas:
+@style.panels(4.0)
+def closure(tables: Tables, ax: Axes) -> None:
     """Residual of the ledger against the step, with lines of first and second order."""
     table = tables["closure"]
-    canvas, ax = style.subplots(4.0)
     for index, (case, rows) in enumerate(table.groupby("case", sort=False)):
         ordered = rows.sort_values("step_s")
         residual = ordered["relative_residual"].abs()
@@ -172,7 +173,6 @@ def closure(tables: Tables) -> Canvas:
     style.plain_log_ticks(ax.xaxis)
     style.slopes(ax, table["step_s"].to_numpy(float) * 1e3, np.abs(table["relative_residual"].to_numpy(float)))
     style.legend_above(ax, columns=2)
-    return canvas
 
 
 PANELS = (("drag", "kN", "axial drag, kN"), ("torque", "kN_m", "torque, kN·m"))
@@ -187,10 +187,10 @@ PANELS = (("drag", "kN", "axial drag, kN"), ("torque", "kN_m", "torque, kN·m"))
         "paper's law gives both in full."
     ),
 )
-def straight(tables: Tables) -> Canvas:
+@style.panels(3.6, 1, 2, sharex=True)
+def straight(tables: Tables, *axes: Axes) -> None:
     """Solver as lines, closed forms as marks."""
     table = tables["straight"]
-    canvas, axes = style.subplots(3.6, 1, 2, sharex=True)
     for ax, (name, unit, label) in zip(axes, PANELS, strict=True):
         for law, index in style.LAWS.items():
             rows = table[table["law"] == law]
@@ -204,5 +204,4 @@ def straight(tables: Tables) -> Canvas:
                 label=f"{law}, closed form",
             )  # fmt: skip
         ax.set(xscale="log", xlabel="axial over tangential speed, –", ylabel=label, ylim=(0, None))
-    style.legend_outside(canvas, axes[0])
-    return canvas
+    style.legend_outside(axes[0])

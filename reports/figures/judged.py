@@ -44,5 +44,5 @@ def judged(tables: Tables) -> Canvas:
                 ax.plot([-half, half], [at, at], color="black", marker="|", markersize=13, markeredgewidth=1.2)
         style.rows_downwards(ax, [f"{row}, {quantity}" for row, quantity in labels])
         ax.set(xlabel=f"{well}: prediction less reading, {str(unit).replace(' ', '·')}")
-    style.legend_outside(canvas, axes[0, 0], columns=len(models))
+    style.legend_outside(axes[0, 0], columns=len(models))
     return canvas

@@ -27,7 +27,7 @@ def operations(tables: Tables) -> Canvas:
         ax.plot(table.loc[some, column], height, **style.dots(index, filled=not index), markersize=6, label=label)
     ax.set(xscale="log", xlabel="operations per point, –")
     style.rows_downwards(ax, list(table["what"]))
-    style.legend_outside(canvas, ax)
+    style.legend_outside(ax)
     return canvas
 
 
@@ -44,10 +44,10 @@ FLOOR = 0.3
         "length, meshes by facets and ring spacing. Points on the dotted line are exact."
     ),
 )
-def error_and_cost(tables: Tables) -> Canvas:
+@style.panels(4.3, 1, 2, sharex=True)
+def error_and_cost(tables: Tables, depth: Axes, angle: Axes) -> None:
     """A line for each method from its coarse to its fine settings: error of depth and of direction."""
     cost = tables["cost"]
-    canvas, (depth, angle) = style.subplots(4.3, 1, 2, sharex=True)
     for index, method in enumerate(cost["method"].unique()):
         chosen = cost[cost["method"] == method]
         look = style.dots(index, filled=index < 6) | {"linestyle": "-", "linewidth": 0.8}
@@ -61,8 +61,7 @@ def error_and_cost(tables: Tables) -> Canvas:
         style.plain_log_ticks(ax.yaxis)
     for ax, column in ((depth, "max_penetration_error_mm"), (angle, "max_angle_error_deg")):
         exact_line(ax, FLOOR * cost.loc[cost[column] > 1e-5, column].min())
-    style.legend_outside(canvas, depth, columns=4)
-    return canvas
+    style.legend_outside(depth, columns=4)
 
 
 def exact_line(ax: Axes, height: float) -> None:
@@ -103,10 +102,10 @@ def costs(tables: Tables) -> Canvas:
         "of the two contact methods over the same windows."
     ),
 )
-def figure_13(tables: Tables) -> Canvas:
+@style.panels(4.6, 2, 1, sharex=True, height_ratios=[2, 1])
+def figure_13(tables: Tables, above: Axes, below: Axes) -> None:
     """Σ rμF_n over depth: the engine's whole trip, both methods in windows; below, their difference."""
     windows, trip = tables["figure_13"], tables["trip"]
-    canvas, (above, below) = style.subplots(4.6, 2, 1, sharex=True, height_ratios=[2, 1])
     above.plot(
         trip["bit_depth_m"],
         trip["sum_r_mu_fn_N_m"] / 1e3,
@@ -123,7 +122,6 @@ def figure_13(tables: Tables) -> Canvas:
     below.axhline(0, **style.ZERO)
     below.set(xlabel="bit depth, m", ylabel="FCL − FCTD, %", ylim=style.around_zero(windows["difference_percent"]))
     style.legend_above(above, columns=3)
-    return canvas
 
 
 @figure(
@@ -154,10 +152,10 @@ def torques(tables: Tables) -> Canvas:
         "facet has no excess."
     ),
 )
-def facets(tables: Tables) -> Canvas:
+@style.panels(3.4)
+def facets(tables: Tables, ax: Axes) -> None:
     """The difference of contact force times radius between mesh and cylinders, over facets, with the wedge."""
     meshes = tables["facets"].dropna(subset="facets")
-    canvas, ax = style.subplots(3.4)
     ax.plot(
         meshes["facets"],
         meshes["wedge_percent"],
@@ -177,7 +175,6 @@ def facets(tables: Tables) -> Canvas:
     style.plain_log_ticks(ax.xaxis, ax.yaxis)
     ax.set_xticks(meshes["facets"].to_list())
     ax.legend()
-    return canvas
 
 
 @figure(
@@ -190,10 +187,10 @@ def facets(tables: Tables) -> Canvas:
         "shows reading (a)."
     ),
 )
-def figure_13b(tables: Tables) -> Canvas:
+@style.panels(4.6, 2, 1, sharex=True, height_ratios=[2, 1])
+def figure_13b(tables: Tables, above: Axes, below: Axes) -> None:
     """Σ rμF_n of the windows with both methods and the steady torque; below, differences in the windows."""
     windows, steady = tables["windows"], tables["steady"]
-    canvas, (above, below) = style.subplots(4.6, 2, 1, sharex=True, height_ratios=[2, 1])
     depth = windows["bit_depth_m"]
     above.plot(
         steady["bit_depth_m"], steady["surface_torque_N_m"] / 1e3, color=style.QUIET, linewidth=1.2,
@@ -212,7 +209,6 @@ def figure_13b(tables: Tables) -> Canvas:
     below.set(xlabel="bit depth, m", ylabel="FCL − FCTD, %", ylim=limits)
     below.legend(loc="upper left", ncols=2)
     style.legend_above(above, columns=3)
-    return canvas
 
 
 @figure(
@@ -258,19 +254,18 @@ def loads(tables: Tables) -> Canvas:
         "of a second."
     ),
 )
-def contact(tables: Tables) -> Canvas:
+@style.panels(3.4)
+def contact(tables: Tables, ax: Axes) -> None:
     """Contact force along the turning chain, one line for each engine at its best configuration."""
     profiles = tables["profiles"]
     turning = profiles[(profiles["operation"] == "rotate_off_bottom") & (profiles["hole"] == "planar")]
     names = [name for name in turning["engine"].unique() if "default" not in name]
-    canvas, ax = style.subplots(3.4)
     for index, name in enumerate(names):
         at = turning[turning["engine"] == name]
         ax.plot(at["md_m"], at["contact_force_N"] / 1e3, **style.line(index), label=name)
     touched = turning.loc[turning["contact_force_N"] > 0, "md_m"]
     ax.set(xlabel="measured depth, m", ylabel="contact force, kN", xlim=(touched.min() - 50, touched.max() + 20))
     style.legend_above(ax, columns=4)
-    return canvas
 
 
 @figure(
@@ -282,10 +277,10 @@ def contact(tables: Tables) -> Canvas:
         "masses along two fixed directions."
     ),
 )
-def friction(tables: Tables) -> Canvas:
+@style.panels(3.2)
+def friction(tables: Tables, ax: Axes) -> None:
     """Angle of friction to the sliding over the azimuth of a straight hole, and that of two fixed directions."""
     table = tables["friction"]
-    canvas, ax = style.subplots(3.2)
     for index, (name, at) in enumerate(table.groupby("engine", sort=False)):
         ax.plot(at["azimuth_deg"], at["lean_deg"], **style.dots(index), markersize=6, label=name)
     given = table.dropna(subset="two_directions_lean_deg")
@@ -295,7 +290,6 @@ def friction(tables: Tables) -> Canvas:
     )  # fmt: skip
     ax.set(xlabel="azimuth of the hole, °", ylabel="angle of friction to sliding, °")
     style.legend_above(ax, columns=3)
-    return canvas
 
 
 REAL_TIME_MS = 1000.0
@@ -330,7 +324,7 @@ def seconds(tables: Tables) -> Canvas:
         ax.axvline(REAL_TIME_MS, **style.BOUND)
         ax.set(xscale="log", xlabel="wall time of a simulated second, ms", title=f"{count} segments")
     style.rows_downwards(axes[0], names)
-    style.legend_outside(canvas, axes[0])
+    style.legend_outside(axes[0])
     return canvas
 
 
@@ -343,10 +337,10 @@ def seconds(tables: Tables) -> Canvas:
         "the segments."
     ),
 )
-def scaling(tables: Tables) -> Canvas:
+@style.panels(2.6)
+def scaling(tables: Tables, ax: Axes) -> None:
     """Cost of a segment-step over the number of segments."""
     table = tables["scaling"]
-    canvas, ax = style.subplots(2.6)
     ax.plot(table["segments"], table["ns_least"], **style.marked(0))
     ax.set(
         xscale="log",
@@ -356,4 +350,3 @@ def scaling(tables: Tables) -> Canvas:
     )
     style.plain_log_ticks(ax.xaxis)
     ax.set_xticks(table["segments"].to_list())
-    return canvas

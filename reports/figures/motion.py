@@ -1,6 +1,7 @@
 """Strings in time: drives, mud, friction that sticks, whirl, drilling."""
 
 import numpy as np
+from matplotlib.axes import Axes
 
 from reports.figures import Canvas, Tables, figure, style
 
@@ -13,15 +14,14 @@ from reports.figures import Canvas, Tables, figure, style
         "is overcome further and further down, until all of the string turns."
     ),
 )
-def torque(tables: Tables) -> Canvas:
+@style.panels(2.9)
+def torque(tables: Tables, ax: Axes) -> None:
     """Surface torque over time, by the engine and in closed form."""
     table = tables["torque"]
-    canvas, ax = style.subplots(2.9)
     ax.plot(table["time_s"], table["torque_kN_m"], **style.line(0) | {"linewidth": 1.1}, label="engine")
     ax.plot(table["time_s"], table["closed_form_kN_m"], **style.line(1), label="closed form without inertia")
     ax.set(xlabel="time, s", ylabel="surface torque, kN·m", ylim=(0, None))
     ax.legend(loc="lower right")
-    return canvas
 
 
 @figure(
@@ -33,10 +33,10 @@ def torque(tables: Tables) -> Canvas:
         "with all of it, high frequencies come back."
     ),
 )
-def reflection(tables: Tables) -> Canvas:
+@style.panels(3.6, 1, 2, sharey=True)
+def reflection(tables: Tables, *axes: Axes) -> None:
     """Real and imaginary part of the reflected share over frequency, closed form and measured."""
     table = tables["reflection"]
-    canvas, axes = style.subplots(3.6, 1, 2, sharey=True)
     # A drive whose inertia is hidden from the string reflects as one without inertia.
     for index, drive in enumerate(("no inertia", "full inertia")):
         rows = table[table["drive"] == drive]
@@ -51,8 +51,7 @@ def reflection(tables: Tables) -> Canvas:
         ax.set(xscale="log", xlabel="frequency, Hz", title=f"{part} part")
         style.plain_log_ticks(ax.xaxis)
     axes[0].set_ylabel("reflected share, –")
-    style.legend_outside(canvas, axes[0], columns=3)
-    return canvas
+    style.legend_outside(axes[0], columns=3)
 
 
 @figure(
@@ -92,10 +91,10 @@ CYCLE_SHOWN = 12.0  # of the cycle [s]
         "grows nor decays."
     ),
 )
-def threshold(tables: Tables) -> Canvas:
+@style.panels(3.6)
+def threshold(tables: Tables, ax: Axes) -> None:
     """Rotation below which a bit sticks and slips: linear stability as lines, the engine as marks."""
     table = tables["thresholds"]
-    canvas, ax = style.subplots(3.6)
     for index, (drive, name) in enumerate(DRIVES.items()):
         rows = table[table["drive"] == drive].sort_values("weight_on_bit_kN")
         ax.plot(rows["weight_on_bit_kN"], rows["linear_rpm"], **style.line(index), label=f"{name}, linear stability")
@@ -103,7 +102,6 @@ def threshold(tables: Tables) -> Canvas:
                 label=f"{name}, engine")  # fmt: skip
     ax.set(xlabel="weight on bit, kN", ylabel="threshold, rev/min", ylim=(0, None))
     style.legend_above(ax, columns=3)
-    return canvas
 
 
 @figure(
@@ -114,10 +112,10 @@ def threshold(tables: Tables) -> Canvas:
         "and scipy's solution of the same two discs."
     ),
 )
-def cycle(tables: Tables) -> Canvas:
+@style.panels(2.8)
+def cycle(tables: Tables, ax: Axes) -> None:
     """The spin of the bit in slow rotation, each from a break-away of its own."""
     table = tables["cycles"]
-    canvas, ax = style.subplots(2.8)
     for index, (by, rows) in enumerate(table.groupby("by")):
         time, spin = rows["time_s"].to_numpy(float), rows["bit_rpm"].to_numpy(float)
         half = 0.5 * spin.max()
@@ -129,7 +127,6 @@ def cycle(tables: Tables) -> Canvas:
         ax.plot(since[shown], spin[shown], **look, label=name)
     ax.set(xlabel="time from a break-away, s", ylabel="bit, rev/min")
     style.legend_above(ax)
-    return canvas
 
 
 @figure(
@@ -141,10 +138,10 @@ def cycle(tables: Tables) -> Canvas:
         "higher static one the upper end breaks away first, and less is needed than for all of it at once."
     ),
 )
-def belt_and_cake(tables: Tables) -> Canvas:
+@style.panels(3.4, 1, 2)
+def belt_and_cake(tables: Tables, left: Axes, right: Axes) -> None:
     """Error of period and amplitude over the step (left); overpull over the ratio of the factors (right)."""
     belt, pulls = tables["belt"], tables["overpull"]
-    canvas, (left, right) = style.subplots(3.4, 1, 2)
     for index, (law, rows) in enumerate(belt.groupby("law")):
         for column, filled in (("period", True), ("amplitude", False)):
             look = style.dots(index, filled=filled) | {"linestyle": style.DASHES[0 if filled else 1]}
@@ -157,7 +154,6 @@ def belt_and_cake(tables: Tables) -> Canvas:
     right.plot(ratio, pulls["overpull_kN"], **style.marked(0), label="engine")
     right.set(xlabel="static over kinetic factor, –", ylabel="overpull, kN", ylim=(0, None))
     style.legend_above(right, columns=1)
-    return canvas
 
 
 PATH_SHOWN = 0.6  # of the path [s]
@@ -172,10 +168,10 @@ PATH_SHOWN = 0.6  # of the path [s]
         "strikes the wall and rolls round it backwards."
     ),
 )
-def collar(tables: Tables) -> Canvas:
+@style.panels(3.7, 1, 2)
+def collar(tables: Tables, left: Axes, right: Axes) -> None:
     """The critical speed as the zero of Ω²/radius (left); the path of a body that rolls backwards (right)."""
     speeds, paths = tables["critical_speed"], tables["paths"]
-    canvas, (left, right) = style.subplots(3.7, 1, 2)
     square = speeds["rad_per_s"] ** 2
     slope, offset = np.polyfit(square, square / speeds["radius_mm"], 1)
     critical, rotor = (float(speeds[f"{name}_rad_per_s"].iloc[0]) for name in ("critical", "rotor"))
@@ -193,7 +189,6 @@ def collar(tables: Tables) -> Canvas:
         right.plot(1e3 * rows["x_m"], 1e3 * rows["y_m"], **look, label=label, zorder=3 - index)
     right.set(xlabel="place, mm", ylabel="place, mm", aspect="equal")
     style.legend_above(right)
-    return canvas
 
 
 WANTED = 150.0  # real-time factor of drilling 3 km
@@ -207,10 +202,10 @@ WANTED = 150.0  # real-time factor of drilling 3 km
         "Defournay. Right: simulated time over processor time with the bit on bottom, segments of 10 m."
     ),
 )
-def law_and_cost(tables: Tables) -> Canvas:
+@style.panels(3.3, 1, 2)
+def law_and_cost(tables: Tables, left: Axes, right: Axes) -> None:
     """Specific energy over drilling strength (left); real-time factor over depth (right)."""
     drilled, speed = tables["drilling"].sort_values("drilling_strength_MPa"), tables["speed"]
-    canvas, (left, right) = style.subplots(3.3, 1, 2)
     strength = drilled["drilling_strength_MPa"]
     left.plot(strength, drilled["by_the_law_MPa"], **style.line(1), label="E = (1 − μγζ)ε + μγS")
     for index, (name, rows) in enumerate(drilled.groupby(drilled["driller"] == "autodriller")):
@@ -222,4 +217,3 @@ def law_and_cost(tables: Tables) -> Canvas:
     right.axhline(WANTED, **style.BOUND, label="wanted for the whole well")
     right.set(xlabel="depth, m", ylabel="real-time factor, –", ylim=(0, None))
     right.legend(loc="upper right")
-    return canvas

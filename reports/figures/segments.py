@@ -1,6 +1,7 @@
 """How many segments a string needs, and what each rung of the ladder is off."""
 
 import numpy as np
+from matplotlib.axes import Axes
 
 from reports.figures import Canvas, Tables, figure, style
 
@@ -51,7 +52,7 @@ def errors(tables: Tables) -> Canvas:
         ax.tick_params(labelbottom=True)
     for ax in axes[::3]:
         ax.set_ylabel("error, %")
-    style.legend_outside(canvas, axes[0], columns=4)
+    style.legend_outside(axes[0], columns=4)
     return canvas
 
 
@@ -63,9 +64,9 @@ def errors(tables: Tables) -> Canvas:
         "settling included (right). Linear and quadratic growth in grey; an exponential would bend upwards."
     ),
 )
-def cost(tables: Tables) -> Canvas:
+@style.panels(3.9, 1, 2)
+def cost(tables: Tables, *axes: Axes) -> None:
     """Processor time of a steady string, and of a simulated second."""
-    canvas, axes = style.subplots(3.9, 1, 2)
     counts, stepped = tables["counts"], tables["stepped"]
     wells = list(counts["well"].unique())
     for index, well in enumerate(wells):
@@ -76,7 +77,8 @@ def cost(tables: Tables) -> Canvas:
         axes[1].plot(run["segments"], run["ms_per_simulated_s"], **look)
     # Ends of the grey lines, below all others.
     for ax, orders, at in ((axes[0], (1,), (40.0, 640.0)), (axes[1], (1, 2), (120.0, 960.0))):
-        start = 0.4 * min(np.interp(at[0], *line.get_data()) for line in ax.get_lines() if len(line.get_xdata()))
+        drawn = [np.asarray(line.get_xydata()).T for line in ax.get_lines()]
+        start = 0.4 * min(np.interp(at[0], *points) for points in drawn if points.size)
         for order in orders:
             label = ("linear", "quadratic")[order - 1]
             values = [start * (x / at[0]) ** order for x in at]
@@ -88,8 +90,7 @@ def cost(tables: Tables) -> Canvas:
     axes[1].set(ylabel="a simulated second, ms", title="Stepper")
     handles, labels = axes[0].get_legend_handles_labels()
     handles.append(axes[1].get_lines()[-1])
-    canvas.legend(handles, [*labels, "quadratic"], loc="outside upper left", ncols=4)
-    return canvas
+    axes[0].figure.legend(handles, [*labels, "quadratic"], loc="outside upper left", ncols=4)
 
 
 @figure(
@@ -101,10 +102,10 @@ def cost(tables: Tables) -> Canvas:
         "(left), and moment over the length of a cylinder (right)."
     ),
 )
-def cylinders(tables: Tables) -> Canvas:
+@style.panels(3.9, 1, 2)
+def cylinders(tables: Tables, *axes: Axes) -> None:
     """Errors of side force over the miss of the longest cylinder, and of moment over its length."""
     table = tables["cylinders"]
-    canvas, axes = style.subplots(3.9, 1, 2)
     for index, well in enumerate(table["well"].unique()):
         of_well = table[table["well"] == well]
         look = style.marked(index) | {"markersize": 3.5}
@@ -118,8 +119,7 @@ def cylinders(tables: Tables) -> Canvas:
         ax.set(xscale="log", yscale="log")
     style.plain_log_ticks(axes[1].xaxis)
     axes[1].set_xticks([0.25, 1, 5, 20, 50])
-    style.legend_outside(canvas, axes[0], columns=3)
-    return canvas
+    style.legend_outside(axes[0], columns=3)
 
 
 LAYOUTS = ("uniform", "graded")
@@ -155,7 +155,7 @@ def layouts(tables: Tables) -> Canvas:
                 ax.set_ylabel(f"error of {label}, %")
         axes[0, column].set_title(well)
         axes[1, column].set_xlabel("number of segments, –")
-    style.legend_outside(canvas, axes[0, 0])
+    style.legend_outside(axes[0, 0])
     return canvas
 
 
@@ -168,10 +168,10 @@ def layouts(tables: Tables) -> Canvas:
         "from a run with segments and cylinders a quarter as long."
     ),
 )
-def landed(tables: Tables) -> Canvas:
+@style.panels(3.6)
+def landed(tables: Tables, ax: Axes) -> None:
     """Estimated error, and the difference from a run four times as fine, over the tolerance."""
     table = tables["landed"]
-    canvas, ax = style.subplots(3.6)
     labels = []
     groups = table.groupby(["well", "tolerance_percent", "asked", "layout"], sort=False)
     for at, ((well, tolerance, asked, layout), rows) in enumerate(groups):
@@ -183,8 +183,7 @@ def landed(tables: Tables) -> Canvas:
     ax.axvline(1.0, **style.BOUND, label="tolerance")
     style.rows_downwards(ax, labels)
     ax.set(xlabel="error, tolerances", xlim=(0, 1.1))
-    style.legend_outside(canvas, ax, columns=3)
-    return canvas
+    style.legend_outside(ax, columns=3)
 
 
 LOOKS = {"long": (1, "one long segment"), "cut twice as fine": (0, "segments of 18.75 m")}
@@ -202,11 +201,11 @@ PANELS = (
         "when it starts to go in (below). Steady loads agree within a millionth; the long segment changes the waves."
     ),
 )
-def start_up(tables: Tables) -> Canvas:
+@style.panels(5.0, 2, 1, sharex=True)
+def start_up(tables: Tables, *axes: Axes) -> None:
     """Torque of a string that starts to turn, hook load of one that starts to go in, both quickly."""
     histories = tables["histories"]
     quick = histories[histories["ramp_s"] == histories["ramp_s"].min()]
-    canvas, axes = style.subplots(5.0, 2, 1, sharex=True)
     for ax, (operation, column, label) in zip(axes, PANELS, strict=True):
         for name, (index, title) in reversed(LOOKS.items()):
             rows = quick[(quick["operation"] == operation) & (quick["vertical"] == name)]
@@ -214,7 +213,6 @@ def start_up(tables: Tables) -> Canvas:
         ax.set_ylabel(label)
     axes[-1].set_xlabel("time, s")
     style.legend_above(axes[0])
-    return canvas
 
 
 @figure(
@@ -226,10 +224,10 @@ def start_up(tables: Tables) -> Canvas:
         "ones are up to 10 % off."
     ),
 )
-def frequencies(tables: Tables) -> Canvas:
+@style.panels(3.0, 1, 2, sharey=True)
+def frequencies(tables: Tables, *axes: Axes) -> None:
     """Differences of the lowest frequencies from those of the continuous string."""
     table = tables["frequencies"]
-    canvas, axes = style.subplots(3.0, 1, 2, sharey=True)
     for ax, kind in zip(axes, table["kind"].unique(), strict=True):
         rows = table[table["kind"] == kind]
         ax.axhline(0, **style.ZERO)
@@ -239,8 +237,7 @@ def frequencies(tables: Tables) -> Canvas:
             )
         ax.set(xlabel=f"{kind} frequency of the continuous string, Hz")
     axes[0].set_ylabel("frequency difference, %")
-    style.legend_outside(canvas, axes[0])
-    return canvas
+    style.legend_outside(axes[0])
 
 
 LEAST, MOST = 1e-5, 10.0  # of error over bound that is drawn; beyond them a marker stands at the edge
@@ -271,5 +268,5 @@ def rungs(tables: Tables) -> Canvas:
     ax.set(xscale="log", xlim=(0.7 * LEAST, 1.4 * MOST), xlabel="|error| / bound, 1")
     style.rows_downwards(ax, rows)
     ax.tick_params(axis="y", labelsize=7.5)
-    style.legend_outside(canvas, ax, columns=3)
+    style.legend_outside(ax, columns=3)
     return canvas

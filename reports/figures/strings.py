@@ -1,6 +1,7 @@
 """Steady strings against beams, finite elements and soft strings."""
 
 import itertools
+from typing import Any
 
 import matplotlib.lines
 import numpy as np
@@ -20,18 +21,17 @@ from reports.figures import Canvas, Tables, figure, style
         "that beam theory neglects remain (shear, the elastic wall). The dashed line is 1 %."
     ),
 )
-def errors(tables: Tables) -> Canvas:
+@style.panels(3.8)
+def errors(tables: Tables, ax: Axes) -> None:
     """Difference from beam theory against segment length, a line for each beam."""
     table = tables["beams"]
-    canvas, ax = style.subplots(3.8)
     for index, beam in enumerate(table["beam"].unique()):
         of_beam = table[table["beam"] == beam].sort_values("segment_m")
         ax.plot(of_beam["segment_m"], of_beam["off_percent"].abs(), **style.marked(index), label=beam)
     ax.axhline(1.0, **style.BOUND)
     ax.set(xscale="log", yscale="log", xlabel="segment length, m", ylabel="difference from beam theory, %")
     style.plain_log_ticks(ax.xaxis)
-    style.legend_outside(canvas, ax)
-    return canvas
+    style.legend_outside(ax)
 
 
 @figure(
@@ -115,7 +115,7 @@ def contact(tables: Tables) -> Canvas:
     for ax in grid[-1]:
         # Nothing touches above the first contact.
         ax.set(xlabel="measured depth, m", xlim=(touched["md_m"].min() - 50, profiles["md_m"].max() + 20))
-    style.legend_outside(canvas, grid[0][0], columns=3)
+    style.legend_outside(grid[0][0], columns=3)
     return canvas
 
 
@@ -149,7 +149,7 @@ def force(tables: Tables) -> Canvas:
         ax.set_xlabel("time, s")
     for ax in grid[:, 0]:
         ax.set_ylabel("contact force, kN")
-    style.legend_outside(canvas, grid[0][0], columns=3)
+    style.legend_outside(grid[0][0], columns=3)
     return canvas
 
 
@@ -161,16 +161,16 @@ def force(tables: Tables) -> Canvas:
         "distance from the axis of the hole. Grey lines are the walls; joints of the coarser string are squares."
     ),
 )
-def displacement(tables: Tables) -> Canvas:
+@style.panels(5.6, 2, 1, sharex=True, height_ratios=(2, 3))
+def displacement(tables: Tables, whole: Axes, offset: Axes) -> None:
     """Fig. 10: horizontal displacement along the string, and the offset from the axis between the walls."""
     table = tables["string"]
     clearance = 1e3 * float(table["clearance_m"].iloc[0])
-    canvas, (whole, offset) = style.subplots(5.6, 2, 1, sharex=True, height_ratios=(2, 3))
     for index, model in enumerate(_models(tables)):
         rows = table[(table["model"] == model) & (table["md_m"] > _shown(tables))]
         whole.plot(rows["md_m"], rows["horizontal_m"], **_look(index), label=model)
         few = index == 1
-        marker = {"marker": "s", "markersize": 3.5, "markerfacecolor": "white"} if few else {}
+        marker: dict[str, Any] = {"marker": "s", "markersize": 3.5, "markerfacecolor": "white"} if few else {}
         offset.plot(rows["md_m"], 1e3 * rows["offset_high_m"], **_look(index) | marker)
     for side, name, at, up in ((clearance, "high side", 0.15, "bottom"), (-clearance, "low side", 0.5, "top")):
         offset.axhline(side, **style.ZERO)
@@ -180,7 +180,6 @@ def displacement(tables: Tables) -> Canvas:
     whole.set_ylabel("horizontal displacement, m")
     offset.set(xlabel="measured depth, m", ylabel="offset from the axis, mm", ylim=(-1.4 * clearance, 1.4 * clearance))
     style.legend_above(whole, columns=3)
-    return canvas
 
 
 @figure(
@@ -191,11 +190,11 @@ def displacement(tables: Tables) -> Canvas:
         "lines are the targets, 3 % and 1 %."
     ),
 )
-def convergence(tables: Tables) -> Canvas:
+@style.panels(3.6, 1, 2)
+def convergence(tables: Tables, left: Axes, right: Axes) -> None:
     """Differences from the finite elements against the number of segments."""
     table = tables["segments"]
     own = table[table["geometry"] == table["geometry"].iloc[0]].sort_values("segments")
-    canvas, (left, right) = style.subplots(3.6, 1, 2)
     left.plot(own["segments"], own["total_rms_percent"], **style.marked(0), label="RMS of total force")
     left.axhline(3.0, **style.BOUND)
     left.set_ylabel("force difference, % of the peak")
@@ -215,7 +214,6 @@ def convergence(tables: Tables) -> Canvas:
         ax.set_xticks(own["segments"], [str(count) for count in own["segments"]])
     style.legend_above(left)
     style.legend_above(right)
-    return canvas
 
 
 def _models(tables: Tables) -> list[str]:
@@ -229,7 +227,7 @@ def _shown(tables: Tables) -> float:
     return float(string[string["model"] != TRUTH].groupby("model")["md_m"].min().max()) - 1.0
 
 
-def _look(index: int) -> dict[str, object]:
+def _look(index: int) -> dict[str, Any]:
     """The finite elements are a broad pale line under the others."""
     if index == 0:
         return {"color": style.COLOURS[3], "linewidth": 4.0}
@@ -247,10 +245,10 @@ ALLOWED = 0.2  # percent
         "two laws, as clearance and then bending stiffness are removed."
     ),
 )
-def ladder(tables: Tables) -> Canvas:
+@style.panels(3.4, 1, 2, sharey=True)
+def ladder(tables: Tables, *axes: Axes) -> None:
     """Largest difference at each rung, a line for each operation."""
     table = tables["ladder"]
-    canvas, axes = style.subplots(3.4, 1, 2, sharey=True)
     rungs = list(table["string"].unique())
     for ax, column, label in zip(
         axes,
@@ -266,8 +264,7 @@ def ladder(tables: Tables) -> Canvas:
         ax.set(xscale="log", xlabel=label)
         style.plain_log_ticks(ax.xaxis)
     style.rows_downwards(axes[0], rungs)
-    style.legend_outside(canvas, axes[0], columns=4)
-    return canvas
+    style.legend_outside(axes[0], columns=4)
 
 
 LIMIT = 30.0  # [deg/100 ft], the paper's

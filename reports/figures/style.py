@@ -1,6 +1,6 @@
 """One style for all figures: fonts, lines that differ in grey and for the colour-blind, axes with units."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from fctd import plots
 from fctd.plots import palette
 from fctd.plots import style as plot_style
+from reports.figures import Canvas, Draw, Tables
 
 WIDTH_IN = 7.2  # the page's column
 
@@ -86,6 +87,20 @@ def subplots(height_in: float, rows: int = 1, columns: int = 1, **layout: Any) -
     return canvas, canvas.subplots(rows, columns, **layout)
 
 
+def panels(height_in: float, rows: int = 1, columns: int = 1, **layout: Any) -> Callable[[Callable[..., None]], Draw]:
+    """A function that draws tables on axes, given row by row, as one that returns their figure; see ``subplots``."""
+
+    def with_axes(draw: Callable[..., None]) -> Draw:
+        def drawn(tables: Tables) -> Canvas:
+            canvas, axes = subplots(height_in, rows, columns, **layout)
+            draw(tables, *np.ravel(axes))
+            return canvas
+
+        return drawn
+
+    return with_axes
+
+
 def depth_downwards(ax: Axes, label: str = "measured depth, m") -> None:
     """Depth on the vertical axis, growing downwards as in the well."""
     ax.set_ylabel(label)
@@ -97,9 +112,9 @@ def legend_above(ax: Axes, columns: int = 2) -> None:
     ax.legend(loc="lower left", bbox_to_anchor=(-0.01, 1.0), ncols=columns, borderaxespad=0.3)
 
 
-def legend_outside(canvas: Figure, ax: Axes, columns: int = 2) -> None:
+def legend_outside(ax: Axes, columns: int = 2) -> None:
     """The legend of one axes over the whole figure."""
-    canvas.legend(*ax.get_legend_handles_labels(), loc="outside upper left", ncols=columns)
+    ax.figure.legend(*ax.get_legend_handles_labels(), loc="outside upper left", ncols=columns)
 
 
 def rows_downwards(ax: Axes, labels: Sequence[str]) -> None:

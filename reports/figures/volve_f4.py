@@ -1,6 +1,8 @@
 """A public well: measured loads over depth with calibrated curves, and judged rows with their bands."""
 
-from reports.figures import Canvas, Tables, figure, style
+from matplotlib.axes import Axes
+
+from reports.figures import Tables, figure, style
 
 KINDS = {"trip_out": "picking up", "rotate_off_bottom": "rotating", "trip_in": "slacking off"}
 
@@ -15,9 +17,9 @@ KINDS = {"trip_out": "picking up", "rotate_off_bottom": "rotating", "trip_in": "
         "filled: daily reports of several strings, which the next figure judges one by one."
     ),
 )
-def chart(tables: Tables) -> Canvas:
+@style.panels(4.6, 1, 2, sharey=True)
+def chart(tables: Tables, left: Axes, right: Axes) -> None:
     """Torque and weight indicator over bit depth."""
-    canvas, (left, right) = style.subplots(4.6, 1, 2, sharey=True)
     points = tables["points"]
     for _, curve in tables["curves"].groupby("string", sort=False):
         for index, kind in enumerate(KINDS):
@@ -42,8 +44,7 @@ def chart(tables: Tables) -> Canvas:
     left.set(xlabel="torque, kN·m", xlim=(0, None))
     right.set_xlabel("weight indicator, kN")
     style.depth_downwards(left, "bit depth, m")
-    style.legend_outside(canvas, right, columns=3)
-    return canvas
+    style.legend_outside(right, columns=3)
 
 
 @figure(
@@ -51,17 +52,17 @@ def chart(tables: Tables) -> Canvas:
     name="rows",
     caption="Judged rows: predicted 95 % band (thin) and 50 % band (thick), recorded value or range (black).",
 )
-def rows(tables: Tables) -> Canvas:
+@style.panels(4.4, 1, 2)
+def rows(tables: Tables, *axes: Axes) -> None:
     """Bands of judged rows: torque by models of split A, half spread by those of A and B."""
     table = tables["rows"]
-    canvas, axes = style.subplots(4.4, 1, 2)
     for ax, (quantity, unit) in zip(axes, (("torque", "kN·m"), ("half spread", "kN")), strict=True):
         part = table[table["quantity"] == quantity]
         part = part.sort_values(["row", "model"], kind="stable").reset_index(drop=True)
         models = list(dict.fromkeys(table["model"]))
-        for at, one in part.iterrows():
+        for at, (_, one) in enumerate(part.iterrows()):
             colour = style.COLOURS[models.index(one["model"])]
-            label = one["model"] if not part["model"].iloc[: int(str(at))].eq(one["model"]).any() else None
+            label = one["model"] if not part["model"].iloc[:at].eq(one["model"]).any() else None
             ax.plot([one["low_95"], one["high_95"]], [at, at], color=colour, linewidth=1.2)
             ax.plot([one["low_50"], one["high_50"]], [at, at], color=colour, linewidth=4, label=label)
             ends = sorted({one["measured_low"], one["measured_high"]})
@@ -70,5 +71,4 @@ def rows(tables: Tables) -> Canvas:
         style.rows_downwards(ax, [str(row) if new else "" for row, new in zip(part["row"], first, strict=True)])
         ax.set(xlabel=f"{quantity}, {unit}")
         if quantity == "half spread":
-            style.legend_outside(canvas, ax, columns=3)
-    return canvas
+            style.legend_outside(ax, columns=3)

@@ -17,10 +17,10 @@ from reports.figures import Canvas, Tables, figure, style
         "Left: its vertical plane at equal scales. Right: inclination along the hole. Marks are ends of builds."
     ),
 )
-def profile(tables: Tables) -> Canvas:
+@style.panels(4.4, 1, 2, width_ratios=(3, 2))
+def profile(tables: Tables, plane: Axes, angle: Axes) -> None:
     """Fig. 11: true vertical depth against departure, and inclination against measured depth."""
     table = tables["wells"]
-    canvas, (plane, angle) = style.subplots(4.4, 1, 2, width_ratios=(3, 2))
     for index, variant in enumerate(table["variant"].unique()):
         rows = table[table["variant"] == variant]
         plane.plot(rows["departure_m"], rows["tvd_m"], **style.line(index), label=str(variant))
@@ -35,7 +35,6 @@ def profile(tables: Tables) -> Canvas:
     angle.set(xlabel="inclination, °", xticks=[0, 30, 60, 90])
     style.depth_downwards(angle)
     style.legend_above(plane)
-    return canvas
 
 
 WELL, WELL_B = "paper-well", "paper-well-b"
@@ -52,14 +51,13 @@ BIT_DEPTHS_M = (1750.0, 2450.0)
         "both builds at 16° per 100 m. The measured points of the paper are not public."
     ),
 )
-def torque(tables: Tables) -> Canvas:
+@style.panels(3.9)
+def torque(tables: Tables, ax: Axes) -> None:
     """The paper's Fig. 12 in both readings of its model curve."""
-    canvas, ax = style.subplots(3.9)
     _series(ax, tables["trip_in"], "sum_r_mu_fn_N_m", 0, "(a)", "law paper, tripping in: Σ rμFₙ")
     _series(ax, tables["rotating"], "surface_torque_N_m", 1, "(b)", "law coulomb, rotating: surface torque")
     _against_bit_depth(ax, "torque, kN·m")
     ax.set_ylim(bottom=0)
-    return canvas
 
 
 @figure(
@@ -70,13 +68,12 @@ def torque(tables: Tables) -> Canvas:
         "collars pass seams between cylinders at a natural frequency of the string, an artefact of the cylinders."
     ),
 )
-def paper_hook_load(tables: Tables) -> Canvas:
+@style.panels(3.6)
+def paper_hook_load(tables: Tables, ax: Axes) -> None:
     """Hook load over the same depths."""
-    canvas, ax = style.subplots(3.6)
     _series(ax, tables["trip_in"], "hookload_N", 0, "(a)", "law paper, tripping in")
     _series(ax, tables["rotating"], "hookload_N", 1, "(b)", "law coulomb, rotating off bottom")
     _against_bit_depth(ax, "hook load, kN")
-    return canvas
 
 
 @figure(
@@ -182,15 +179,14 @@ def chart_and_stepper(tables: Tables) -> Canvas:
 
 
 @figure("real_survey", name="history", caption="Surface torque and hook load over time, the string in a surveyed well.")
-def history(tables: Tables) -> Canvas:
+@style.panels(4.4, 2, 1, sharex=True)
+def history(tables: Tables, torque: Axes, load: Axes) -> None:
     """Torque and hook load over time."""
     table = tables["history"]
-    canvas, (torque, load) = style.subplots(4.4, 2, 1, sharex=True)
     torque.plot(table["time_s"], table["surface_torque_N_m"] / 1e3, **style.line(0))
     torque.set_ylabel("surface torque, kN·m")
     load.plot(table["time_s"], table["hookload_N"] / 1e3, **style.line(0))
     load.set(xlabel="time, s", ylabel="hook load, kN")
-    return canvas
 
 
 @figure(
@@ -201,11 +197,11 @@ def history(tables: Tables) -> Canvas:
         "against measured depth. 0° is the high side, 90° is to the right looking downhole."
     ),
 )
-def surveyed_contact(tables: Tables) -> Canvas:
+@style.panels(5.2, 1, 2, sharey=True, width_ratios=[3, 2])
+def surveyed_contact(tables: Tables, force: Axes, angle: Axes) -> None:
     """Contact force and side against depth, drawn downwards."""
     table = tables["profiles"].sort_values("md_m")
     touching = table[table["contact_force_N"] > 0]
-    canvas, (force, angle) = style.subplots(5.2, 1, 2, sharey=True, width_ratios=[3, 2])
     force.hlines(touching["md_m"], 0, touching["contact_force_N"] / 1e3, color=style.COLOURS[0], linewidth=0.9)
     force.plot(touching["contact_force_N"] / 1e3, touching["md_m"], **style.dots(0), markersize=2.5)
     force.set(xlabel="contact force, kN", xlim=(0, None))
@@ -213,7 +209,6 @@ def surveyed_contact(tables: Tables) -> Canvas:
     angle.set_xticks(style.SIDES, style.SIDE_LABELS)
     angle.set(xlabel="contact angle", xlim=(-90, 270))
     style.depth_downwards(force)
-    return canvas
 
 
 @figure(
@@ -264,7 +259,7 @@ def hook_load_of_trips(tables: Tables) -> Canvas:
         off.set(xlabel="bit depth, m", ylim=(-1.3 * ALLOWED, 1.3 * ALLOWED))
     axes[0, 0].set_ylabel("hook load below the table, kN")
     axes[1, 0].set_ylabel("off, % of the weight")
-    style.legend_outside(canvas, axes[0, 0], columns=2)
+    style.legend_outside(axes[0, 0], columns=2)
     return canvas
 
 
@@ -282,10 +277,10 @@ PANELS = (("amplitude_mm", "wavelength_m", 10.0, "amplitude, mm", "waves of 10 m
         "own is 0.2. Mean, least and largest of the seeds."
     ),
 )
-def apparent(tables: Tables) -> Canvas:
+@style.panels(3.6, 1, 2)
+def apparent(tables: Tables, *axes: Axes) -> None:
     """Apparent factors over amplitude (left) and wavelength (right): mean, least and largest of the seeds."""
     table = tables["apparent_friction"]
-    canvas, axes = style.subplots(3.6, 1, 2)
     for ax, (over, fixed, value, label, title) in zip(axes, PANELS, strict=True):
         chosen = table[table[fixed] == value].groupby(over)
         for index, (kind, name) in enumerate(LOADS.items()):
@@ -296,5 +291,4 @@ def apparent(tables: Tables) -> Canvas:
                         linestyle=style.DASHES[index], capsize=3, label=name)  # fmt: skip
         ax.set(xlabel=label, ylabel="apparent friction factor, –", title=title)
         ax.margins(x=0.1)
-    style.legend_outside(canvas, axes[0], columns=3)
-    return canvas
+    style.legend_outside(axes[0], columns=3)
