@@ -9,7 +9,7 @@ import pandas as pd
 import typer
 from rich.box import SIMPLE_HEAD
 from rich.markup import escape
-from rich.table import Table
+from rich.table import Column, Table
 
 from fctd.calibration.calibrate import Order, calibrate
 from fctd.calibration.calibrated_file import write_calibrated
@@ -255,11 +255,9 @@ def _span(low: float, high: float) -> str:
 
 
 def _table(texts: list[str], numbers: list[str], last: list[str]) -> Table:
-    table = Table(box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False)
-    for heading in texts:
-        table.add_column(heading, overflow="fold")
-    for heading in numbers:
-        table.add_column(heading, justify="right", overflow="fold", no_wrap=screen.keeps_numbers)
-    for heading in last:
-        table.add_column(heading, overflow="fold")
-    return table
+    return Table(
+        *(Column(heading, overflow="fold") for heading in texts),
+        *(Column(heading, justify="right", overflow="fold", no_wrap=screen.keeps_numbers) for heading in numbers),
+        *(Column(heading, overflow="fold") for heading in last),
+        box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
+    )  # fmt: skip

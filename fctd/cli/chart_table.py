@@ -1,13 +1,13 @@
 """A chart on the screen: a table that fits it, and lines for what is not converged or has a note."""
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import groupby
 from typing import Any
 
 import numpy as np
 from rich.box import SIMPLE_HEAD
-from rich.table import Table
+from rich.table import Column, Table
 
 from fctd.case.text import counted, printable
 from fctd.cli.options import messages, screen
@@ -32,16 +32,16 @@ def print_chart(rows: list[Row], name: str, units: System) -> None:
     frictions = list(dict.fromkeys(friction for _, friction in series))
     fan = len(frictions) > 1  # one set of factors, which may be a long text, stands above the table
     screen.print(printable(name if fan else f"{name}; {in_words(frictions[0])}"), style="bold", soft_wrap=True)
-    table = Table(box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False)
-    table.add_column("operation", no_wrap=True)
-    if fan:
-        table.add_column("μ", overflow="fold")
-    for column in SHOWN:
-        table.add_column(f"{column.heading}\n{units_of[column.name].label}", justify="right", overflow="fold")
     buckled = not all(np.isnan(row["buckled_from_md_m"]) for row in rows)
-    if buckled:
-        table.add_column(f"buckled\n{units_of[DEPTH.name].label}", overflow="fold")
-    table.add_column("status", overflow="fold")
+    loads = [f"{column.heading}\n{units_of[column.name].label}" for column in SHOWN]
+    table = Table(
+        Column("operation", no_wrap=True),
+        *([Column("μ", overflow="fold")] if fan else []),
+        *(Column(heading, justify="right", overflow="fold") for heading in loads),
+        *([Column(f"buckled\n{units_of[DEPTH.name].label}", overflow="fold")] if buckled else []),
+        Column("status", overflow="fold"),
+        box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
+    )  # fmt: skip
     each, printed = max(SCREEN_ROWS // len(series), 1), 0
     for (operation, friction), of in series.items():
         # Evenly spread rows, always with the deepest one.
@@ -92,11 +92,9 @@ def _exceptions(rows: list[Row], factor: float, label: str) -> list[str]:
     return lines
 
 
-def _runs(values: Sequence[Any], depths: Sequence[float], label: str) -> list[tuple[Any, str]]:
+def _runs(values: Sequence[Any], depths: Sequence[float], label: str) -> Iterator[tuple[Any, str]]:
     """Every run of equal values, with its depths as text."""
-    found = []
     for value, run in groupby(zip(values, depths, strict=True), key=lambda row: row[0]):
         at = [depth for _, depth in run]
         span = f"{at[0]:g}" if len(at) == 1 else f"{at[0]:g} to {at[-1]:g}"
-        found.append((value, f"{span} {label} ({len(at)} of {len(depths)})"))
-    return found
+        yield value, f"{span} {label} ({len(at)} of {len(depths)})"

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from rich.box import SIMPLE_HEAD
-from rich.table import Table
+from rich.table import Column, Table
 
 from fctd.case.friction import factors_label
 from fctd.case.load import Case, naming_file
@@ -126,12 +126,11 @@ def _string(summary: Summary, metre: Shown, across: Shown, force: Shown) -> Tabl
 
 
 def _table(names: Sequence[str], numbers: Sequence[str]) -> Table:
-    table = Table(box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False)
-    for heading in names:
-        table.add_column(heading, overflow="fold")
-    for heading in numbers:
-        table.add_column(heading, justify="right", overflow="fold")
-    return table
+    return Table(
+        *(Column(heading, overflow="fold") for heading in names),
+        *(Column(heading, justify="right", overflow="fold") for heading in numbers),
+        box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
+    )  # fmt: skip
 
 
 def _name(name: str | None, number: int) -> str:

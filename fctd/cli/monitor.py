@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import typer
 from rich.box import SIMPLE_HEAD
-from rich.table import Table
+from rich.table import Column, Table
 
 from fctd.case.errors import InputError, naming
 from fctd.case.load import Case, naming_file
@@ -173,17 +173,9 @@ def _print(found: Monitored, case: Case, units: System) -> None:
     inferred = stretches[stretches["friction"].notna()]
     screen.print(printable(f"{case.name}; friction factor of {found.chart.fit} hole"), style="bold", soft_wrap=True)
     depth, force, torque = (shown(name, units) for name in ("bit_depth_m", "weight_indicator_N", "drive_torque_N_m"))
-    table = Table(box=SIMPLE_HEAD, pad_edge=False)
-    table.add_column("stretch", no_wrap=True)
-    for name in (
-        f"bit\n{depth.label}",
-        "rows",
-        f"weight ind.\n{force.label}",
-        f"torque\n{torque.label}",
-        "μ",
-        "95 % band",
-    ):
-        table.add_column(name, justify="right")
+    numbers = f"bit\n{depth.label}", "rows", f"weight ind.\n{force.label}", f"torque\n{torque.label}", "μ", "95 % band"
+    columns = (Column(heading, justify="right") for heading in numbers)
+    table = Table(Column("stretch", no_wrap=True), *columns, box=SIMPLE_HEAD, pad_edge=False)
     for row in _picked(inferred).to_dict("records"):
         table.add_row(
             row["mode"], f"{row['bit_depth_m'] * depth.factor:.0f}", str(row["samples"]),

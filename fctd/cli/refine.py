@@ -6,7 +6,7 @@ from typing import Annotated
 import numpy as np
 import typer
 from rich.box import SIMPLE_HEAD
-from rich.table import Table
+from rich.table import Column, Table
 
 from fctd.case.doubts import warnings_of
 from fctd.case.text import printable
@@ -106,11 +106,12 @@ def _print(refined: Refinement, graded: bool, units: System) -> None:
     metre, load, torque = (shown(name, units) for name in ("bit_depth_m", "hookload_N", "surface_torque_N_m"))
     title = f"{printable(refined.case.name)}: bit at {refined.bit_depth * metre.factor:.1f} {metre.label}"
     screen.print(title, style="bold")
-    table = Table(box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False)
-    table.add_column("", no_wrap=True)
-    table.add_column("operation", no_wrap=True)
-    for heading in (f"hook load\n{load.label}", f"torque\n{torque.label}", "change\n%", "error\n%", "time\nms"):
-        table.add_column(heading, justify="right", overflow="fold")
+    numbers = f"hook load\n{load.label}", f"torque\n{torque.label}", "change\n%", "error\n%", "time\nms"
+    table = Table(
+        Column("", no_wrap=True), Column("operation", no_wrap=True),
+        *(Column(heading, justify="right", overflow="fold") for heading in numbers),
+        box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
+    )  # fmt: skip
     across = shown("clearance_m", units)
     for (stage, layout, _), rows in refined.steps.groupby(["stage", "layout", "level"], sort=False):
         chord, segments = rows["chord_m"].iloc[0] * across.factor, rows["segments"].iloc[0]

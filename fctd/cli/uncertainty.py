@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 import typer
 from rich.box import SIMPLE_HEAD
-from rich.table import Table
+from rich.table import Column, Table
 
 from fctd.case.errors import InputError
 from fctd.case.operations import KINDS
@@ -145,13 +145,20 @@ def _save(figures: dict[Path, "Figure"]) -> list[Path]:
     return [file for path, figure in figures.items() for file in plots.save(figure, path)]
 
 
+def _table(title: str, texts: tuple[str, ...], numbers: tuple[str, ...]) -> Table:
+    columns = *(Column(text, overflow="fold") for text in texts), *(Column(name, justify="right") for name in numbers)
+    operation = Column("operation", overflow="fold", no_wrap=True)
+    return Table(operation, *columns, box=SIMPLE_HEAD, title=title, title_justify="left")
+
+
 def _print(found: Uncertainty, units: System) -> None:
     """Print percentiles at the last depth, the probabilities of events anywhere, and the influences."""
     screen.print(f"{printable(found.spec.name)}: {counted(found.rows['sample'].nunique(), 'sample')}", style="bold")
     _print_percentiles(found, units)
-    table = Table(box=SIMPLE_HEAD, title="Probability at any depth", title_justify="left")
-    for heading in ("operation", "event", "probability", "95 %"):
-        table.add_column(heading, justify="left" if heading in ("operation", "event") else "right")
+    numbers = (Column(heading, justify="right") for heading in ("probability", "95 %"))
+    table = Table(
+        "operation", "event", *numbers, box=SIMPLE_HEAD, title="Probability at any depth", title_justify="left"
+    )
     anywhere = found.probabilities[found.probabilities["bit_depth_m"].isna()]
     for row in anywhere[anywhere["count"] > 0].to_dict("records"):
         table.add_row(
@@ -165,11 +172,7 @@ def _print(found: Uncertainty, units: System) -> None:
         return
     metre = shown("bit_depth_m", units)
     at = "" if np.isnan(found.bit_depth) else f" at {found.bit_depth * metre.factor:.5g} {metre.label}"
-    table = Table(box=SIMPLE_HEAD, title=f"Influence{at}", title_justify="left")
-    for heading in ("operation", "column", "measure", "parameter"):
-        table.add_column(heading, overflow="fold", no_wrap=heading == "operation")
-    for heading in ("value", "±"):
-        table.add_column(heading, justify="right")
+    table = _table(f"Influence{at}", ("column", "measure", "parameter"), ("value", "±"))
     for row in found.indices[~found.indices["measure"].isin(IN_FILES)].to_dict("records"):
         factor, unit = _unit(row["column"], units) if row["measure"] in WITH_UNIT else (1.0, "")
         error = "" if np.isnan(row["error"]) else f"{row['error'] * factor:.2g}"
@@ -187,11 +190,7 @@ def _unit(column: str, units: System) -> tuple[float, str]:
 
 
 def _print_percentiles(found: Uncertainty, units: System) -> None:
-    table = Table(box=SIMPLE_HEAD, title="Percentiles at the last depth", title_justify="left")
-    for heading in ("operation", "column"):
-        table.add_column(heading, overflow="fold", no_wrap=heading == "operation")
-    for heading in ("%", "value", "95 %", "samples"):
-        table.add_column(heading, justify="right")
+    table = _table("Percentiles at the last depth", ("column",), ("%", "value", "95 %", "samples"))
     rows = found.percentiles
     if "bit_depth_m" in rows:
         rows = rows[rows["bit_depth_m"] == rows["bit_depth_m"].max()]
