@@ -70,61 +70,58 @@ class Plan:
 
     def text(self) -> str:
         """The case file."""
-        return "\n".join(self._lines()) + "\n"
+        return "\n\n".join("\n".join(block) for block in self._blocks()) + "\n"
 
-    def _lines(self) -> Iterator[str]:
+    def _blocks(self) -> Iterator[tuple[str, ...]]:
+        """The lines of each table, between which stand blank ones."""
         quantity, template = Quantities(self.units), self.template
-        yield f"# {self.title[0].upper()}{self.title[1:]}: change what differs in yours."
-        yield '# A quantity is a text with its unit ("8.5 in", "1250 kg/m^3"), or a bare number in SI.'
-        yield f"name = {json.dumps(self.name, ensure_ascii=False)}"
-        yield ""
-        yield "[wellbore]"
-        yield from self.hole
-        yield entry("geometry", "arcs", "the hole follows the circular arcs between stations")
+        yield (
+            f"# {self.title[0].upper()}{self.title[1:]}: change what differs in yours.",
+            '# A quantity is a text with its unit ("8.5 in", "1250 kg/m^3"), or a bare number in SI.',
+            f"name = {json.dumps(self.name, ensure_ascii=False)}",
+        )
         stiffness = f"{self.stiffness:.0e}".replace("e+0", "e")
-        yield entry(
-            "stiffness_per_length", f"{stiffness} N/m/m", "of the wall: the string presses less than 1 % of its"
+        yield (
+            "[wellbore]",
+            *self.hole,
+            entry("geometry", "arcs", "the hole follows the circular arcs between stations"),
+            entry("stiffness_per_length", f"{stiffness} N/m/m", "of the wall: the string presses less than 1 % of its"),
+            " " * COMMENTS + "# clearance into it",
         )
-        yield " " * COMMENTS + "# clearance into it"
-        for kind, hole, end in (("cased", template.cased, self.shoe), ("open", template.open, self.depth)):
-            yield ""
-            comment = "from the surface down" if kind == "cased" else ""
-            yield aligned("[[wellbore.intervals]]", comment)
-            yield entry("name", hole.name)
-            yield entry("kind", kind)
-            yield entry("to_md", quantity(LENGTH, end), self.shoe_comment if kind == "cased" else "the end of the hole")
-            yield entry("diameter", f"{hole.diameter} in", "inside the casing" if kind == "cased" else "")
-            yield aligned(f"friction = {hole.friction:.2f}", "")
-        for k, part in enumerate(template.string):
-            yield ""
-            above = "" if k else "from the bit up; segments are chosen for you"
-            yield aligned(
-                "[[string.components]]", "no length: it reaches the surface" if part.length is None else above
+        cased = "from the surface down", "cased", self.shoe, self.shoe_comment, "inside the casing"
+        for hole, (where, kind, end, ends, size) in (
+            (template.cased, cased),
+            (template.open, ("", "open", self.depth, "the end of the hole", "")),
+        ):
+            yield (
+                aligned("[[wellbore.intervals]]", where),
+                entry("name", hole.name),
+                entry("kind", kind),
+                entry("to_md", quantity(LENGTH, end), ends),
+                entry("diameter", f"{hole.diameter} in", size),
+                f"friction = {hole.friction:.2f}",
             )
-            yield from self._part(part, quantity)
-        yield ""
-        yield "[mud]"
-        yield entry("density", quantity(DENSITY, template.mud))
-        yield ""
-        yield "[rig]"
-        yield entry(
-            "block_weight", quantity(FORCE, 1e3 * template.block_weight), "added to the hook load on the indicator"
+        for k, part in enumerate(template.string):
+            above = "" if k else "from the bit up; segments are chosen for you"
+            comment = "no length: it reaches the surface" if part.length is None else above
+            yield aligned("[[string.components]]", comment), *self._part(part, quantity)
+        yield "[mud]", entry("density", quantity(DENSITY, template.mud))
+        weight = quantity(FORCE, 1e3 * template.block_weight)
+        yield "[rig]", entry("block_weight", weight, "added to the hook load on the indicator")
+        if template.weight_on_bit:
+            yield (
+                aligned("[bit]", "while drilling"),
+                entry("weight_on_bit", quantity(FORCE, 1e3 * template.weight_on_bit)),
+                entry("torque", quantity(TORQUE, 1e3 * template.bit_torque)),
+            )
+        yield "[contact]", entry("damping", DAMPING, "so that the string comes to rest on the stiff wall")
+        yield (
+            aligned("[[operations]]", "for fctd simulate; charts ask for their operations"),
+            *self._operation(quantity),
         )
         if template.weight_on_bit:
-            yield ""
-            yield aligned("[bit]", "while drilling")
-            yield entry("weight_on_bit", quantity(FORCE, 1e3 * template.weight_on_bit))
-            yield entry("torque", quantity(TORQUE, 1e3 * template.bit_torque))
-        yield ""
-        yield "[contact]"
-        yield entry("damping", DAMPING, "so that the string comes to rest on the stiff wall")
-        yield ""
-        yield aligned("[[operations]]", "for fctd simulate; charts ask for their operations")
-        yield from self._operation(quantity)
-        if template.weight_on_bit:
-            yield ""
-            yield "[record]"
-            yield entry("interval", f"{self.period:g} s", "the string's torsional period: a record is a mean over it")
+            comment = "the string's torsional period: a record is a mean over it"
+            yield "[record]", entry("interval", f"{self.period:g} s", comment)
 
     @property
     def period(self) -> float:
@@ -150,25 +147,22 @@ class Plan:
         if part.mass is not None:
             yield entry("linear_mass", quantity(LINEAR_MASS, part.mass), "with joints")
 
-    def _operation(self, quantity: "Quantities") -> Iterator[str]:
+    def _operation(self, quantity: "Quantities") -> tuple[str, ...]:
         end = quantity(LENGTH, self.depth)
         if self.template.weight_on_bit:
-            yield from (
+            lasts = f"{PERIODS * self.period:g} s"
+            return (
                 entry("kind", "rotate_off_bottom"),
                 entry("at_md", end),
-                entry(
-                    "duration", f"{PERIODS * self.period:g} s", f"{PERIODS} records: the first ones wind the string up"
-                ),
+                entry("duration", lasts, f"{PERIODS} records: the first ones wind the string up"),
                 "rpm = 60",
             )
-        else:
-            speed = "0.3 m/s" if self.units == "metric" else "60 ft/min"
-            yield from (
-                entry("kind", "trip_in"),
-                entry("from_md", quantity(LENGTH, self.depth - RUN)),
-                entry("to_md", end),
-            )
-            yield entry("speed", speed)
+        return (
+            entry("kind", "trip_in"),
+            entry("from_md", quantity(LENGTH, self.depth - RUN)),
+            entry("to_md", end),
+            entry("speed", "0.3 m/s" if self.units == "metric" else "60 ft/min"),
+        )
 
 
 # Distance of a trip [m].
