@@ -137,32 +137,20 @@ class Arcs(_CachedOwners):
         return 0.0, 0.0
 
 
-class ForLoop:
-    """The paper's search: the first cylinder from the top between whose end planes the point lies."""
+class ForLoop(Cylinders):
+    """The paper's search: the first cylinder from the top between whose end planes the point lies.
+
+    Errors are those of ``Cylinders`` where the loop finds the right one; in a hole that turns past 90° it may not.
+    """
 
     name = "for_loop"
-    distribution: ClassVar[str] = "fctd"
     does: ClassVar[str] = "point in cylinder with overlap, searched from the top at every query (the paper)"
-    gives_clearance = True
-    Options: ClassVar[type[Table]] = CylinderOptions
-
-    def __init__(self, case: Case, options: CylinderOptions) -> None:
-        self.hole = _hole(case, "cylinders", options)
 
     def query(self, points: Array, radii: Array) -> Contacts:
         """See ``ContactMethod.query``; a point between the end planes of no cylinder has no contact."""
         hits = _empty(len(points))
         _query_for_loop(self.hole.pieces, points, radii, *hits)
         return hits
-
-    @property
-    def pieces(self) -> int:
-        """Number of cylinders."""
-        return len(self.hole.pieces)
-
-    def error_bound(self, curvature: float) -> tuple[float, float]:
-        """As for ``cylinders``, where the loop finds the right cylinder; in a hole that turns past 90° it may not."""
-        return chord_error(self.hole, curvature)
 
 
 def chord_error(hole: Wellbore, curvature: float) -> tuple[float, float]:
