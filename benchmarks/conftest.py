@@ -9,7 +9,6 @@ import pytest
 SHOWN = {
     "ns_per_segment_step": "ns/segment-step",
     "ns_per_point": "ns/point",
-    "ns_per_joint": "ns/joint",
     "real_time_factor": "× real time",
     "whole_wall_s": "whole trip, s",
     "penetration_error_m": "depth error, m",
