@@ -9,7 +9,7 @@ from fctd.mechanics.rock import DRAG_BIT, GIVEN_LOADS, NO_ROCK, NOTHING, Rock
 from fctd.model.drillstring import String
 from fctd.model.operations import rad_per_s
 from fctd.model.section import Section
-from fctd.model.strokes import Pace
+from fctd.model.strokes import ExpectedDrilling
 from fctd.model.torsion import axial_period_of
 
 # Of a drive by default: P over the impedance of the pipe, I over P [1/s], share of the inertia that is hidden.
@@ -56,7 +56,7 @@ def driller_of(case: Case, string: String, rock: Rock) -> Driller:
     return Driller(True, case.bit.weight_on_bit, 2 * softness / time, softness / time**2)
 
 
-def pace_of(case: Case, string: String) -> Pace | None:
+def expected_drilling(case: Case, string: String) -> ExpectedDrilling | None:
     """What the autodriller of a case is expected to do with its longest string; None without one.
 
     Raises InputError where the law of the bit says that it does not drill.
@@ -72,7 +72,7 @@ def pace_of(case: Case, string: String) -> Pace | None:
             value=f"{case.bit.weight_on_bit:g} N",
         )
     rates = [cut * (rad_per_s(operation.rpm) + rock.motor) for operation in case.operations]
-    return Pace(rates, TARE_PERIODS * axial_period_of(string))
+    return ExpectedDrilling(rates, TARE_PERIODS * axial_period_of(string))
 
 
 def rock_of(case: Case) -> Rock:

@@ -36,7 +36,7 @@ class Stroke(NamedTuple):
         return self.travel == 0
 
 
-class Pace(NamedTuple):
+class ExpectedDrilling(NamedTuple):
     """What an autodriller is expected to do.
 
     rates : speed of the bit in each operation [m/s]; taring : for how long the hook load is averaged off bottom [s].
@@ -49,8 +49,8 @@ class Pace(NamedTuple):
 class _Plan:
     """A schedule that grows by one part after the other; the rig stands still at its start."""
 
-    def __init__(self, tally: Tally, rig: RigSpec, depth: float, pace: Pace | None) -> None:
-        self.tally, self.rig, self.depth, self.pace = tally, rig, depth, pace
+    def __init__(self, tally: Tally, rig: RigSpec, depth: float, expected: ExpectedDrilling | None) -> None:
+        self.tally, self.rig, self.depth, self.expected = tally, rig, depth, expected
         self.lifted = False
         self.stands = tally.stands_for(depth)
         self.clock, self.turning, self.loaded = 0.0, 0.0, 0.0
@@ -96,8 +96,8 @@ class _Plan:
                 low = float(self.tally.reach[self.stands - 1])
             goal = min(end, high) if down else max(end, low)
             ends_here = abs(end - goal) <= SAME
-            if operation.on_bottom and connects and self.pace is not None:
-                self.drill(k, operation, goal, self.pace, unloads=unloads or not ends_here, lifts=not ends_here)
+            if operation.on_bottom and connects and self.expected is not None:
+                self.drill(k, operation, goal, self.expected, unloads=unloads or not ends_here, lifts=not ends_here)
                 continue
             parts = travelling(goal - self.depth, operation.speed, operation.ramp_time, stops=not (ends_here and last))
             target = float(self.tally.reach[self.stands]) - goal
@@ -111,7 +111,9 @@ class _Plan:
             self.add(k, parts, spins, loads)
             self.depth = goal
 
-    def drill(self, k: int, operation: Operation, goal: float, pace: Pace, *, unloads: bool, lifts: bool) -> None:
+    def drill(
+        self, k: int, operation: Operation, goal: float, expected: ExpectedDrilling, *, unloads: bool, lifts: bool
+    ) -> None:
         """A stroke of the autodriller down to the bit depth ``goal`` [m].
 
         Off bottom, where the last connection has left the bit, it takes the tare, and it lowers the bit.  unloads,
@@ -124,9 +126,9 @@ class _Plan:
         self.change = 0
         if self.lifted:
             self.add(k, [(ramp, 0.0, 0.0)], [rate], [0.0])
-            self.add(k, [(pace.taring, 0.0, 0.0)], [rate], [0.0], TARING)
+            self.add(k, [(expected.taring, 0.0, 0.0)], [rate], [0.0], TARING)
             self.lift(k, PICK_UP, rate)
-        self.add(k, [(ramp, 0.0, 0.0), (way / pace.rates[k], 0.0, 0.0)], [rate] * 2, [1.0] * 2)
+        self.add(k, [(ramp, 0.0, 0.0), (way / expected.rates[k], 0.0, 0.0)], [rate] * 2, [1.0] * 2)
         if unloads:
             self.add(k, [(ramp, 0.0, 0.0)], [rate], [0.0])
         if lifts:
@@ -141,14 +143,14 @@ class _Plan:
 
 
 def stand_schedule(
-    operations: Sequence[Operation], tally: Tally, rig: RigSpec, pace: Pace | None = None
+    operations: Sequence[Operation], tally: Tally, rig: RigSpec, expected: ExpectedDrilling | None = None
 ) -> tuple[list[Phase], list[Stroke]]:
-    """Phases and strokes of the operations in order, starting from rest; pace : of an autodriller.
+    """Phases and strokes of the operations in order, starting from rest; expected : of an autodriller.
 
     Every stroke ramps speed and rotation within the ramp time of its operation, and comes to rest before a connection.
     Raises InputError for an operation shorter than ``operations.SHORTEST``.
     """
-    plan = _Plan(tally, rig, operations[0].start_md, pace)
+    plan = _Plan(tally, rig, operations[0].start_md, expected)
     for k, operation in enumerate(operations):
         began = plan.clock
         if isinstance(operation, Stay):

@@ -16,7 +16,7 @@ from fctd.mechanics.topdrive import PerMetre
 from fctd.mechanics.wall_law import tangent_over_linear
 from fctd.model.bent_housings import put_bends
 from fctd.model.derrick import with_derrick
-from fctd.model.drilling import check_weight, driller_of, drive_of, pace_of, rock_of
+from fctd.model.drilling import check_weight, driller_of, drive_of, expected_drilling, rock_of
 from fctd.model.drillstring import LongSegmentError, String, lay_out
 from fctd.model.operations import Phase, depth_range, rad_per_s, schedule
 from fctd.model.stands import check_stands, hang, lay_out_stands
@@ -119,7 +119,7 @@ def _hung(case: Case, hole: Wellbore, first: float, shallowest: float, deepest: 
     hole = with_derrick(hole, case.rig.derrick_height)
     check_stands(tally, hole, shallowest)
     whole = tally.whole
-    phases, strokes = stand_schedule(case.operations, tally, case.rig, pace_of(case, whole))
+    phases, strokes = stand_schedule(case.operations, tally, case.rig, expected_drilling(case, whole))
     buffer, S, top = state.new_state(whole.segments), state.new_state(whole.segments), np.zeros(topdrive.TOP_SIZE)
     pipe = fill(buffer, whole, case, hole)
     hang(buffer, whole.segments)

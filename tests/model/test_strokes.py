@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from fctd import InputError
 from fctd.model.operations import Phase
 from fctd.model.stands import lay_out_stands
-from fctd.model.strokes import GENTLY, PICK_UP, Pace, Stroke, stand_schedule
+from fctd.model.strokes import GENTLY, PICK_UP, ExpectedDrilling, Stroke, stand_schedule
 from tests.cases import make_case, pipe, rotation, trip
 
 STRING = [pipe(100, None, outer=0.16, segment_length=9.0), pipe(None, None, segment_length=9.5)]
@@ -100,7 +100,7 @@ def test_an_autodriller_lifts_the_bit_before_a_connection_and_tares_after_it() -
     ]
     case = make_case(components=STRING, operations=moves, rig={"stand_length": 28.5, "connection_time": 40.0})
     tally = lay_out_stands(case, 40.0, 70.0)
-    phases, strokes = stand_schedule(case.operations, tally, case.rig, Pace([0.02, 0.0], 12.0))
+    phases, strokes = stand_schedule(case.operations, tally, case.rig, ExpectedDrilling([0.02, 0.0], 12.0))
     drilled = [motion for motion, k in phases if k == 0]
     assert [(s.change, s.by_weight) for s in strokes] == [
         (0, True), (0, False), (1, True), (0, False),
