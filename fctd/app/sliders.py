@@ -64,13 +64,17 @@ def sliders_of(case: Case, units: System) -> list[Slider]:
         if pairs:
             around = label.replace("friction", "friction around", 1)
             found.append(_slider(f"rotational_{kind}", around, "friction", pairs[0].friction_around, units))
-    found.append(_slider("mud", "mud density", "mud", case.mud.density, units))
-    found.append(_slider("wob", "weight on bit", "wob", case.bit.weight_on_bit, units))
-    found.append(_slider("bit_torque", "bit torque", "bit_torque", case.bit.torque, units))
     turning = [operation.rpm for operation in case.operations if KINDS[operation.kind].turns]
     rpm = float(turning[0] if turning else KINDS["rotate_off_bottom"].default_rpm)
-    found.append(_slider(RPM, "rotation", RPM, rpm, units))
-    found.append(_slider("segment", "segment length", "segment", float(f"{_segment_length(case):.3g}"), units))
+    length = float(f"{_segment_length(case):.3g}")
+    for name, label, value in (
+        ("mud", "mud density", case.mud.density),
+        ("wob", "weight on bit", case.bit.weight_on_bit),
+        ("bit_torque", "bit torque", case.bit.torque),
+        (RPM, "rotation", rpm),
+        ("segment", "segment length", length),
+    ):
+        found.append(_slider(name, label, name, value, units))
     return found
 
 

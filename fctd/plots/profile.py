@@ -144,11 +144,13 @@ def _handles(
         else:
             label = name if point.status == "converged" else f"{name} ({_words(point.status)})"
             handles.append(Line2D([], [], color=colour, marker=marker, markersize=4.5, label=label))
-    handles += [Patch(facecolor=BUCKLED[mode], edgecolor=EDGE, label=f"{mode} buckling") for mode in modes]
-    handles += [Line2D([], [], color=QUIET, linestyle=LIMITS[mode], label=f"{mode} limit") for mode in near]
-    handles += [Patch(facecolor=SHADE, label="clearance")]
-    handles += [Line2D([], [], **SHOE, label="casing shoe")] if shoes else []
-    return handles
+    return [
+        *handles,
+        *(Patch(facecolor=BUCKLED[mode], edgecolor=EDGE, label=f"{mode} buckling") for mode in modes),
+        *(Line2D([], [], color=QUIET, linestyle=LIMITS[mode], label=f"{mode} limit") for mode in near),
+        Patch(facecolor=SHADE, label="clearance"),
+        *([Line2D([], [], **SHOE, label="casing shoe")] if shoes else []),
+    ]
 
 
 def _words(status: str) -> str:

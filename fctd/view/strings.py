@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Final, Literal
@@ -22,12 +22,11 @@ from fctd.results.status import SteadyStatus
 from fctd.results.tables import SimulationResult
 from fctd.steady.equilibrium import Solver
 from fctd.steady.steady_string import Equilibrium
+from fctd.steady.torque_drag import Progress
 from fctd.view.hole import DrawnHole, drawn_hole
 
 if TYPE_CHECKING:
     import pandas as pd
-
-Progress = Callable[[int, int], None]
 
 # Columns of a profile, and of a run's segments, that a view keeps.
 KEPT: Final = (

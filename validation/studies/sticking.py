@@ -18,9 +18,9 @@ from fctd.mechanics.law_names import CODES
 from fctd.mechanics.moving_string import STILL
 from fctd.mechanics.state import FX, FZ, K_WALL, LANES, PX, VX, VZ, Laws
 from fctd.mechanics.wall_law import stiffen_walls
-from fctd.simulation.preparation import contact_points, prepare
-from fctd.simulation.settling import settle, start_from_rest
+from fctd.simulation.preparation import contact_points
 from fctd.simulation.simulate import Simulation
+from references.timing.workloads import moving
 from validation.cases import load, rotation
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 
@@ -252,11 +252,7 @@ def costs() -> Rows:
         chain = load(
             "curved_chain", operations=rotation(2450.0, 60.0, ramp=4.0), contact__friction_law=law, **more
         )  # fmt: skip
-        run, phases = prepare(chain)
-        settle(run)
-        start_from_rest(run)
-        run.advance(phases[0].motion, phases[0].motion.duration)
-        turning[law] = run, phases[1].motion
+        turning[law] = moving(chain, 4.0)
     for state_of in ("turning", "at rest"):
         least = dict.fromkeys(turning, np.inf)
         for run, motion in turning.values():

@@ -20,7 +20,7 @@ from fctd.sweep.spec import SweepSpec
 from fctd.sweep.survey_errors import SurveyErrors, erred
 from fctd.sweep.uncertainty import assess
 from validation.cases.wells import drilled_paper_well
-from validation.harness.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 
 # A straight inclined hole that hardly leaves room beside the pipe.  With a clearance c the tension T takes some
 # T c / 8 m off the wall at the string's top, which is on the axis: 0.5 % of its load in 8.5 in of hole.
@@ -181,7 +181,8 @@ def _largest(indices: pd.DataFrame, case: str) -> float:
     return float((part["found"] - part["closed"]).abs().max())
 
 
-def _spreads(count: int) -> pd.DataFrame:
+@table_of_rows
+def _spreads(count: int) -> Rows:
     """Of random and systematic errors: standard deviations of the end, in the vertical plane and sideways."""
     md = np.arange(0.0, DEPTH + 1, COURSE)
     true = np.column_stack([md, np.full_like(md, SLANT), np.full_like(md, AZIMUTH)])
@@ -190,7 +191,6 @@ def _spreads(count: int) -> pd.DataFrame:
     # A station turns half of the courses on its sides; the first one is known.
     lengths = np.full(len(md) - 1, COURSE)
     lengths[-1] /= 2
-    rows = []
     for kind, length in {"random": np.sqrt((lengths**2).sum()), "systematic": lengths.sum()}.items():
         errors = SurveyErrors.model_validate({f"{kind}_inclination": ERROR, f"{kind}_azimuth": ERROR})
         ends = [_end(erred(true, errors, np.random.default_rng(seed))) for seed in range(count)]
@@ -199,8 +199,7 @@ def _spreads(count: int) -> pd.DataFrame:
             ("in the vertical plane", np.cross(sideways, tangent), 1.0), ("sideways", sideways, np.sin(SLANT)),
         ):  # fmt: skip
             row = {"found_m": float((off @ towards).std()), "closed_m": ERROR * length * scale}
-            rows.append({"errors": kind, "across": name, **row})
-    return pd.DataFrame(rows)
+            yield {"errors": kind, "across": name, **row}
 
 
 def _chart(segments: int, times: int) -> dict[str, float]:

@@ -114,11 +114,11 @@ def measured(phases: list[Phase], of: Trip) -> list[bool]:
 
 def recorded(phases: list[Phase], often: list[bool]) -> list[Interval]:
     """The intervals of a schedule: short ones where the hook load is measured."""
-    intervals = []
-    for phase, fine in zip(phases, often, strict=True):
-        window = Window(phase.motion.start, phase.motion.duration)
-        intervals += within([phase], window, RECORD if fine else SELDOM)
-    return intervals
+    return [
+        interval
+        for phase, fine in zip(phases, often, strict=True)
+        for interval in within([phase], Window(phase.motion.start, phase.motion.duration), RECORD if fine else SELDOM)
+    ]
 
 
 def missing(run: Run) -> float:
