@@ -7,6 +7,7 @@ import subprocess
 import sys
 import threading
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from pathlib import Path
 
 import pytest
@@ -108,22 +109,6 @@ def test_a_signal_while_results_are_written_waits(
     assert [path.name for path in tmp_path.iterdir() if path.name.startswith(".")] == []
 
 
-def test_signals_wait_for_their_handlers() -> None:
-    """The caller's own handlers get them afterwards; ignored signals stay ignored."""
-    handled: list[int] = []
-    before = signal.signal(signal.SIGHUP, signal.SIG_IGN), signal.signal(signal.SIGTERM, lambda n, _: handled.append(n))
-    try:
-        with deferred():
-            for number in KILL:
-                os.kill(os.getpid(), number)
-            assert handled == []
-        assert handled == [signal.SIGTERM]
-        assert signal.getsignal(signal.SIGHUP) == signal.SIG_IGN
-    finally:
-        signal.signal(signal.SIGHUP, before[0])
-        signal.signal(signal.SIGTERM, before[1])
-
-
 @pytest.mark.slow
 def test_results_are_written_after_the_terminal_has_closed(small_file: Path, tmp_path: Path) -> None:
     """With its bar and its tables on that terminal."""
@@ -152,14 +137,21 @@ def test_results_are_written_after_the_terminal_has_closed(small_file: Path, tmp
     assert open_result(tmp_path / "out").status == "interrupted"
 
 
-def test_signals_that_the_caller_ignores_or_handles_stay_so() -> None:
-    """``nohup fctd …`` goes on when its terminal closes."""
+@pytest.mark.parametrize(("block", "inside"), [(deferred, []), (as_interrupts, [signal.SIGTERM])])
+def test_signals_that_the_caller_ignores_or_handles_stay_so(
+    block: Callable[[], AbstractContextManager[None]], inside: list[int]
+) -> None:
+    """``nohup fctd …`` goes on when its terminal closes; where signals wait, the caller's handlers get them afterwards.
+
+    inside : what its handlers have got when the block ends.
+    """
     handled: list[int] = []
     before = signal.signal(signal.SIGHUP, signal.SIG_IGN), signal.signal(signal.SIGTERM, lambda n, _: handled.append(n))
     try:
-        with as_interrupts():
+        with block():
             for number in KILL:
                 os.kill(os.getpid(), number)
+            assert handled == inside
         assert handled == [signal.SIGTERM]
         assert signal.getsignal(signal.SIGHUP) == signal.SIG_IGN
     finally:

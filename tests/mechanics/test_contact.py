@@ -3,13 +3,11 @@
 import numpy as np
 import pytest
 
-from fctd import build_wellbore
 from fctd.arrays import Array
 from fctd.mechanics import contact, state
 from fctd.mechanics.energy import penetration
-from fctd.model.wellbore import Wellbore
 from tests.bodies import AXIS, PLACE, TO_WALL, put
-from tests.cases import make_case
+from tests.cases import hole_of
 from tests.compiled import kept
 
 arc_direction = kept(contact.arc_direction)
@@ -21,10 +19,6 @@ SHOE = [
 ]
 RADIUS = 450 / (np.pi / 2)
 QUARTER = [[0, 0, 0], [450, 90, 0]]
-
-
-def hole_of(stations: list[list[float]], **wellbore) -> Wellbore:
-    return build_wellbore(make_case(stations, wellbore=wellbore))
 
 
 def put_points(S: Array, points: Array, rng: np.random.Generator) -> None:

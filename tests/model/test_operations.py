@@ -128,18 +128,39 @@ def test_a_rate_that_applies_to_no_kind_is_refused() -> None:
         rates_of_all(make_case(), ["rotate_off_bottom"], speed=0.7)
 
 
-def test_rates_of_a_case_come_before_those_of_the_kind() -> None:
-    """The first operation of the kind has them; a rate of the call comes before."""
-    operations = [trip(100, 150, 0.4) | {"rpm": 20}, rotation(150, 10, 90), trip(150, 180, 0.7)]
-    operations += [{"kind": "drill_sliding", "from_md": 180, "to_md": 190, "speed": 0.01}]
-    case = make_case(operations=operations)
-    assert steady_rates(case, "trip_in") == (0.4, pytest.approx(TURN / 3))
-    assert steady_rates(case, "rotate_off_bottom") == (0.0, pytest.approx(1.5 * TURN))
-    assert steady_rates(case, "drill_sliding") == (0.01, 0.0)
-    assert steady_rates(case, "trip_out") == (-0.3, 0.0)
-    assert steady_rates(case, "trip_in", speed=0.2) == (0.2, pytest.approx(TURN / 3))
-    assert steady_rates(case, "trip_in", rpm=60) == (0.4, pytest.approx(TURN))
-    assert steady_rates(case, "trip_in", speed="12 m/min", rpm="1 rev/s") == pytest.approx((0.2, TURN))
+OWN_RATES = [
+    trip(100, 150, 0.4) | {"rpm": 20}, rotation(150, 10, 90), trip(150, 180, 0.7),
+    {"kind": "drill_sliding", "from_md": 180, "to_md": 190, "speed": 0.01},
+    {"kind": "back_ream", "from_md": 190, "to_md": 180, "speed": 0.25, "rpm": 30},
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("operations", "kind", "given", "expected"),
+    [
+        (OWN_RATES, "trip_in", {}, (0.4, TURN / 3)),
+        (OWN_RATES, "rotate_off_bottom", {}, (0.0, 1.5 * TURN)),
+        (OWN_RATES, "drill_sliding", {}, (0.01, 0.0)),
+        (OWN_RATES, "back_ream", {}, (-0.25, TURN / 2)),
+        (OWN_RATES, "trip_out", {}, (-0.3, 0.0)),
+        (OWN_RATES, "trip_in", {"speed": 0.2}, (0.2, TURN / 3)),
+        (OWN_RATES, "back_ream", {"speed": 0.5}, (-0.5, TURN / 2)),
+        (OWN_RATES, "trip_in", {"rpm": 60}, (0.4, TURN)),
+        (OWN_RATES, "drill_rotating", {"rpm": 60}, (0.003, TURN)),
+        (OWN_RATES, "trip_in", {"speed": "12 m/min", "rpm": "1 rev/s"}, (pytest.approx(0.2), TURN)),
+        # As the README has them.
+        ([], "trip_in", {}, (0.3, 0.0)),
+        ([], "drill_rotating", {}, (0.003, 2 * TURN)),
+        ([], "drill_sliding", {}, (0.003, 0.0)),
+        ([], "rotate_off_bottom", {}, (0.0, TURN)),
+    ],
+)
+def test_rates_are_the_callers_then_the_cases_then_the_defaults(
+    operations: list[dict[str, Any]], kind: str, given: dict[str, Any], expected: tuple[float, float]
+) -> None:
+    """The first operation of the kind has those of the case."""
+    speed, spin = expected
+    assert steady_rates(make_case(operations=operations), kind, **given) == (speed, pytest.approx(spin))
 
 
 @pytest.mark.parametrize(

@@ -261,16 +261,6 @@ def test_long_segments_cannot_snake() -> None:
     assert (below.status, below.buckling.mode) == ("converged", "none")
 
 
-def test_a_locked_up_string_stays_locked_up() -> None:
-    """Coarse segments miss friction, so a string that they lock is locked."""
-    stations = [[0, 0, 0], [200, 0, 0], [500, 90, 0], [3500, 90, 0]]
-    hole = {"geometry": "arcs", "intervals": [{"to_md": 3500, "diameter": 0.2159, "friction": 0.4}]}
-    case = make_case(stations, [pipe(None, None, segment_length=25.0)], wellbore=hole)
-    point = equilibrium(case, "trip_in", 3500.0)
-    assert point.status == "locked_up"
-    assert not point.buckling.resolved
-
-
 def test_chart_rows_say_where_the_string_is_buckled(monkeypatch: pytest.MonkeyPatch) -> None:
     """A row of each kind: buckled, in tension, without a hole to buckle in, without an answer in five iterations."""
     monkeypatch.setattr("fctd.steady.equilibrium.IN_THE_OPEN", ((5, *IN_THE_OPEN[0][1:]),))

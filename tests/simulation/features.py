@@ -185,3 +185,9 @@ CROSSED: dict[str, Crossed] = {
         lambda on: case(contact={"helical_force": "analytic"} if on else {}), "total_contact_force_N"
     ),
 }
+
+
+def shown(result: Any, column: str) -> float:
+    """The mean of a column of the history, or of the energies, of a result or of an engine's run."""
+    table = result.history if column in result.history else result.energy
+    return float(table[column].mean())

@@ -7,11 +7,10 @@ import pytest
 from pydantic import BaseModel
 
 from fctd import Case, InputError, simulate
-from fctd.results.tables import SimulationResult
 from fctd.simulation.features import ASKED, EVERYWHERE, FEATURES, OWN, UNKNOWN_KEYS
 from fctd.simulation.preparation import prepare
 from references import contact
-from tests.simulation.features import CROSSED
+from tests.simulation.features import CROSSED, shown
 
 # No key of a case gives loads yet; tests/mechanics/test_given_loads.py has their effect with another contact method.
 GIVEN = {"given_loads"}
@@ -67,9 +66,3 @@ def test_a_feature_has_its_effect_with_another_contact_method_or_is_refused(name
     scatter = abs(shown(asked[1], column) - shown(simulate(make(False)), column))
     assert scatter < 0.1 * abs(effect), "the case shows its feature too little"
     assert found == pytest.approx(effect, rel=0.1)
-
-
-def shown(result: SimulationResult, column: str) -> float:
-    """The mean of a column of the history, or of the energies."""
-    table = result.history if column in result.history else result.energy
-    return float(table[column].mean())

@@ -116,8 +116,7 @@ def test_picking_up_pulls_more_than_turning_and_that_more_than_slacking_off() ->
 
 def test_a_turning_string_hangs_with_its_vertical_weight() -> None:
     """No friction along the hole: the hook carries w times the vertical depth."""
-    case = build_case(260)
-    point = equilibrium(case, "rotate_off_bottom", 1300.0)
+    point = equilibrium(build_case(260), "rotate_off_bottom", 1300.0)
     radius = 400 / math.radians(60)
     vertical = 400 + radius * math.sin(math.radians(60)) + 500 * 0.5
     weight = 9.80665 * (math.pi / 4) * (0.127**2 - 0.07**2) * (7850 - 1200)
@@ -176,6 +175,7 @@ def test_a_locked_up_string_has_loads() -> None:
     case = make_case(stations, [pipe(None, None, segment_length=25.0)], wellbore=hole)
     point = equilibrium(case, "trip_in", 3500.0)
     assert point.status == "locked_up"
+    assert not point.buckling.resolved  # coarse segments miss friction, so a string that they lock is locked
     assert point.hookload < 0
     heavy = case.model_copy(update={"rig": case.rig.model_copy(update={"block_weight": 2e6})})
     # A block that pushes: the string goes, but its segments of 25 m are too long for the helix.
@@ -273,17 +273,8 @@ def test_steps_by_the_other_solver_lead_to_the_same_balance() -> None:
     assert w.R[0, :3] @ [0, 0, 1] == pytest.approx(point.hookload, rel=1e-7)
 
 
-def test_rates_are_the_callers_then_the_cases_then_the_defaults() -> None:
-    own = {"kind": "back_ream", "from_md": 900, "to_md": 800, "speed": 0.25, "rpm": 30}
-    case = build_case(operations=[own])
-    assert steady_rates(case, "back_ream") == pytest.approx((-0.25, math.pi))
-    assert steady_rates(case, "back_ream", speed=0.5) == pytest.approx((-0.5, math.pi))
-    assert steady_rates(case, "trip_in") == pytest.approx((0.3, 0.0))
-    assert steady_rates(case, "drill_rotating", rpm=60) == pytest.approx((0.003, 2 * math.pi))
-    # As the README has them.
-    assert steady_rates(case, "drill_rotating") == pytest.approx((0.003, 4 * math.pi))
-    assert steady_rates(case, "drill_sliding") == pytest.approx((0.003, 0.0))
-    assert steady_rates(case, "rotate_off_bottom") == pytest.approx((0.0, 2 * math.pi))
+def test_the_rates_of_a_call_are_those_of_the_loads() -> None:
+    case = build_case(operations=[{"kind": "back_ream", "from_md": 900, "to_md": 800, "speed": 0.25, "rpm": 30}])
     fast = equilibrium(case, "back_ream", 900.0, speed=2.0).hookload
     assert fast > equilibrium(case, "back_ream", 900.0, speed=0.01).hookload
 

@@ -20,26 +20,28 @@ ROWS = pd.DataFrame(
 )
 
 
-def probability(event: str, depth: float | None) -> tuple[float, int]:
+@pytest.mark.parametrize(
+    ("event", "depth", "expected", "count"),
+    [
+        ("buckled", 200.0, 0.5, 2),
+        ("buckled", 100.0, 0.0, 0),
+        ("buckled", None, 0.5, 2),
+        ("buckled helically", None, 0.25, 1),
+        ("locked up", 200.0, 0.25, 1),
+        ("hookload_N above 5.5", None, 0.5, 2),
+        # A sample without rows.
+        ("no answer", None, 0.25, 1),
+        ("no answer", 100.0, 0.25, 1),
+    ],
+)
+def test_events_are_counted_at_a_depth_and_anywhere(
+    event: str, depth: float | None, expected: float, count: int
+) -> None:
     table = probability_table(ROWS, [LimitSpec(column="hookload_N", above=5.5)], 4)
     here = table["bit_depth_m"].isna() if depth is None else table["bit_depth_m"] == depth
     (row,) = table[here & (table["event"] == event)].to_dict("records")
     assert row["low"] <= row["probability"] <= row["high"]
-    return row["probability"], row["count"]
-
-
-def test_events_are_counted_at_a_depth_and_anywhere() -> None:
-    assert probability("buckled", 200.0) == (0.5, 2)
-    assert probability("buckled", 100.0) == (0, 0)
-    assert probability("buckled", None) == (0.5, 2)
-    assert probability("buckled helically", None) == (0.25, 1)
-    assert probability("locked up", 200.0) == (0.25, 1)
-    assert probability("hookload_N above 5.5", None) == (0.5, 2)
-
-
-def test_a_sample_without_rows_is_one_without_an_answer() -> None:
-    assert probability("no answer", None) == (0.25, 1)
-    assert probability("no answer", 100.0) == (0.25, 1)
+    assert (row["probability"], row["count"]) == (expected, count)
 
 
 def test_answers_that_are_to_be_doubted_are_events() -> None:

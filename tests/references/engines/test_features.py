@@ -3,7 +3,6 @@
 import pytest
 
 from fctd import Case, InputError, Simulation
-from fctd.results.tables import SimulationResult
 from fctd.simulation.features import FEATURES, refuse
 from fctd.simulation.preparation import prepare
 from references import engines
@@ -11,18 +10,12 @@ from references.engines import ENGINES, EngineRun, Window
 from references.engines.own import Fctd
 from tests.cases import pipe, rotation
 from tests.references.engines.turning import needs
-from tests.simulation.features import CROSSED, UPRIGHT, case
+from tests.simulation.features import CROSSED, UPRIGHT, case, shown
 
 OTHERS = [name for name in ENGINES if name != "fctd"]
 HONOURED = [(name, feature) for name in OTHERS for feature in FEATURES if feature in engines.engine_class(name).honours]
 # MuJoCo's nested chain has no wall: what it honours is compared as it stands.
 ALONE = ("mujoco_chain", "no_wall")
-
-
-def shown(result: SimulationResult | EngineRun, column: str) -> float:
-    """The mean of a column of the history, or of the energies."""
-    table = result.history if column in result.history else result.energy
-    return float(table[column].mean())
 
 
 def run_in(name: str, case: Case) -> EngineRun:
