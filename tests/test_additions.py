@@ -155,8 +155,7 @@ def test_a_limit_and_its_note_are_one_entry_of_a_table(copy: Path) -> None:
     limits = copy / "fctd" / "results" / "limits.py"
     add_line(limits, "LIMITS: Final[tuple[Limit, ...]] = (", MAKE_UP)
     (copy / "well.toml").write_text(WELL.replace("segment_length = 40", "segment_length = 100") + ROTATE)
-    printed = lines_of(copy, compiled=ONE_WALK, interpreted=LIMITED)
-    walked, codes, headline, events, *texts = printed
+    walked, codes, headline, events, *texts = lines_of(copy, compiled=ONE_WALK, interpreted=LIMITED)
     assert walked == "['1500 N m at 700 m, the connection holds 1000 N m']"
     assert codes == "['none', 'make_up']"
     assert headline == "a connection turns further than it was made up"

@@ -144,7 +144,6 @@ def test_an_operation_is_one_class(copy: Path) -> None:
     assert turned["hookload_N"] > slid["hookload_N"]
     assert turned["surface_torque_N_m"] > 100
     assert "ream_down" in point
-    history = pd.read_csv(copy / "run" / "history.csv")
-    assert history["bit_depth_m"].iloc[-1] == pytest.approx(601, abs=0.5)
+    assert pd.read_csv(copy / "run" / "history.csv")["bit_depth_m"].iloc[-1] == pytest.approx(601, abs=0.5)
     assert "ream_down, bit at 601.0 m" in run
     assert "ream_down" in helped

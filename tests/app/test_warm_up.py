@@ -37,5 +37,4 @@ def test_every_function_of_a_steady_string_is_compiled_before_its_limits() -> No
     for room in rooms:
         importlib.import_module(room)
     command = [sys.executable, "-c", ENTRIES, *rooms, "fctd.model.string_rows", "fctd.results.buckling"]
-    left = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    assert left == ""
+    assert subprocess.run(command, capture_output=True, text=True, check=True).stdout == ""

@@ -12,8 +12,7 @@ from fctd.case.errors import InputError
 def test_disturbances_of_machine_and_process_cancel_in_a_round() -> None:
     """All costs doubled by load, or a slower reference kernel, do not change the compared ratios."""
     quiet = measure.in_units([{REFERENCE: 4.0, FREE: 20.0}, {REFERENCE: 6.0, FREE: 22.0}])
-    loaded = measure.in_units([{REFERENCE: 8.0, FREE: 40.0}, {REFERENCE: 12.0, FREE: 44.0}])
-    assert quiet == loaded
+    assert quiet == measure.in_units([{REFERENCE: 8.0, FREE: 40.0}, {REFERENCE: 12.0, FREE: 44.0}])
     assert quiet[1][FREE] / quiet[0][FREE] == pytest.approx(22 / 20)
 
 

@@ -21,5 +21,4 @@ def test_the_model_gives_back_the_times_it_was_made_with() -> None:
 
 
 def test_the_timed_sweep_has_a_hundred_thousand_depths() -> None:
-    spec = the_sweep()
-    assert len(samples_of(spec)) * 71 == SAMPLES * 71 >= 100_000
+    assert len(samples_of(the_sweep())) * 71 == SAMPLES * 71 >= 100_000

@@ -61,17 +61,30 @@ def test_an_error_moves_up_with_what_it_carries() -> None:
     assert str(error.in_file("other.toml")) == str(error)
 
 
-def test_long_values_are_cut_and_paths_are_whole() -> None:
-    assert show("x" * 200) == '"' + "x" * 76 + "..."
-    assert show(Path("x" * 200)) == '"' + "x" * 200 + '"'
-    assert show(0.1 + 0.2) == "0.30000000000000004"
-    assert show(10**5000) == "a long number"
-    assert show(reduce(lambda inner, _: {"a": inner}, range(5000), dict[str, Any]())) == "a table"
-    assert show(reduce(lambda inner, _: [inner], range(5000), list[Any]())) == "a list"
+@pytest.mark.parametrize(
+    ("value", "shown"),
+    [
+        ("x" * 200, '"' + "x" * 76 + "..."),
+        (Path("x" * 200), '"' + "x" * 200 + '"'),
+        (0.1 + 0.2, "0.30000000000000004"),
+        (10**5000, "a long number"),
+        (reduce(lambda inner, _: {"a": inner}, range(5000), dict[str, Any]()), "a table"),
+        (reduce(lambda inner, _: [inner], range(5000), list[Any]()), "a list"),
+    ],
+    ids=["text", "path", "number", "long number", "table", "list"],
+)
+def test_long_values_are_cut_and_paths_are_whole(value: object, shown: str) -> None:
+    assert show(value) == shown
 
 
-def test_the_nearest_choice_or_all_of_them() -> None:
-    assert nearest("trip_inn", ["trip_in", "back_ream"], "kind") == "the kind trip_in"
-    assert nearest("dance", ["trip_in", "back_ream"], "kind") == "one of the kinds trip_in, back_ream"
-    assert nearest("dance", ["torque"], "quantity") == "one of the quantities torque"
-    assert nearest("dance", ["mud"], "key") == "one of the keys mud"
+@pytest.mark.parametrize(
+    ("given", "choices", "what", "expected"),
+    [
+        ("trip_inn", ["trip_in", "back_ream"], "kind", "the kind trip_in"),
+        ("dance", ["trip_in", "back_ream"], "kind", "one of the kinds trip_in, back_ream"),
+        ("dance", ["torque"], "quantity", "one of the quantities torque"),
+        ("dance", ["mud"], "key", "one of the keys mud"),
+    ],
+)
+def test_the_nearest_choice_or_all_of_them(given: str, choices: list[str], what: str, expected: str) -> None:
+    assert nearest(given, choices, what) == expected

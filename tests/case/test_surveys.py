@@ -221,8 +221,7 @@ def test_encodings(encoding: str, tmp_path: Path) -> None:
 
 def test_a_workbook(tmp_path: Path) -> None:
     """The sheet with the headers of a survey is read; rows have the numbers that Excel shows."""
-    content = workbook({"Info": [["Well", "A-1"]], "Survey": SHEET, "Empty": []})
-    survey = read(tmp_path, content)
+    survey = read(tmp_path, workbook({"Info": [["Well", "A-1"]], "Survey": SHEET, "Empty": []}))
     is_the_survey(survey, FOOT)
     assert survey.rows(0, 4) == "survey.dat, rows 5 to 9"
 
@@ -283,8 +282,7 @@ def test_a_trajectory_by_name(tmp_path: Path) -> None:
 
 def test_a_station_without_a_direction_is_left_out(tmp_path: Path) -> None:
     """Tie-in points have a depth alone."""
-    content = re.sub(r'<incl uom="dega">0</incl><azi uom="dega">0</azi>', "", witsml("S1"))
-    survey = read(tmp_path, content)
+    survey = read(tmp_path, re.sub(r'<incl uom="dega">0</incl><azi uom="dega">0</azi>', "", witsml("S1")))
     assert survey.tied_in
     assert survey.stations[:, 0] == pytest.approx(np.array(DEPTH) * FOOT)
 
@@ -307,8 +305,7 @@ def test_rejected_stations_are_left_out_with_a_warning(tmp_path: Path) -> None:
 
 
 def test_exact_repeats_are_dropped(tmp_path: Path) -> None:
-    rows = ["0,0,0", "0,0,0", "10,1,2", "10,1,2", "10,1,2", "20,1,2"]
-    survey = read(tmp_path, text(HEADERS, rows=rows))
+    survey = read(tmp_path, text(HEADERS, rows=["0,0,0", "0,0,0", "10,1,2", "10,1,2", "10,1,2", "20,1,2"]))
     assert survey.stations[:, 0].tolist() == [0, 10, 20]
     assert survey.rows(1, 2) == "survey.dat, rows 4 to 7"
 

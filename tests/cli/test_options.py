@@ -1,6 +1,7 @@
 """Values of options: shares, quantities, and files that may be written."""
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -20,18 +21,27 @@ def test_what_is_no_share_is_refused(text: str) -> None:
         read_share(text, "--tolerance")
 
 
-def test_a_quantity_is_a_number_in_si_or_one_with_a_unit() -> None:
-    assert read_quantity("1750", units.LENGTH, "--bit-depth") == 1750.0
-    assert read_quantity("1750 m", units.LENGTH, "--bit-depth") == 1750.0
-    assert read_quantity("30 ft", units.LENGTH, "--bit-depth") == pytest.approx(9.144, rel=1e-14)
-    assert read_quantity("0", units.SPEED, "--speed") == 0.0
+@pytest.mark.parametrize(
+    ("text", "dimension", "system", "expected"),
+    [
+        ("1750", units.LENGTH, "si", 1750.0),
+        ("1750 m", units.LENGTH, "si", 1750.0),
+        ("30 ft", units.LENGTH, "si", pytest.approx(9.144, rel=1e-14)),
+        ("0", units.SPEED, "si", 0.0),
+        # A bare number is in the units asked for.
+        ("1000", units.LENGTH, "field", 304.8),
+        ("1000 m", units.LENGTH, "field", 1000.0),
+        ("60", units.SPEED, "field", pytest.approx(0.3048, rel=1e-14)),
+        ("60", units.ROTATION, "field", 60.0),
+    ],
+)
+def test_a_quantity_is_a_bare_number_or_one_with_a_unit(
+    text: str, dimension: units.Dimension, system: Any, expected: float
+) -> None:
+    assert read_quantity(text, dimension, "--option", system) == expected
 
 
-def test_a_bare_number_is_in_the_units_asked_for() -> None:
-    assert read_quantity("1000", units.LENGTH, "--bit-depth", "field") == 304.8
-    assert read_quantity("1000 m", units.LENGTH, "--bit-depth", "field") == 1000.0
-    assert read_quantity("60", units.SPEED, "--speed", "field") == pytest.approx(0.3048, rel=1e-14)
-    assert read_quantity("60", units.ROTATION, "--rpm", "field") == 60.0
+def test_a_bad_quantity_is_refused() -> None:
     with pytest.raises(InputError, match='"-5": expected a length'):
         read_quantity("-5", units.LENGTH, "--bit-depth", "field")
 

@@ -31,8 +31,7 @@ def test_simulate_writes_tables_with_metadata(small_file: Path, tmp_path: Path, 
         assert len(table) > 3 or name == "operations"
         pd.testing.assert_frame_equal(table, pd.read_csv(out / f"{name}.csv"), check_dtype=False)
     metadata = pq.read_schema(out / "history.parquet").metadata
-    case = json.loads(metadata[b"case"])
-    assert case["wellbore"]["intervals"][0]["friction"] == 0.3
+    assert json.loads(metadata[b"case"])["wellbore"]["intervals"][0]["friction"] == 0.3
     assert {"fctd", "numpy", "numba", "python"} <= json.loads(metadata[b"versions"]).keys()
     assert json.loads(metadata[b"run"])["segments"] == 32
     assert metadata[b"status"] == b"completed"

@@ -32,11 +32,9 @@ def test_a_sweep_is_written_and_resumed(tmp_path: Path, monkeypatch: pytest.Monk
     assert len(open_dataset(tmp_path / "swept-sweep").rows()) == 48
     part = tmp_path / "swept-sweep" / "rows" / "part-00000.parquet"
     part.unlink()
-    again = CliRunner().invoke(app, [*command, "--quiet"])
-    assert again.exit_code == 0
+    assert CliRunner().invoke(app, [*command, "--quiet"]).exit_code == 0
     assert len(open_dataset(tmp_path / "swept-sweep").rows()) == 48
-    last = CliRunner().invoke(app, command)
-    assert "All 12 samples are there" in last.stdout
+    assert "All 12 samples are there" in CliRunner().invoke(app, command).stdout
 
 
 @pytest.mark.parametrize(

@@ -79,8 +79,7 @@ def test_a_table_holds_any_text(text: str) -> None:
 @pytest.mark.parametrize("command", list(COMMANDS))
 def test_a_name_is_printed_as_it_stands(command: str, wild: str, monkeypatch: pytest.MonkeyPatch, cli: Command) -> None:
     monkeypatch.setattr(options.screen, "_width", 200)
-    arguments = [*COMMANDS[command], wild]
-    out, err = cli(*arguments)
+    out, err = cli(*[*COMMANDS[command], wild])
     assert SHOWN in out
     check_plain(out, err)
 

@@ -178,8 +178,7 @@ def changed_bytes(rng: Random, content: bytes) -> bytes:
     if how == 0:
         return content[: rng.randrange(len(content) + 1)]
     if how == 1:
-        text = content.decode("utf-8", "replace").replace("e", "é")
-        return text.encode(rng.choice(ENCODINGS), "replace")
+        return content.decode("utf-8", "replace").replace("e", "é").encode(rng.choice(ENCODINGS), "replace")
     if how == 2:
         return content * 2
     changed = bytearray(content)

@@ -99,8 +99,7 @@ def test_an_impedance_drive_turns_a_long_segment_steadily() -> None:
                                        rotation(730.0, 15.0, 60, ramp=2.0)])  # fmt: skip
 def test_the_ledger_closes_while_waves_run_and_pipe_is_fed(operation: dict[str, Any]) -> None:
     """Hung in vertical hole, where nothing but a start moves it: the energy of the waves is a part of it."""
-    case = hanging([pipe(200, 20), pipe(None, 1)], operation)
-    result = simulate(case)
+    result = simulate(hanging([pipe(200, 20), pipe(None, 1)], operation))
     last = result.energy.iloc[-1]
     assert abs(last["residual_J"]) < 2e-3 * (abs(last["kinetic_J"]) + abs(last["strain_J"]) + last["lost_joints_J"])
 

@@ -83,8 +83,7 @@ def test_a_housing_turns_with_the_string_and_its_energy_is_in_the_ledger() -> No
 
 def test_half_a_turn_of_the_string_is_half_a_turn_of_the_tool_face() -> None:
     """Turned by half a turn and at rest again, the string presses as one that was laid with the opposite tool face."""
-    case = bent(0.7)
-    run = settled(case)
+    run = settled(bent(0.7))
     n = run.segments
     q = [state.row(run.S, row, n).copy() for row in (state.QW, state.QX, state.QY, state.QZ)]
     # A half turn about the own axis of the bodies, the top drive's column included: q ⊗ k.

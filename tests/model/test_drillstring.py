@@ -34,13 +34,11 @@ def test_remainder_is_between_half_and_one_and_a_half(depth: float) -> None:
 def test_segment_length_instead_of_count() -> None:
     component = pipe(1000, 1)
     del component["segments"]
-    string = lay_out(make_case(components=[{**component, "segment_length": 25.0}]), 1000)
-    assert string.segments == 40
+    assert lay_out(make_case(components=[{**component, "segment_length": 25.0}]), 1000).segments == 40
 
 
 def test_unlike_neighbours_are_in_series_and_the_clamp_is_half_a_segment_away() -> None:
-    case = make_case(components=[pipe(100, 2, outer=0.159), pipe(900, 9)])
-    string = lay_out(case, 1000.0)
+    string = lay_out(make_case(components=[pipe(100, 2, outer=0.159), pipe(900, 9)]), 1000.0)
     stiffness = string.joints("EA")
     collar, tube = string.sections[0].EA, string.sections[1].EA
     assert stiffness[0] == pytest.approx(2 * tube / 100)
@@ -50,8 +48,7 @@ def test_unlike_neighbours_are_in_series_and_the_clamp_is_half_a_segment_away() 
 
 
 def test_long_segment_puts_its_whole_length_at_the_top() -> None:
-    case = make_case(components=[pipe(500, 10), pipe(None, 1)])
-    string = lay_out(case, 1000.0, 1100.0)
+    string = lay_out(make_case(components=[pipe(500, 10), pipe(None, 1)]), 1000.0, 1100.0)
     assert string.long_segment
     stiffness = string.joints("GJ")
     assert stiffness[0] == pytest.approx(string.sections[1].GJ / 500)
@@ -61,8 +58,7 @@ def test_long_segment_puts_its_whole_length_at_the_top() -> None:
 
 def test_contact_radius_is_the_larger_at_unlike_neighbours() -> None:
     case = make_case(components=[pipe(50, 2, outer=0.159), pipe(950, 10, contact_diameter=0.168)])
-    string = lay_out(case, 1000.0)
-    np.testing.assert_allclose(string.contact_radius()[-3:], [0.084, 0.0795, 0.0795])
+    np.testing.assert_allclose(lay_out(case, 1000.0).contact_radius()[-3:], [0.084, 0.0795, 0.0795])
 
 
 def test_a_short_component_touches_at_its_middle() -> None:
@@ -144,10 +140,8 @@ def test_a_whole_component_is_cut_evenly_and_a_part_of_it_nominally() -> None:
     )
     np.testing.assert_allclose(lay_out(case, 1000.0).length[-3:], 100 / 3)
     np.testing.assert_allclose(lay_out(case, 1000.0).length[:-3], 30)
-    np.testing.assert_allclose(lay_out(case, 95.0).length, [35, 30, 30])
-    np.testing.assert_allclose(lay_out(case, 14.0).length, [14])
-    np.testing.assert_allclose(lay_out(case, 40.0).length, [40])
-    np.testing.assert_allclose(lay_out(case, 99.5).length, [39.5, 30, 30])
+    for depth, lengths in ((95.0, [35, 30, 30]), (14.0, [14]), (40.0, [40]), (99.5, [39.5, 30, 30])):
+        np.testing.assert_allclose(lay_out(case, depth).length, lengths)
     short = make_case(components=[pipe(10, None, segment_length=30.0), pipe(None, None, segment_length=30.0)])
     np.testing.assert_allclose(lay_out(short, 70.0).length, [30, 30, 10])
 
@@ -167,8 +161,7 @@ def test_a_whole_component_is_cut_evenly_and_a_part_of_it_nominally() -> None:
     ],
 )
 def test_a_layout_that_is_not_its_string_is_a_defect(change: dict, message: str) -> None:
-    case = make_case(components=[pipe(400, 2, outer=0.159), pipe(None, 1)])
-    string = lay_out(case, 1000.0)
+    string = lay_out(make_case(components=[pipe(400, 2, outer=0.159), pipe(None, 1)]), 1000.0)
     with pytest.raises(AssertionError, match=re.escape(message)):
         replace(string, **change)
     assert string.lengthened(2e-7 - 1.0).bit_depth == pytest.approx(999.0)

@@ -96,8 +96,7 @@ def test_segments_are_short_in_bends_and_near_the_bit() -> None:
 def test_length_goes_with_the_root_of_curvature() -> None:
     """A chord h misses a bend by κh²/8: a bend half as sharp allows √2 times the length; a straight hole the most."""
     stations = [[0, 0, 0], [600, 0, 0], [700, 20, 0], [900, 60, 0], [1500, 60, 0], [1800, 90, 0], [2600, 90, 0]]
-    case = make_case(stations, [pipe(None, None, segment_length=10.0)])
-    above_bit, factor = coarseness(case, 2600.0)
+    above_bit, factor = coarseness(make_case(stations, [pipe(None, None, segment_length=10.0)]), 2600.0)
     sharp, mild, straight = (float(np.interp(2600.0 - md, above_bit, factor)) for md in (750.0, 1650.0, 300.0))
     assert sharp == pytest.approx(1.0)
     assert mild == pytest.approx(math.sqrt(2.0))
@@ -108,20 +107,17 @@ def test_length_goes_with_the_root_of_curvature() -> None:
 def test_a_gentle_bend_counts_against_half_a_degree_in_thirty_metres() -> None:
     """A hole without a sharper bend: 0.1° in 30 m allows √5 times the length of 0.5°, far from the bit."""
     stations = [[0, 0, 0], [900, 3, 0], [3000, 3, 0]]
-    case = make_case(stations, [pipe(None, None, segment_length=10.0)])
-    above_bit, factor = coarseness(case, 3000.0)
+    above_bit, factor = coarseness(make_case(stations, [pipe(None, None, segment_length=10.0)]), 3000.0)
     assert np.interp(2700.0, above_bit, factor) == pytest.approx(math.sqrt(5.0))
 
 
 def test_factor_grows_with_the_distance_in_waves() -> None:
     """Above the end of a bend: one more for every 2π (EI r/w)^¼."""
-    case = build_case()
-    above_bit, factor = coarseness(case, 2000.0)
+    above_bit, factor = coarseness(build_case(), 2000.0)
     area = math.pi / 4 * (0.127**2 - 0.07**2)
     EI = 206.8e9 * math.pi / 64 * (0.127**4 - 0.07**4)
     wave = 2 * math.pi * (EI * 0.5 * (0.2159 - 0.127) / (area * 7850 * 9.80665)) ** 0.25
-    found = float(np.interp(2000.0 - (600.0 - 3 * wave), above_bit, factor))
-    assert found == pytest.approx(4.0, abs=0.05)
+    assert float(np.interp(2000.0 - (600.0 - 3 * wave), above_bit, factor)) == pytest.approx(4.0, abs=0.05)
 
 
 def test_factor_grows_from_the_bit_in_the_waves_of_each_pipe() -> None:
@@ -172,8 +168,7 @@ def test_a_string_that_is_too_short_is_graded_and_then_refused() -> None:
 
 def test_a_bent_housing_stays_at_its_upper_end() -> None:
     housing = pipe(200.0, 4, bend="1.5 deg", toolface="30 deg")
-    case = build_case([housing, pipe(None, None, segment_length=10.0)])
-    pieces = graded(case, 2000.0, 5.0)
+    pieces = graded(build_case([housing, pipe(None, None, segment_length=10.0)]), 2000.0, 5.0)
     bends = [part.bend for part in pieces]
     assert np.count_nonzero(bends) == 1
     at = int(np.argmax(bends))
@@ -188,8 +183,7 @@ def test_layouts_have_the_names_that_commands_take() -> None:
 def test_a_long_segment_stays_one() -> None:
     case = build_case([pipe(1450.0, 50), pipe(None, 1)])
     for layout in (uniform, graded):
-        pieces = layout(case, 2000.0, 20.0)
-        assert pieces[-1] == case.string.components[-1]
+        assert layout(case, 2000.0, 20.0)[-1] == case.string.components[-1]
 
 
 def test_a_short_sharp_course_makes_no_stabiliser() -> None:
@@ -251,13 +245,13 @@ def test_runs_are_rounded_to_millimetres() -> None:
     assert _walk(0.0, 1.0, 0.1, ABOVE, np.ones_like(ABOVE)) == [(1.0, 10)]
 
 
-def test_the_least_factor_counts_both_ends() -> None:
-    above, factor = np.arange(5.0), np.array([5.0, 4.0, 3.0, 2.0, 1.0])
-    assert _least(0.5, 2.5, above, factor) == 2.0
-    assert _least(1.0, 2.0, above, factor) == 3.0
-    assert _least(1.0, 2.0, above, factor[::-1].copy()) == 2.0
-    assert _least(9.0, 10.0, above, factor) == 1.0
-    assert _least(9.0, 10.0, above, factor[::-1].copy()) == 5.0
+@pytest.mark.parametrize(
+    ("start", "end", "step", "expected"),
+    [(0.5, 2.5, -1, 2.0), (1.0, 2.0, -1, 3.0), (1.0, 2.0, 1, 2.0), (9.0, 10.0, -1, 1.0), (9.0, 10.0, 1, 5.0)],
+)
+def test_the_least_factor_counts_both_ends(start: float, end: float, step: int, expected: float) -> None:
+    factor = np.array([1.0, 2.0, 3.0, 4.0, 5.0])[::step].copy()
+    assert _least(start, end, np.arange(5.0), factor) == expected
 
 
 def test_waves_are_those_of_each_pipe_in_its_hole() -> None:
@@ -312,10 +306,13 @@ def test_a_component_is_graded_by_hand() -> None:
 
     assert graded_as(whole, [(100.0, 4)]) == [(100.0, 4, None, 0.02, 0.3)]
     assert graded_as(whole, [(100.0, 1)]) == [(100.0, 1, None, 0.02, 0.3)]
-    assert graded_as(whole, [(40.0, 1), (60.0, 3)]) == [(40.0, 1, None, 0.0, 0.3), (60.0, 3, None, 0.02, 0.3)]
-    # More of it than is in the hole: cut as below, by length.
-    assert graded_as(whole, [(40.0, 4), (30.0, 1)]) == [(40.0, 4, None, 0.0, 0.3), (60.0, None, 30.0, 0.02, 0.3)]
-    assert graded_as(whole, [(40.0, 4), (59.995, 3)])[1] == (60.0, 3, None, 0.02, 0.3)
-    assert graded_as(whole, [(40.0, 4), (59.988, 3)])[1] == (60.0, None, 19.996, 0.02, 0.3)
-    assert graded_as(whole, [(40.0, 4), (30.0, 7)])[1] == (60.0, None, 4.285714, 0.02, 0.3)
+    for run, piece in (
+        ((60.0, 3), (60.0, 3, None, 0.02, 0.3)),
+        # More of it than is in the hole: cut as below, by length.
+        ((30.0, 1), (60.0, None, 30.0, 0.02, 0.3)),
+        ((59.995, 3), (60.0, 3, None, 0.02, 0.3)),
+        ((59.988, 3), (60.0, None, 19.996, 0.02, 0.3)),
+        ((30.0, 7), (60.0, None, 4.285714, 0.02, 0.3)),
+    ):
+        assert graded_as(whole, [(40.0, 4), run]) == [(40.0, 4, None, 0.0, 0.3), piece]
     assert graded_as(endless, [(40.0, 4), (30.0, 2)]) == [(40.0, 4, None, 0.0, 0.0), (None, None, 15.0, 0.0, 0.0)]

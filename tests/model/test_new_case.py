@@ -187,8 +187,7 @@ def test_quantities_are_rounded_as_a_person_would() -> None:
 
 
 def test_texts_are_quoted() -> None:
-    line = entry("name", 'a "b" \\ ü', "c")
-    assert tomllib.loads(line) == {"name": 'a "b" \\ ü'}
+    assert tomllib.loads(entry("name", 'a "b" \\ ü', "c")) == {"name": 'a "b" \\ ü'}
 
 
 @pytest.mark.parametrize("name", [name for name in TEMPLATES if TEMPLATES[name].weight_on_bit])

@@ -38,8 +38,7 @@ def test_each_direction_across_the_hole_has_the_root_mean_square_of_a_sine() -> 
 def test_the_waves_have_the_wavelength() -> None:
     """Zero crossings of a slope of a vertical hole, as many as the moments of its spectrum give (Rice 1944)."""
     stations = np.array([[0.0, 0.0, 0.0], [2000.0, 0.0, 0.0]])
-    found = winding(stations, TortuositySpec(**WAVES))
-    north = survey.tangents(found)[:, 0]
+    north = survey.tangents(winding(stations, TortuositySpec(**WAVES)))[:, 0]
     crossings = np.count_nonzero(np.diff(np.sign(north)))
     rates = 2 * np.pi / (WAVES["wavelength"] * np.linspace(0.8, 1.2, 9))
     expected = 2000 / np.pi * np.sqrt((rates**4).sum() / (rates**2).sum())

@@ -17,8 +17,7 @@ def _one_chart(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_a_step_is_found_over_time_and_by_depth() -> None:
     for table in (series(), readings()):
-        found = fctd.monitor(well(), table)
-        (alarm,) = found.alarms
+        (alarm,) = fctd.monitor(well(), table).alarms
         assert STEP_AT - 40 <= alarm.start <= alarm.found <= STEP_AT + 75  # two and three stands of 25 m
         assert alarm.size == pytest.approx(0.15, abs=0.06)
 

@@ -123,8 +123,7 @@ def test_pieces_give_what_the_whole_gives() -> None:
 
 def test_quartiles_and_the_error_of_the_median() -> None:
     """Of 10,000 normal readings: ±0.6745 standard deviations; the error is 1.2533/√n."""
-    values = np.random.default_rng(0).standard_normal(10_000)
-    found = quartiles(values)
+    found = quartiles(np.random.default_rng(0).standard_normal(10_000))
     assert [found.p25, found.median, found.p75] == pytest.approx([-0.6745, 0, 0.6745], abs=0.03)
     assert found.error == pytest.approx(0.012533, rel=0.03)
 

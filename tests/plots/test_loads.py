@@ -87,8 +87,7 @@ def test_an_axis_without_loads_has_a_span() -> None:
 
 def test_the_weight_indicator_follows_the_sensors() -> None:
     """A block of 30 kN, hoisted over sheaves of 98 %: the dead line holds 98 % of 130 kN."""
-    found = as_load(CASE, "trip_out", np.array([1e5]), "indicator")
-    assert found == pytest.approx([1.3e5 * 0.98])
+    assert as_load(CASE, "trip_out", np.array([1e5]), "indicator") == pytest.approx([1.3e5 * 0.98])
     assert as_load(CASE, "trip_out", np.array([1e5]), "string") == [1e5]
     assert np.isnan(as_load(None, "trip_out", np.array([1e5]), "indicator")).all()
     assert (spent_at(CASE, "string"), spent_at(CASE, "indicator")) == (-3e4, 0.0)

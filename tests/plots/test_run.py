@@ -89,8 +89,7 @@ def test_a_trace_that_is_flat_but_for_rounding_looks_flat() -> None:
         still.history[column] = 1e6 + noise
     still.history["bit_depth_m"] = 700 + noise
     for ax in plots.run_figure(still).axes[:4]:
-        drawn = max(np.ptp(line.get_ydata()) for line in ax.lines)
-        assert drawn < 1e-3 * np.ptp(ax.get_ylim())
+        assert max(np.ptp(line.get_ydata()) for line in ax.lines) < 1e-3 * np.ptp(ax.get_ylim())
 
 
 def test_a_result_without_records_has_no_picture() -> None:

@@ -34,8 +34,7 @@ def test_lanes_carry_the_numbers_of_the_curves() -> None:
 
 
 def test_a_chart_without_states_has_no_strip() -> None:
-    table = chart(["trip_in"], [0.2])
-    assert not has_states(series_of(table))
+    assert not has_states(series_of(chart(["trip_in"], [0.2])))
 
 
 def test_every_status_with_loads_has_a_hatch_of_its_own() -> None:

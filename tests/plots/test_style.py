@@ -43,8 +43,7 @@ def test_entries_of_the_legend_read_from_left_to_right() -> None:
     sheet.figure.draw_without_rendering()
     (legend,) = sheet.figure.legends
     places = {text.get_text(): text.get_window_extent() for text in legend.get_texts()}
-    read = sorted(places, key=lambda name: (-round(places[name].y0), places[name].x0))
-    assert read == names
+    assert sorted(places, key=lambda name: (-round(places[name].y0), places[name].x0)) == names
     assert set(legend_of(sheet.figure)) == set(names)
 
 

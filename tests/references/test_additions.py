@@ -61,8 +61,7 @@ def test_a_contact_method_is_one_class_and_one_line(folder: Path, monkeypatch: p
 def test_an_engine_is_one_class_and_one_line(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """It refuses what it does not name: everything, as long as it names nothing."""
     for module, honours in (("timid_engine", "()"), ("toy_engine", '("wall", "incline")')):
-        text = textwrap.dedent(ENGINE).replace("HONOURS", honours)
-        (folder / f"{module}.py").write_text(text)
+        (folder / f"{module}.py").write_text(textwrap.dedent(ENGINE).replace("HONOURS", honours))
     window, case = Window(5.0, 1.0), turning()
     monkeypatch.setitem(engines.ENGINES, "toy", "timid_engine:Toy")
     with pytest.raises(fctd.InputError, match=r"contact\.enabled = true: expected false, since engine toy leaves out"):

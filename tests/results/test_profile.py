@@ -1,6 +1,7 @@
 """Stress and buckling limits of a profile, against hand calculation."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -100,8 +101,7 @@ def test_a_stabiliser_s_row_has_the_load_in_its_middle() -> None:
     """Vertical, in air: the weight below the middle of a short component, and half of the mud's torque on it."""
     components = [pipe(30, 3), pipe(2, 1, contact_diameter=0.2), pipe(None, None, segment_length=10.0)]
     case = make_case([[0, 0, 0], [200, 0, 0]], components, mud={"rotational_damping": 2.0})
-    profile = equilibrium(case, "rotate_off_bottom", 192.0, rpm=30).profile
-    middle = profile.iloc[-4]
+    middle = equilibrium(case, "rotate_off_bottom", 192.0, rpm=30).profile.iloc[-4]
     assert middle["md_m"] == pytest.approx(161.0, abs=0.01)
     weight = 9.80665 * 7850 * math.pi / 4 * (0.127**2 - 0.07**2)
     assert middle["effective_tension_N"] == pytest.approx(31 * weight, rel=1e-6)
@@ -170,12 +170,19 @@ def test_the_stepper_s_long_segment_hangs_from_the_hook(operation: dict[str, obj
     assert last["effective_tension_N"] == pytest.approx(result.history["hookload_N"].iloc[-1], rel=1e-3)
 
 
-def test_a_place_below_the_tally_is_said_as_stretch() -> None:
+@pytest.mark.parametrize(
+    ("place", "unit", "words"),
+    [
+        (3812.1, (1 / 0.3048, "ft"), "12500 ft + 7 ft of stretch"),
+        (3812.1, (), "3810 m + 2 m of stretch"),
+        (3810.3, (), "3810 m"),
+        (3809.9, (), "3810 m"),
+        (12.4, (), "12 m"),
+    ],
+)
+def test_a_place_below_the_tally_is_said_as_stretch(place: float, unit: tuple[Any, ...], words: str) -> None:
     """12,507 ft in a well of 12,500 ft is no place of the hole."""
-    assert place_in_words(3812.1, 3810.0, 1 / 0.3048, "ft") == "12500 ft + 7 ft of stretch"
-    assert place_in_words(3812.1, 3810.0) == "3810 m + 2 m of stretch"
-    assert place_in_words(3810.3, 3810.0) == place_in_words(3809.9, 3810.0) == "3810 m"
-    assert place_in_words(12.4, 3810.0) == "12 m"
+    assert place_in_words(place, 3810.0, *unit) == words
 
 
 def test_the_worst_places_of_a_long_string_are_said_as_stretch() -> None:

@@ -4,8 +4,16 @@ import pytest
 
 from fctd import simulate
 from fctd.results import ledger, run_notes
+from fctd.results.notes import Note
 from fctd.results.run_notes import brakes_turning, flutters, pushes
 from tests.cases import make_case, rotation, trip
+
+
+def words_of(note: Note | None, code: str, excess: object) -> str:
+    """Text and remedy of a note that has to be there, with its code and excess."""
+    assert note is not None
+    assert (note.code, note.excess) == (code, excess)
+    return str(note)
 
 
 @pytest.mark.parametrize(
@@ -26,10 +34,9 @@ def test_a_string_pushed_beyond_the_weight_of_the_block(
     if excess is None:
         assert note is None
         return
-    assert note is not None
-    assert (note.code, note.excess) == ("push", pytest.approx(excess))
-    assert f"falls to {least / 1e3:.3g} kN in a step and is {mean / 1e3:.3g} kN on the mean" in note.text
-    assert f"can push with {block / 1e3:.3g} kN" in note.text
+    words = words_of(note, "push", pytest.approx(excess))
+    assert f"falls to {least / 1e3:.3g} kN in a step and is {mean / 1e3:.3g} kN on the mean" in words
+    assert f"can push with {block / 1e3:.3g} kN" in words
 
 
 @pytest.mark.parametrize(
@@ -51,10 +58,8 @@ def test_a_hook_load_that_flutters(amplitude: float, frequency: float, axial: fl
 
 def test_joint_damping_that_brakes_a_turning_string() -> None:
     assert brakes_turning(9.9, -1000.0) is None
-    note = brakes_turning(50.0, -1000.0)
-    assert note is not None
-    assert (note.code, note.excess) == ("joint_damping", pytest.approx(5.0))
-    assert "takes 50 N m of the torque of the turning string, 5 % of it" in note.text
+    words = words_of(brakes_turning(50.0, -1000.0), "joint_damping", pytest.approx(5.0))
+    assert "takes 50 N m of the torque of the turning string, 5 % of it" in words
     assert brakes_turning(0.0, 0.0) is None
 
 
@@ -96,11 +101,9 @@ def test_how_far_a_ledger_is_off() -> None:
 def test_ringing_beyond_its_bound() -> None:
     assert run_notes.rings(1e3, 2.5, 1500.0, 1e3) is None
     assert run_notes.rings(float("nan"), 2.5, 1500.0, 1e3) is None
-    note = run_notes.rings(3e3, 2.5, 1500.0, 1e3)
-    assert note is not None
-    assert (note.code, note.excess) == ("ringing", 3.0)
+    words = words_of(run_notes.rings(3e3, 2.5, 1500.0, 1e3), "ringing", 3.0)
     for number in ("2.50 Hz", "near 1500 m", "±3 kN"):
-        assert number in note.text
+        assert number in words
 
 
 @pytest.mark.parametrize(
@@ -117,10 +120,9 @@ def test_a_torque_that_is_not_steady(last: float, mean: float, before: float, ex
     if excess is None:
         assert note is None
         return
-    assert note is not None
-    assert note.excess == pytest.approx(excess)
-    assert f"{last / 1e3:.3g} kN·m, its mean over the last torsional period of 3.64 s 10 kN·m" in note.text
-    assert "mean of its operation" in note.remedy
+    words = words_of(note, "torque", pytest.approx(excess))
+    assert f"{last / 1e3:.3g} kN·m, its mean over the last torsional period of 3.64 s 10 kN·m" in words
+    assert "mean of its operation" in words
 
 
 @pytest.mark.parametrize(
@@ -138,19 +140,16 @@ def test_a_hook_load_that_is_not_steady(swing: float, mean: float, before: float
     if excess is None:
         assert note is None
         return
-    assert note is not None
-    assert (note.code, note.excess) == ("hookload", pytest.approx(excess))
-    assert f"swings by ±{swing / 1e3:.3g} kN" in note.text
-    assert "axial period of 1.56 s" in note.text
-    assert "mean of its operation" in note.remedy
+    words = words_of(note, "hookload", pytest.approx(excess))
+    assert f"swings by ±{swing / 1e3:.3g} kN" in words
+    assert "axial period of 1.56 s" in words
+    assert "mean of its operation" in words
 
 
 def test_a_string_whirls_where_it_moves_sideways_and_hardly_slides() -> None:
     """At half the speed of its surface, with a tenth of the torque of sliding."""
-    note = run_notes.whirls(1.0, 2.0, 500.0, 5000.0)
-    assert note is not None
-    assert (note.code, note.excess) == ("whirl", pytest.approx(0.5 / run_notes.SIDEWAYS))
-    assert "50 % of the speed of its surface, and friction has 10 % of the torque" in note.text
+    words = words_of(run_notes.whirls(1.0, 2.0, 500.0, 5000.0), "whirl", pytest.approx(0.5 / run_notes.SIDEWAYS))
+    assert "50 % of the speed of its surface, and friction has 10 % of the torque" in words
     assert run_notes.whirls(0.2, 2.0, 500.0, 5000.0) is None  # hardly sideways
     assert run_notes.whirls(1.0, 2.0, 4800.0, 5000.0) is None  # slides
     assert run_notes.whirls(1.0, 2.0, 0.0, 0.0) is None  # without friction
@@ -158,11 +157,9 @@ def test_a_string_whirls_where_it_moves_sideways_and_hardly_slides() -> None:
 
 def test_a_run_deeper_in_the_wall_than_its_step_holds_for_gets_a_note() -> None:
     assert run_notes.too_deep(0.005, 0.005) is None
-    note = run_notes.too_deep(0.0075, 0.005)
-    assert note is not None
-    assert (note.code, note.excess) == ("wall", pytest.approx(1.5))
-    assert "7.5 mm deep" in str(note)
-    assert "largest_penetration" in str(note)
+    words = words_of(run_notes.too_deep(0.0075, 0.005), "wall", pytest.approx(1.5))
+    assert "7.5 mm deep" in words
+    assert "largest_penetration" in words
 
 
 def test_a_bit_that_drills_nothing_is_told_what_its_wear_flats_carry() -> None:
@@ -176,6 +173,4 @@ def test_a_bit_that_drills_nothing_is_told_what_its_wear_flats_carry() -> None:
 
 def test_segments_too_long_for_a_winding_hole_get_a_note() -> None:
     assert run_notes.winds_too_much("", 1.0, 1.25) is None
-    note = run_notes.winds_too_much("segments are too long", 2.5, 1.25)
-    assert note is not None
-    assert (note.code, note.excess) == ("tortuosity", 2.0)
+    words_of(run_notes.winds_too_much("segments are too long", 2.5, 1.25), "tortuosity", 2.0)

@@ -65,8 +65,7 @@ def test_what_a_case_turns_on(
 ) -> None:  # fmt: skip
     case = well(mud)
     string = lay_out(case, 1000.0)
-    found = sideways(case, string, 0.0)
-    parts = *found, layers(case, string, 3.0), *steady(case, string)
+    parts = *sideways(case, string, 0.0), layers(case, string, 3.0), *steady(case, string)
     assert [part.any() for part in parts] == [lateral, mass, layer, axial, rotational]
 
 
@@ -133,8 +132,7 @@ def test_a_trip_past_a_shoe_changes_the_coefficients() -> None:
 
 
 def test_mud_that_joins_a_moving_body_keeps_the_sum_of_energy_and_loss() -> None:
-    case = well({"density": 1200.0})
-    run, _ = prepare(case)
+    run, _ = prepare(well({"density": 1200.0}))
     start_from_rest(run)
     n = run.segments
     state.row(run.S, state.VX, n)[:], state.row(run.S, state.VZ, n)[:] = 0.3, -0.2

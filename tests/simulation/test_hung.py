@@ -164,8 +164,7 @@ def test_the_hook_carries_what_hangs() -> None:
     assert np.abs(away.iloc[cruising]).mean() < 0.02 * wanted.mean()
     # The weight indicator: the sheaves and guides by the block's last motion, nothing of the string in the slips.
     inward = (200e3 - 1e3) / 0.98
-    first = int(np.argmax(slips))
-    assert history["weight_indicator_N"][first] == pytest.approx(inward)
+    assert history["weight_indicator_N"][int(np.argmax(slips))] == pytest.approx(inward)
     resting = history.iloc[-1]
     assert resting["weight_indicator_N"] == pytest.approx((resting["hookload_N"] + 200e3 + 1e3) * 0.98)
     assert result.run["energy_error"] < 1e-3

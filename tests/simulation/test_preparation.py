@@ -56,8 +56,7 @@ def test_the_step_holds_for_the_shortest_top_segment() -> None:
 
 
 def test_a_run_starts_with_the_pieces_its_points_lie_in() -> None:
-    case = make_case(BUILD, [pipe(None, None, segment_length=20.0)], [rotation(1400, 1)])
-    run, _ = prepare(case)
+    run, _ = prepare(make_case(BUILD, [pipe(None, None, segment_length=20.0)], [rotation(1400, 1)]))
     points = contact_points(run.S, run.segments)
     np.testing.assert_array_equal(run.owner[1:-1], run.hole.owners(points))
     # Laid unstretched on the axis: ends of segments on it, each a segment's length from the one above.

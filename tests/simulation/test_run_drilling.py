@@ -38,8 +38,7 @@ def run_of(case: Case) -> tuple[Simulation, SimulationResult]:
 def test_the_ledger_holds_with_every_drive(drive: str) -> None:
     _, result = run_of(drilling(drive=drive))
     assert result.run["energy_error"] < 1e-3
-    last = result.energy.iloc[-1]
-    spent = last["lost_bit_J"]
+    spent = result.energy.iloc[-1]["lost_bit_J"]
     history = result.history
     power = history["bit_torque_N_m"] * history["bit_rpm"] * np.pi / 30
     assert spent == pytest.approx(float((power * np.diff(history["time_s"], prepend=0.0)).sum()), rel=0.02)
@@ -149,8 +148,7 @@ def test_an_autodriller_drills_over_a_connection() -> None:
 
 
 def test_a_bit_that_stands_still_ends_the_run_of_an_autodriller() -> None:
-    case = over_a_connection(drive="speed_control", control={"torque_limit": 10.0})
-    simulation = Simulation(case)
+    simulation = Simulation(over_a_connection(drive="speed_control", control={"torque_limit": 10.0}))
     for _ in simulation:
         pass
     result = simulation.result()

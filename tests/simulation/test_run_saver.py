@@ -88,8 +88,7 @@ def test_a_damaged_checkpoint_costs_what_came_after_the_one_before(folder: RunFo
     number, path = list(checkpoints_of(folder.path).files.items())[-1]
     _damage(path, damage)
     said: list[str] = []
-    found = simulate(tripping(), checkpointer=RunSaver(folder, 1e9, tell=said.append))
-    same(found, undisturbed())
+    same(simulate(tripping(), checkpointer=RunSaver(folder, 1e9, tell=said.append)), undisturbed())
     if damage != "gone":
         assert said[0].startswith(f"checkpoint {number} cannot be used")
     assert said[-1] == f"the run goes on from {at(24):.4g} s"

@@ -36,8 +36,7 @@ def test_a_run_goes_on_bitwise_the_same(name: str, geometry: str, share: float) 
     whole = undisturbed(name, geometry)
     case = CASES[name](geometry)
     checkpoint, chunks = stopped(Simulation(case), max(round(share * len(whole.history)), 1))
-    again = gone_on(case, checkpoint, chunks)
-    same(finished(again), whole)
+    same(finished(gone_on(case, checkpoint, chunks)), whole)
 
 
 def test_waves_within_a_long_segment_go_on_bitwise_the_same() -> None:
@@ -70,8 +69,7 @@ def test_a_run_that_is_stopped_twice(name: str, first: int, then: int) -> None:
     case = CASES[name]()
     checkpoint, chunks = stopped(Simulation(case), first)
     more, rest = stopped(gone_on(case, checkpoint, chunks), then)
-    again = gone_on(case, more, [*chunks, *rest])
-    same(finished(again), undisturbed(name, "arcs"))
+    same(finished(gone_on(case, more, [*chunks, *rest])), undisturbed(name, "arcs"))
 
 
 def short() -> Case:

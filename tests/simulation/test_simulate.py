@@ -287,8 +287,7 @@ def test_two_runs_are_the_same_to_the_last_bit() -> None:
 def test_a_string_is_laid_with_its_bodies_and_its_clamp_along_the_hole() -> None:
     """Quaternions and axes agree, also at the top of a string that hangs in a bend, and where the hole turns."""
     turning = [[0, 0, 0], [450, 45, 30], [900, 90, 120]]
-    case = make_case(turning, [pipe(300, 5)], [rotation(600, 5)], 300.0, {"geometry": "arcs"})
-    run, _ = prepare(case)
+    run, _ = prepare(make_case(turning, [pipe(300, 5)], [rotation(600, 5)], 300.0, {"geometry": "arcs"}))
     rows = slice(0, run.segments + 1)
     w, x, y, z = (run.S[row:][rows] for row in (state.QW, state.QX, state.QY, state.QZ))
     axes = np.stack([run.S[row:][rows] for row in (state.AX, state.AY, state.AZ)])

@@ -119,8 +119,7 @@ def test_a_window_is_reached_without_a_record_and_has_its_own_ledger() -> None:
 
 def test_a_fed_string_has_its_depth_at_the_start_of_a_window() -> None:
     case = build_case(trip(1000, 1003, speed=0.5))
-    end = Simulation(case).end
-    records = list(Simulation(case, window=(4.0, end - 4.0)))
+    records = list(Simulation(case, window=(4.0, Simulation(case).end - 4.0)))
     assert records[-1]["bit_depth_m"] == pytest.approx(1003.0, abs=1e-4)
     assert records[-1]["bit_md_m"] == pytest.approx(1003.0, abs=0.5)
 

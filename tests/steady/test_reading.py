@@ -27,8 +27,7 @@ def test_the_sums_are_those_of_the_contact_points() -> None:
 
 
 def test_the_buckled_stretch_is_that_of_the_tension_along_the_string() -> None:
-    point = point_of("drill_sliding", bit={"weight_on_bit": 3e5})
-    shape = point._shape
+    shape = point_of("drill_sliding", bit={"weight_on_bit": 3e5})._shape
     walls, string = shape.walls, shape.laid.string
     _, expected = buckling_along(
         shape.hole, shape.laid.pipe, string.top_md, walls.md, walls.radius, shape.loads.tension, -3e5

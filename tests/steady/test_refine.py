@@ -214,8 +214,7 @@ def test_a_long_segment_alone_cannot_be_cut() -> None:
 def test_one_agreement_is_not_enough() -> None:
     """A string that hangs straight down is exact at once; three strings are solved all the same."""
     case = make_case([[0, 0, 0], [500, 0, 0]], [pipe(None, None, segment_length=10.0)], wellbore={"geometry": "arcs"})
-    found = fctd.refine(case, 0.1, "trip_in", 500.0)
-    assert found.steps["segments"].tolist() == [16, 32, 64]
+    assert fctd.refine(case, 0.1, "trip_in", 500.0).steps["segments"].tolist() == [16, 32, 64]
 
 
 def test_finer_strings_without_an_answer_end_the_search(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -227,8 +226,7 @@ def test_finer_strings_without_an_answer_end_the_search(monkeypatch: pytest.Monk
         return replace(point, status=SteadyStatus.MAX_ITERATIONS) if len(point.profile) > 70 else point
 
     monkeypatch.setattr(Solver, "solve", short_of_breath)
-    case = build_case(wellbore={"geometry": "arcs"})
-    found = fctd.refine(case, 1e-6, "rotate_off_bottom", 1300.0)
+    found = fctd.refine(build_case(wellbore={"geometry": "arcs"}), 1e-6, "rotate_off_bottom", 1300.0)
     assert found.status == "not_reached"
     assert found.message.startswith("strings of more than 64 segments have no solution (rotate_off_bottom: max_iter")
     assert found.segments == 64

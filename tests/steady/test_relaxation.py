@@ -104,8 +104,7 @@ def test_a_string_above_the_onset_snakes_and_below_it_lies_straight() -> None:
 
 def test_friction_at_the_axis_has_no_moment_across(problem: Problem) -> None:
     """With friction at the surface each body's moments differ by r μ N, exact."""
-    case = level_case(0.5, length=30.0, segment=3.0, friction=0.3)
-    problem = problem_of(case)
+    problem = problem_of(level_case(0.5, length=30.0, segment=3.0, friction=0.3))
     problem.lay_guess()
     problem.reactions()
     at_axis = problem.work.R[2 : problem.n].copy()

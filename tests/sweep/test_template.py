@@ -66,8 +66,7 @@ def test_a_survey_file_is_read_once_and_found_from_anywhere(tmp_path: Path, monk
     made = template_of_file(path)
     (folder / "survey.csv").unlink()
     monkeypatch.chdir(tmp_path)
-    case = made.case(0, {"friction.open": 0.4})
-    assert case.wellbore.trajectory is made.base.wellbore.trajectory
+    assert made.case(0, {"friction.open": 0.4}).wellbore.trajectory is made.base.wellbore.trajectory
 
 
 def test_a_parameter_may_have_a_key_that_the_case_needs(tmp_path: Path) -> None:

@@ -41,8 +41,7 @@ def test_a_depth_at_which_string_and_hole_do_not_fit_is_left_out() -> None:
 
 
 def test_a_string_without_a_balance_says_why() -> None:
-    point = equilibrium(case(), "trip_in", 500.0).without_loads()
-    (one,) = of_points([point]).snapshots
+    (one,) = of_points([equilibrium(case(), "trip_in", 500.0).without_loads()]).snapshots
     assert len(one.offset) == 0
     assert one.hookload != one.hookload
 

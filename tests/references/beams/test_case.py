@@ -11,8 +11,7 @@ from validation.cases import load
 
 
 def test_beam_is_the_whole_string_at_its_greatest_depth():
-    case = load("scaled_section")
-    beam = beam_of(case, 0.3, 20.0)
+    beam = beam_of(load("scaled_section"), 0.3, 20.0)
     assert beam.length == pytest.approx(44.0)
     assert beam.around.clearance == pytest.approx(0.025)
     assert beam.around.stiffness == 3e6

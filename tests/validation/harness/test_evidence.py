@@ -356,8 +356,7 @@ def test_the_well_of_the_engines_has_the_segments_that_it_is_named_after(segment
 
 @pytest.mark.parametrize("kind", ["trip_in", "trip_out"])
 def test_a_steady_trip_passes_its_depth_in_the_middle_of_what_is_read(kind: str) -> None:
-    case = load("paper_well", operations=steady_trip(kind, 2000.0))
-    (trip,) = case.operations
+    (trip,) = load("paper_well", operations=steady_trip(kind, 2000.0)).operations
     assert trip.kind == kind
     half = 0.5 * TRIP_WINDOW * TRIP_SPEED
     assert trip.end_md == 2000.0 + (half if kind == "trip_in" else -half)

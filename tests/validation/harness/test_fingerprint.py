@@ -87,8 +87,7 @@ def run(lab, *names, **options):
     text = io.StringIO()
     chosen = {"quick": False, "data": None, "expected": {}, "results": lab / "results"} | options
     chosen["sources"] = sources(lab)
-    code = runner.run_all(names or ["question"], console=Console(file=text), **chosen)
-    return code, text.getvalue()
+    return runner.run_all(names or ["question"], console=Console(file=text), **chosen), text.getvalue()
 
 
 def sources(lab):

@@ -112,8 +112,7 @@ def test_tool_joints_carry_the_mean_curvature():
 
 def test_a_helix_has_the_least_energy_of_all_rates():
     """EI r²θ'⁴/2 − F r²θ'²/2, and + M r²θ'³/2 for the torque of a bit that turns clockwise."""
-    case = case_of(helix.vertical(5.0, torque=3e3))
-    pipe, torque, force = pipe_of(case), 3e3, 9e4
+    pipe, torque, force = pipe_of(case_of(helix.vertical(5.0, torque=3e3))), 3e3, 9e4
 
     def energy(rate, torque):
         return 0.5 * (pipe.EI * rate**4 - force * rate**2 + torque * rate**3)
