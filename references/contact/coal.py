@@ -5,49 +5,34 @@ one, so the query is for the sphere's centre; depths are negative; only trees of
 against a mesh.
 """
 
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar
 
 import numpy as np
 
 from fctd.arrays import Array
-from fctd.case.errors import Table
 from fctd.case.load import Case
 from fctd.model.wellbore import Contacts
 from references.contact import need
-from references.contact.fcl import MOST_CONTACTS, POINT
-from references.contact.tube_mesh import MeshMethod, Tube, TubeOptions, build_tube
+from references.contact.fcl import MOST_CONTACTS, POINT, SphereMethod, SphereOptions
+from references.contact.tube_mesh import Tube
 
 
-class CoalOptions(TubeOptions):
-    """``query``: the distance of the centre from the wall, or the collision of a sphere with it."""
-
-    query: Literal["distance", "collide"] = "distance"
-
-
-class Coal(MeshMethod):
-    """A sphere at each point against a bounding-volume tree over the tube; requests and results are reused."""
+class Coal(SphereMethod):
+    """coal's tree; requests and results are reused."""
 
     name = "coal"
     distribution: ClassVar[str] = "coal"
     does: ClassVar[str] = "bounding-volume tree over a triangle mesh (successor of FCL)"
-    Options: ClassVar[type[Table]] = CoalOptions
 
-    def __init__(self, case: Case, options: CoalOptions) -> None:
+    def __init__(self, case: Case, options: SphereOptions) -> None:
         self._coal = coal = need("coal", self.name)
-        self.tube = build_tube(case, options)
+        super().__init__(case, options, coal.Sphere)
         # The tree suits the query: OBB is faster for collisions, RSS bounds distances.
-        self._collide = options.query == "collide"
-        self.gives_clearance = not self._collide
         self._wall = wall_of(coal, self.tube, coal.BVHModelOBB() if self._collide else coal.BVHModelOBBRSS())
         self._identity, self._placement = coal.Transform3s(), coal.Transform3s()
-        self._spheres: dict[float, Any] = {}
         self._distance_request, self._distance = coal.DistanceRequest(True), coal.DistanceResult()
         self._request, self._result = coal.CollisionRequest(), coal.CollisionResult()
         self._request.num_max_contacts = MOST_CONTACTS
-
-    def query(self, points: Array, radii: Array) -> Contacts:
-        """See ``ContactMethod.query``."""
-        return self._by_collision(points, radii) if self._collide else self._by_distance(points, radii)
 
     def _by_distance(self, points: Array, radii: Array) -> Contacts:
         distance, wall, identity, placement = self._coal.distance, self._wall, self._identity, self._placement
@@ -75,12 +60,6 @@ class Coal(MeshMethod):
                     if -contact.penetration_depth > penetration[k]:
                         penetration[k], normal[k], faces[k] = -contact.penetration_depth, contact.normal, contact.b1
         return Contacts(penetration, -normal, np.where(penetration > 0, self.tube.md_of(faces, points), np.nan))
-
-    def _sphere(self, radius: float) -> Any:
-        """A sphere of this radius, created on first use."""
-        if radius not in self._spheres:
-            self._spheres[radius] = self._coal.Sphere(radius)
-        return self._spheres[radius]
 
 
 def wall_of(coal: Any, tube: Tube, model: Any) -> Any:

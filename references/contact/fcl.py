@@ -5,6 +5,8 @@ since the first ones found are not the deepest; normals point into the hole, dep
 long triangles of a tube report depths that are wrong by decimetres.
 """
 
+from collections.abc import Callable
+from functools import cache
 from typing import Any, ClassVar, Literal
 
 import numpy as np
@@ -22,37 +24,46 @@ POINT = 1e-6
 MOST_CONTACTS = 1000
 
 
-class FclOptions(TubeOptions):
+class SphereOptions(TubeOptions):
     """``query``: the distance of the centre from the wall, or the collision of a sphere with it."""
 
     query: Literal["distance", "collide"] = "distance"
 
 
-class Fcl(MeshMethod):
-    """A sphere at each point against a bounding-volume tree over the tube."""
+class SphereMethod(MeshMethod):
+    """A sphere at each point against a bounding-volume tree over the tube; a sphere of each radius is kept."""
 
-    name = "fcl"
-    distribution: ClassVar[str] = "python-fcl"
-    does: ClassVar[str] = "bounding-volume tree over a triangle mesh (FCL)"
-    Options: ClassVar[type[Table]] = FclOptions
+    Options: ClassVar[type[Table]] = SphereOptions
+    _by_distance: Callable[[Array, Array], Contacts]
+    _by_collision: Callable[[Array, Array], Contacts]
 
-    def __init__(self, case: Case, options: FclOptions) -> None:
-        self._fcl = fcl = need("fcl", self.name)
+    def __init__(self, case: Case, options: SphereOptions, sphere: Callable[[float], Any]) -> None:
         self.tube = build_tube(case, options)
-        self._wall = wall_of(fcl, self.tube)
-        self._point = fcl.CollisionObject(fcl.Sphere(POINT), fcl.Transform())
-        self._spheres: dict[float, Any] = {}
+        self._sphere = cache(sphere)
         self._collide = options.query == "collide"
         self.gives_clearance = not self._collide
-        self._distance_request = fcl.DistanceRequest(enable_nearest_points=True)
-        self._request = fcl.CollisionRequest(num_max_contacts=MOST_CONTACTS, enable_contact=True)
 
     def query(self, points: Array, radii: Array) -> Contacts:
         """See ``ContactMethod.query``."""
         return self._by_collision(points, radii) if self._collide else self._by_distance(points, radii)
 
+
+class Fcl(SphereMethod):
+    """FCL's tree."""
+
+    name = "fcl"
+    distribution: ClassVar[str] = "python-fcl"
+    does: ClassVar[str] = "bounding-volume tree over a triangle mesh (FCL)"
+
+    def __init__(self, case: Case, options: SphereOptions) -> None:
+        self._fcl = fcl = need("fcl", self.name)
+        super().__init__(case, options, lambda radius: fcl.CollisionObject(fcl.Sphere(radius), fcl.Transform()))
+        self._wall = wall_of(fcl, self.tube)
+        self._distance_request = fcl.DistanceRequest(enable_nearest_points=True)
+        self._request = fcl.CollisionRequest(num_max_contacts=MOST_CONTACTS, enable_contact=True)
+
     def _by_distance(self, points: Array, radii: Array) -> Contacts:
-        fcl, wall, point, request = self._fcl, self._wall, self._point, self._distance_request
+        fcl, wall, point, request = self._fcl, self._wall, self._sphere(POINT), self._distance_request
         near, faces = np.empty((len(points), 3)), np.empty(len(points), np.int64)
         for k, place in enumerate(points):
             point.setTranslation(place)
@@ -74,12 +85,6 @@ class Fcl(MeshMethod):
                 deepest = min(result.contacts, key=_depth)
                 penetration[k], normal[k], faces[k] = -deepest.penetration_depth, deepest.normal, deepest.b1
         return Contacts(penetration, -normal, np.where(penetration > 0, self.tube.md_of(faces, points), np.nan))
-
-    def _sphere(self, radius: float) -> Any:
-        """A sphere of this radius, created on first use."""
-        if radius not in self._spheres:
-            self._spheres[radius] = self._fcl.CollisionObject(self._fcl.Sphere(radius), self._fcl.Transform())
-        return self._spheres[radius]
 
 
 def wall_of(fcl: Any, tube: Tube) -> Any:

@@ -4,6 +4,7 @@ A string stands for several rows of a chart: every operation that its class can 
 friction.
 """
 
+from collections.abc import Iterator
 from random import Random
 from typing import Any, NamedTuple
 
@@ -101,7 +102,7 @@ def drawn(seed: int, index: int) -> Drawn:
                 "geometry": rng.choice(["cylinders", "arcs"]),
                 "intervals": _intervals(rng, kind, stations[-1][0]),
             },
-            "string": {"components": _components(rng, kind)},
+            "string": {"components": list(_components(rng, kind))},
             "mud": {"density": round(rng.uniform(1000, 2000)), "viscosity": 0},
             "rig": {"block_weight": round(rng.uniform(0, 3e5), -4)},
             # PDC bits take some 0.15 m of the hole's radius times the weight on bit.
@@ -131,11 +132,10 @@ def _intervals(rng: Random, kind: Kind, depth: float) -> list[dict[str, Any]]:
     return [cased, bottom]
 
 
-def _components(rng: Random, kind: Kind) -> list[dict[str, Any]]:
+def _components(rng: Random, kind: Kind) -> Iterator[dict[str, Any]]:
     """Parts and pipe in inches; segments as a user gives them, or the engine's own."""
     segment = rng.choice([None, 10.0, 20.0, 30.0])
     rows = [(name, pipe, round(rng.uniform(least, most), 1)) for name, pipe, least, most in kind.parts]
-    parts = []
     for name, pipe, length in [*rows, ("pipe", kind.pipe, None)]:
         part: dict[str, Any] = {f"{key}_diameter": f"{value:g} in" for key, value in pipe._asdict().items()}
         part["name"] = name
@@ -143,5 +143,4 @@ def _components(rng: Random, kind: Kind) -> list[dict[str, Any]]:
             part["length"] = length
         if segment is not None:
             part["segment_length"] = min(segment, 10.0) if name == "collars" else segment
-        parts.append(part)
-    return parts
+        yield part

@@ -79,8 +79,7 @@ def pendulum(segment: float) -> tuple[float, float, float, float]:
     s = SECTION
     clearance = 0.5 * (HOLE - COLLAR["outer_diameter"])
     length = (24 * s.EI * clearance / s.weight) ** 0.25
-    point = solve([support(segment), part(60.0 - 0.5 * segment, segment)], 60.0)
-    profile = point.profile
+    profile = solve([support(segment), part(60.0 - 0.5 * segment, segment)], 60.0).profile
     touching = profile[(profile["contact_force_N"] > 0) & (profile["md_m"] < DEPTH - 1.0)]
     # Beam theory has one concentrated force at the tangent point; an elastic wall spreads it over some decimetres, so
     # the point is taken as the centre of the force in excess of the weight.

@@ -1,5 +1,6 @@
 """Every contact method at the same points near the wall: missed contacts, errors and cost."""
 
+from collections.abc import Iterator
 from functools import partial
 from typing import Any
 
@@ -23,20 +24,18 @@ REGIONS = {"straight": (10.0, 190.0), "build": (205.0, 495.0), "turn in space": 
 BASELINE = "cylinders, 2 m"
 
 
-def settings(quick: bool) -> list[tuple[str, dict[str, Any]]]:
+def settings(quick: bool) -> Iterator[tuple[str, dict[str, Any]]]:
     """Every registered method with its options, from coarse to fine where it has cylinders or facets."""
     lengths = (0.5, 2.0, 5.0) if quick else (0.5, 1.0, 2.0, 5.0, 10.0)
     meshes = ((24, 2.0), (48, 2.0)) if quick else ((12, 4.0), (24, 2.0), (48, 2.0), (96, 1.0))
-    chosen: list[tuple[str, dict[str, Any]]] = []
     for name in contact.METHODS:
         keys = contact.method_class(name).Options.model_fields
         if "facets" in keys:
-            chosen += [(name, {"facets": facets, "ring_spacing": ring}) for facets, ring in meshes]
+            yield from ((name, {"facets": facets, "ring_spacing": ring}) for facets, ring in meshes)
         elif "cylinder_length" in keys:
-            chosen += [(name, {"cylinder_length": each, "overlap": min(0.2, 0.5 * each)}) for each in lengths]
+            yield from ((name, {"cylinder_length": each, "overlap": min(0.2, 0.5 * each)}) for each in lengths)
         else:
-            chosen.append((name, {}))
-    return chosen
+            yield name, {}
 
 
 def label(name: str, options: dict[str, Any]) -> str:

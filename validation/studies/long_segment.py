@@ -52,8 +52,7 @@ def steady(depths: tuple[float, ...]) -> Rows:
 
 def frequencies() -> pd.DataFrame:
     """Lowest frequencies of the continuous string and of both chains."""
-    case = the_case(None, operations=rotation(BIT, 10.0, 1.0))
-    truth = continuous_frequencies(case)
+    truth = continuous_frequencies(the_case(None, operations=rotation(BIT, 10.0, 1.0)))
     long, cut = (chain_frequencies(the_case(c, operations=rotation(BIT, 10.0, 1.0))) for c in (None, PIPE))
     rows = [
         {
