@@ -216,7 +216,7 @@ def _explained(failure: ValidationError, raw: object) -> InputError:
     written: list[InputError] = []
     derived: list[InputError] = []
     for detail in failure.errors(include_url=False):
-        parts = _written_parts(detail["loc"], raw)
+        parts = list(_written_parts(detail["loc"], raw))
         error = _from_detail(detail)
         # A default computed from a bad value is bad too; the line of the bad value is enough.
         follows = error.value is not MISSING and look_up(raw, *parts) is MISSING
@@ -226,16 +226,14 @@ def _explained(failure: ValidationError, raw: object) -> InputError:
     return InputError(first.expected, key=first.key, value=first.value, more=more)
 
 
-def _written_parts(path: Sequence[str | int], raw: object) -> list[str | int]:
+def _written_parts(path: Sequence[str | int], raw: object) -> Iterator[str | int]:
     """The parts of pydantic's path without the members of unions: the kind of a table, a type where no table stands."""
-    parts: list[str | int] = []
     place = raw
     for part in path:
         of_union = place.get("kind") == part if isinstance(place, Mapping) else place is not MISSING
         if isinstance(part, int) or not of_union:
-            parts.append(part)
+            yield part
             place = look_up(place, part)
-    return parts
 
 
 def _from_detail(detail: ErrorDetails) -> InputError:

@@ -76,22 +76,20 @@ class Dataset:
         """How many rows have which status; raises InputError for a part that cannot be read."""
         return dict(Counter(status for table in self._tables(["status"]) for status in table["status"].to_pylist()))
 
-    def _tables(self, columns: list[str] | None = None) -> list[pa.Table]:
+    def _tables(self, columns: list[str] | None = None) -> Iterator[pa.Table]:
         """The rows of every part, of all or of some columns."""
-        tables = []
         for path in self.parts:
             try:
                 with path.open("rb") as source:
-                    tables.append(read_table(source, columns).replace_schema_metadata(None))
+                    yield read_table(source, columns).replace_schema_metadata(None)
             except (OSError, ValueError) as error:
                 raise InputError(f"a part that fctd sweep wrote ({error})", value=path) from error
-        return tables
 
     def rows(self) -> pd.DataFrame:
         """All rows, in the order of the samples; raises InputError for a part that cannot be read."""
         import pyarrow as pa
 
-        tables = self._tables()
+        tables = list(self._tables())
         if not tables:
             raise InputError("the rows of at least one sample: fctd sweep makes them", value=self.folder / ROWS)
         table: pd.DataFrame = pa.concat_tables(tables, promote_options="permissive").to_pandas(use_threads=False)

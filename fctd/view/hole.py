@@ -94,11 +94,10 @@ def wall_lines(stations: Stations, radius: Array) -> Array:
 
 def rings(stations: Stations, radius: Array) -> Array:
     """Rings around the hole, (m, 3) [m], with a row of NaN after each; radius (k,) [m] : drawn at each station."""
-    found = []
-    for k in range(len(radius)):
-        one = stations.picked(np.full(len(AROUND), k))
-        found.append(_beside(one, np.full(len(AROUND), radius[k]), AROUND))
-    return _joined(found)
+    shape = len(AROUND)
+    return _joined([
+        _beside(stations.picked(np.full(shape, k)), np.full(shape, one), AROUND) for k, one in enumerate(radius)
+    ])  # fmt: skip
 
 
 def _beside(stations: Stations, radius: Array, angle: Array) -> Array:
