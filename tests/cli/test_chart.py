@@ -79,14 +79,19 @@ def test_a_chart_is_the_one_of_the_library_with_its_origin_beside_it(
 
 def test_a_pair_of_friction_factors(case_file: Path, tmp_path: Path, cli: Command) -> None:
     out = tmp_path / "chart.csv"
-    given = ("--operation", "trip_out", "--depths", "850", "--friction", "0.1,0.3/0.1")
+    given = ("--operation", "trip_out", "--depths", "800:850:50", "--friction", "0.1,0.3/0.1")
     assert "0.3/0.1" in cli("chart", case_file, *given, "--out", out, "--plot", tmp_path / "chart.png").out
     table = pd.read_csv(out, dtype={"friction_label": str})
-    assert table[["friction", "rotational_friction"]].to_numpy().tolist() == [[0.1, 0.1], [0.3, 0.1]]
-    expected = fctd.torque_drag(fctd.load_case(case_file), "trip_out", [850], [0.1, "0.3/0.1"])
+    assert table[["friction", "rotational_friction"]].to_numpy().tolist() == [
+        [0.1, 0.1],
+        [0.1, 0.1],
+        [0.3, 0.1],
+        [0.3, 0.1],
+    ]
+    expected = fctd.torque_drag(fctd.load_case(case_file), "trip_out", [800, 850], [0.1, "0.3/0.1"])
     pd.testing.assert_frame_equal(table, expected, check_dtype=False)
     point = fctd.equilibrium(fctd.load_case(case_file, {"friction": "0.3/0.1"}), "trip_out", 850)
-    assert point.hookload == table["hookload_N"].iloc[1]
+    assert point.hookload == table["hookload_N"].iloc[3]
 
 
 def test_the_screen_says_how_many_rows_it_leaves_out(case_file: Path, cli: Command) -> None:

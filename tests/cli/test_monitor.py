@@ -78,7 +78,7 @@ def test_without_a_factor_the_exit_code_is_1(case_file: Path, cli: Command) -> N
     [
         ("", [], "the file is empty"),
         ("a,b\n1,2\n", [], "a row of headers"),
-        ("time_s,bit_depth_m\n0,1\n", [], "columns of hook_load, torque, rpm, block_position"),
+        ("time_s,bit_depth_m\n0,1\n", [], "column block_position_m is missing"),
         ("bit_depth_m,operation,hook_load,torque_kN_m\n1,trip_in,2,3\n", [], "with its unit"),
         ("bit_depth_m,operation,hook_load_kN,torque_kN_m\n1,trip_in,2,x\n", [], 'row 2, torque_kN_m = "x"'),
         (None, ["--columns", "torque=TQ"], "one of the headers"),

@@ -108,11 +108,9 @@ def find_columns(row: Line, form: TableForm, choices: Choices) -> dict[str, Colu
             raise InputError(expected, key=f"{name}, columns of {field.key}", value=names)
         if candidates:
             found[field.key] = replace(candidates[0], row=name)
-    for group in form.lacking(found):
-        fields = [form.field(key) for key in group[:3]]
-        wanted = " or ".join("_".join(filter(None, (field.key, field.example))) for field in fields)
-        remedy = _or("its header", form.remedy(group[0], ["HEADER"], ""))
-        raise InputError(f"it among the headers {others}{remedy}", key=f"column {wanted}")
+    lacking = [_lacking(group, form, others) for group in form.lacking(found)]
+    if lacking:
+        raise InputError(lacking[0].expected, key=lacking[0].key, more=lacking[1:])
     return found
 
 
@@ -136,8 +134,8 @@ def with_units(
 ) -> dict[str, Column]:
     """The columns with their units: that which the user says, else that of the header, else of the rows of units.
 
-    titles : the rows above the headers.  Raises `NoUnitError` where there is none and the field needs one, InputError
-    for others than the field's.
+    titles : the rows above the headers.  Raises `no_unit` where there is none and the field needs one, InputError for
+    others than the field's.
     """
     units = {key: _unit(column, stated, form, choices.get(key, Choice()).unit) for key, column in columns.items()}
     for key, column in columns.items():
@@ -146,8 +144,8 @@ def with_units(
     return {key: replace(column, unit=units[key]) for key, column in columns.items()}
 
 
-def no_unit(column: Column, form: TableForm, titles: Sequence[Line] = ()) -> NoUnitError:
-    """The error of a column without a unit; it names a title where one speaks of units."""
+def no_unit(column: Column, form: TableForm, titles: Sequence[Line] = ()) -> InputError:
+    """The error of a column without a unit: `NoUnitError`, unless a title speaks of units, which it then names."""
     field = column.field
     example = show(f"{column.header} ({field.example})")
     expected = f"a header with its unit, such as {example}"
@@ -156,7 +154,7 @@ def no_unit(column: Column, form: TableForm, titles: Sequence[Line] = ()) -> NoU
     for title in titles:
         text = " ".join(filter(None, title[1]))
         if any(len(word) > 1 and word in units for word in re.findall(r"[^\W_]+", text.casefold())):
-            return NoUnitError(expected, key=f"{_name(title)}, a title", value=text)
+            return InputError(expected, key=f"{_name(title)}, a title", value=text)
     return NoUnitError(expected, key=column.row, value=column.header)
 
 
@@ -178,6 +176,14 @@ def cell_of(cells: Sequence[str], column: Column) -> str:
 def _name(row: Line) -> str:
     """A row in messages."""
     return f"row {row[0]}" if row[0] else "headers"
+
+
+def _lacking(group: Sequence[str], form: TableForm, headers: str) -> InputError:
+    """The error of a table with none of the fields of a group."""
+    fields = [form.field(key) for key in group[:3]]
+    wanted = " or ".join("_".join(filter(None, (field.key, field.example))) for field in fields)
+    remedy = _or("its header", form.remedy(group[0], ["HEADER"], ""))
+    return InputError(f"it among the headers {headers}{remedy}", key=f"column {wanted}")
 
 
 def _or(what: str, remedy: str) -> str:
