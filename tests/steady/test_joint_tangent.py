@@ -12,7 +12,7 @@ from fctd.steady import joint_tangent
 from fctd.steady.block_thomas import SIZE
 from fctd.steady.joint_tangent import LOADS, LOWER, UNKNOWNS, UPPER, add_joint, differentiate_joint
 from fctd.steady.pose import POSE
-from tests.mechanics.test_dynamics import compiled, operations
+from tests.mechanics.test_dynamics_compiled import compiled, operations
 
 Array = np.ndarray
 FORCE = slice(0, 3)
