@@ -103,7 +103,7 @@ def engine_rows(run: Run, motion: Any, moments: int) -> list[dict[str, Any]]:
     for j in range(1, n + 1):
         searched += operations_of(loop, pieces, *place(S, j))
     given = operations_of(place, S, 1)
-    wall = (*numbers(0.04, 0.03, 0.0, 0.108, 1e7, 0.125, 1800.0),)
+    wall = (*numbers(0.04, 0.03, 0.0, 0.108, 1e7, 0.125, 1800.0, 0.125),)
     out = [Counted(np.empty(1)), Counted(np.empty((1, 3))), Counted(np.empty(1))]
     written = operations_of(write, 0, wall, Number(0.051), *out)
     normal = Counter(divide=1, multiply=3)
