@@ -10,7 +10,7 @@ from fctd.calibration.predict import posterior_file
 from fctd.calibration.result import Calibration
 from fctd.calibration.unknowns import held, keys_of
 from fctd.case import spellings
-from fctd.case.errors import InputError
+from fctd.case.errors import MISSING, InputError
 from fctd.case.load import Case, load_case
 from fctd.case.raw_case import look_up, set_key, split_key
 from fctd.case.text import counted
@@ -38,6 +38,11 @@ def write_calibrated(found: Calibration, source: Path, overrides: Mapping[str, A
             *parents, _ = split_key(key)
             trivia = look_up(raw, *parents).item(last).trivia  # type: ignore[attr-defined]
             trivia.comment = trivia.comment_ws = ""  # it described the value before
+    for i, interval in enumerate(found.case.wellbore.intervals):
+        key = f"wellbore.intervals[{i}].rotational_friction"
+        # Where the factor along the hole alone was fitted, that around it stays what both were.
+        if interval.rotational_friction is not None and look_up(raw, *split_key(key)) is MISSING:
+            set_key(raw, key, float(interval.rotational_friction))
     survey = survey_from(out, found.base)
     if survey is not None:
         raw["wellbore"]["survey"] = survey

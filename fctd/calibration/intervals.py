@@ -35,9 +35,10 @@ class Intervals:
 
     @property
     def correlation(self) -> Array:
-        """Correlations of the unknowns (k, k)."""
+        """Correlations of the unknowns (k, k); of one that a bound holds, which has no spread, 0."""
         sd = np.sqrt(np.diag(self.covariance))
-        return np.asarray(self.covariance / np.outer(sd, sd))
+        both = np.outer(sd, sd)
+        return np.asarray(np.divide(self.covariance, both, out=np.eye(len(sd)), where=both > 0))
 
 
 def find_intervals(forward: Forward, best: Fit, loss: Loss) -> Intervals:

@@ -21,7 +21,7 @@ HOOKLOAD: Final = (0.6, 1.6)
 TORQUE: Final = (0.3, 3.0)
 FAR: Final = 5.0
 _DIGIT: Final = 4.0
-_UNITS: Final = {"hookload": "kN", "torque": "kN m"}
+_NAMES: Final = {"hookload": ("hook load", "kN"), "torque": ("torque", "kN·m")}
 
 
 class _Station(NamedTuple):
@@ -89,7 +89,7 @@ def _out_of_order(station: _Station, rows: Sequence[Row]) -> list[tuple[int, str
         (k, low, noise), (other, high, _) = loads[lower], loads[upper]
         if low.low > high.high + MARGIN * noise:
             wrong = k if upper == "rotating" else other
-            one, two = f"{lower} of {_kilo(low)} kN", f"{upper} weight of {_kilo(high)} kN"
+            one, two = f"{lower} weight of {_kilo(low)} kN", f"{upper} weight of {_kilo(high)} kN"
             found.append((wrong, f"a {one} above the {two} at {station.label}: swapped or misread?"))
     return found
 
@@ -102,8 +102,9 @@ def _digit(load: Load, read: Range, fitted: float, noise: float) -> str:
         return ""
     ratio = middle / fitted
     why = "a dropped digit?" if ratio < 1 / _DIGIT else "a digit too many?" if ratio > _DIGIT else "misread?"
-    return f"a {load} of {_kilo(read)} {_UNITS[load]} where the other rows let expect {1e-3 * fitted:.3g}: {why}"
+    name, unit = _NAMES[load]
+    return f"a {name} of {_kilo(read)} {unit} where the other rows let expect {1e-3 * fitted:.3g} {unit}: {why}"
 
 
 def _kilo(read: Range) -> str:
-    return f"{1e-3 * read.middle:.4g}"
+    return f"{1e-3 * read.middle:.6g}"

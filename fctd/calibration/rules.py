@@ -24,7 +24,7 @@ def left_out_by_rule(rows: Sequence[Row], strings: Mapping[str, Case]) -> dict[i
     stretches: dict[tuple[str, float], float] = {}
     for k, row in enumerate(rows):
         if row.locked_torque:
-            found[k] = f"the stroke ended with {1e-3 * row.locked_torque:g} kN m locked in the string"
+            found[k] = f"the stroke ended with {1e-3 * row.locked_torque:g} kN·m locked in the string"
         elif row.has_string and not np.isnan(row.stroke) and not row.rates.spin:
             key = row.string, row.bit_depth
             if key not in stretches:

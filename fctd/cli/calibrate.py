@@ -1,6 +1,6 @@
 """``fctd calibrate CASE MEASURED.csv``: unknowns of a case from measured rows."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -28,6 +28,7 @@ from fctd.cli.options import (
     Strict,
     changes_of,
     check_target,
+    finish,
     messages,
     print_written,
     read_case,
@@ -36,7 +37,7 @@ from fctd.cli.options import (
     tell,
 )
 from fctd.cli.pictures import DRAWN, check_pictures
-from fctd.cli.steady import file_option
+from fctd.cli.steady import file_option, metadata_of_case
 from fctd.results.unit_systems import System, reworded, shown_unit
 from fctd.store.tables import write_table
 
@@ -103,7 +104,8 @@ def calibrate_command(
         refuse_sources(case, path, key, [measured, setup])
     if out is not None:
         refuse_sources(case, posterior_file(out), "--out", [measured, setup])
-    tell(case, warnings_of(case), strict=strict, units=units)
+    warnings = warnings_of(case)
+    tell(case, warnings, strict=strict, units=units)
     with messages.status("fitting") as status:
         if quiet:
             status.stop()
@@ -121,11 +123,13 @@ def calibrate_command(
         doing = "leaving out each row"
         _ = found.leave_one_out
     written: list[Path] = []
+    notes = [*notes_of(found)]
     try:
         if out is not None:
             written += write_calibrated(found, case_file, changes, out)
         if table is not None:
-            written += write_table(found.residuals, table, {})
+            metadata = metadata_of_case(found.case, warnings) | {"notes": [sentence for _, sentence in notes]}
+            written += write_table(found.residuals, table, metadata)
         if plot is not None:
             from fctd import plots  # needs matplotlib
 
@@ -133,6 +137,31 @@ def calibrate_command(
     finally:
         print_calibration(found, units)
     print_written(written)
+    finish(True, [code for code, _ in notes], strict)
+
+
+def notes_of(found: Calibration) -> Iterator[tuple[str, str]]:
+    """What is to be known of a fit: the code of each note, and a sentence in SI."""
+    if found.misfit > MISFIT:
+        yield (
+            "misfit",
+            (
+                f"warning: the residuals are {np.sqrt(found.misfit):.2g} times the noise of the sources: the noise is "
+                "declared too small, or the model lacks something; the intervals are too narrow"
+            ),
+        )
+    if found.scattered is not None and not found.scattered.fit.settled:
+        yield (
+            "unsettled",
+            (
+                "warning: the fit with scatter did not settle: values and intervals are near the best ones at most; "
+                "start it nearer (--prior, bounds), or fit without (--no-scatter)"
+            ),
+        )
+    for name, doubt in [*found.misread.items(), *found.doubts.items()]:
+        yield "doubt", f"with care: {name}: {doubt}"
+    for name, reason in found.left_out.items():
+        yield "not_fitted", f"not fitted: {name}: {reason}"
 
 
 def print_calibration(found: Calibration, units: System) -> None:
@@ -172,22 +201,8 @@ def print_calibration(found: Calibration, units: System) -> None:
         listed = ", ".join(f"{score:.1f} {name}".rstrip() for name, score in scores.items())
         kept = f"; kept: friction {max(scores, key=lambda name: scores[name])}" if found.scores else ""
         screen.print(f"score of the {days}, each left out (log density): {listed}{kept}", soft_wrap=True)
-    if found.misfit > MISFIT:
-        messages.print(
-            f"warning: the residuals are {np.sqrt(found.misfit):.2g} times the noise of the sources: the noise is "
-            "declared too small, or the model lacks something; the intervals are too narrow",
-            soft_wrap=True,
-        )  # fmt: skip
-    if found.scattered is not None and not found.scattered.fit.settled:
-        messages.print(
-            "warning: the fit with scatter did not settle: its values and intervals are near the best ones at most; "
-            "start it nearer (--prior, bounds), or fit without (--no-scatter)",
-            soft_wrap=True,
-        )  # fmt: skip
-    for name, doubt in [*found.misread.items(), *found.doubts.items()]:
-        messages.print(printable(f"with care: {name}: {reworded(doubt, units)}"), soft_wrap=True)
-    for name, reason in found.left_out.items():
-        messages.print(printable(f"not fitted: {name}: {reworded(reason, units)}"), soft_wrap=True)
+    for _, sentence in notes_of(found):
+        messages.print(printable(reworded(sentence, units)), soft_wrap=True)
     if found.predicted is not None:
         print_prediction(found.predicted, units)
 

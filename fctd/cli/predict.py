@@ -7,6 +7,7 @@ import typer
 
 from fctd.calibration.calibrate import predict
 from fctd.calibration.predict import posterior_file
+from fctd.case.doubts import warnings_of
 from fctd.case.text import printable
 from fctd.cli.calibrate import Units, print_prediction
 from fctd.cli.options import (
@@ -21,7 +22,7 @@ from fctd.cli.options import (
     screen,
 )
 from fctd.cli.pictures import DRAWN, check_pictures
-from fctd.cli.steady import check_table, file_option
+from fctd.cli.steady import check_table, file_option, metadata_of_case
 from fctd.store.tables import write_table
 
 
@@ -56,7 +57,8 @@ def predict_command(
         if quiet:
             status.stop()
         table = predict(case, rows, posterior, samples=samples, seed=seed, overrides=changes)
-    written = [] if out is None else write_table(table, out, {})
+    metadata = metadata_of_case(case, warnings_of(case))
+    written = [] if out is None else write_table(table, out, metadata)
     if plot is not None:
         from fctd import plots  # needs matplotlib
 

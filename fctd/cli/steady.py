@@ -113,10 +113,16 @@ def metadata_of(
 ) -> dict[str, Any]:
     """Metadata of a table: case, units, warnings, versions, and the rates used, positive downwards and clockwise."""
     rates = rates_of_all(case, kinds, **drive)
-    return {
-        "case": case.model_dump(mode="json"),
+    return metadata_of_case(case, warnings) | {
         "units": units,
         "rates": {kind: {"speed_m_s": r.speed, "spin_rad_s": r.spin} for kind, r in rates.items()},
+    }
+
+
+def metadata_of_case(case: Case, warnings: Sequence[InputWarning]) -> dict[str, Any]:
+    """Metadata of any table of a case: case, warnings and versions."""
+    return {
+        "case": case.model_dump(mode="json"),
         "warnings": [warning.as_metadata() for warning in warnings],
         "versions": versions(),
     }

@@ -52,7 +52,8 @@ def test_a_slack_off_above_the_rotating_weight() -> None:
     rows["trip_in 1100"] = rows["trip_in 1100"].with_reading("hookload", Range(*[rotating.high + 20e3] * 2))
     found = doubted(rows)
     assert list(found) == ["trip_in 1100"]
-    assert found["trip_in 1100"].startswith(f"a slack-off of {1e-3 * rotating.high + 20:.4g} kN above the rotating")
+    load = f"{1e-3 * rotating.high + 20:.6g} kN"
+    assert found["trip_in 1100"].startswith(f"a slack-off weight of {load} above the rotating")
 
 
 def test_a_pick_up_below_the_slack_off_where_nothing_turned() -> None:

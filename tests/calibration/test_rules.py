@@ -32,5 +32,5 @@ def test_short_strokes_and_locked_torque_are_left_out() -> None:
     found = left_out_by_rule(rows, {"": well()})
     assert set(found) == {2, 3}
     assert "shorter than 3 times the string's stretch" in found[2]
-    assert "1.5 kN m locked" in found[3]
+    assert "1.5 kN·m locked" in found[3]
     assert np.isfinite(stretch)

@@ -95,3 +95,15 @@ def test_a_pair_is_written_and_predicts(tmp_path: Path) -> None:
     assert again.wellbore.intervals[1].rotational_friction == pytest.approx(0.2, rel=1e-3)
     bands = fctd.predict(again, rows(case))
     assert bands["predicted"].tolist() == pytest.approx(found.fit.evaluation.value.tolist(), rel=1e-6)
+
+
+@pytest.mark.parametrize("name", ["friction.open.axial", "friction.open.rotational", "friction[1].axial"])
+def test_the_written_case_is_the_fitted_one_where_one_direction_alone_is_fitted(name: str, tmp_path: Path) -> None:
+    (tmp_path / "well.toml").write_text(WRITTEN, encoding="utf-8")
+    case = fctd.load_case(tmp_path / "well.toml")
+    found = calibrate(case, rows(case), [name], starts=1, scatter=False)
+    write_calibrated(found, tmp_path / "well.toml", {}, tmp_path / "new.toml")
+    written, fitted = fctd.load_case(tmp_path / "new.toml").wellbore.intervals[1], found.case.wellbore.intervals[1]
+    assert written.friction == pytest.approx(fitted.friction, rel=1e-5)
+    assert written.friction_around == pytest.approx(fitted.friction_around, rel=1e-5)
+    assert written.friction != written.friction_around

@@ -1,5 +1,7 @@
 """``fctd calibrate``: what it prints and writes, and how it refuses."""
 
+import json
+import re
 from pathlib import Path
 
 import pytest
@@ -98,9 +100,17 @@ def test_days_pumps_and_doubts_are_printed(
     for part in ("scatter.hookload", "scatter of days", "(pumps on", "1800", "(pumps off)", "rows of its day",
                  "score of the 3 days"):  # fmt: skip
         assert part in " ".join(printed.out.split())
-    assert "with care: b: a slack-off of" in printed.err
+    assert "with care: b: a slack-off weight of" in printed.err
     assert "did not settle" not in printed.err
     cli("predict", out, files[1])
+    table = tmp_path / "table.csv"
+    monkeypatch.setattr("fctd.cli.calibrate.warnings_of", lambda case: [])  # they would end it before
+    strict = cli("calibrate", *files, *options, "--table", table, "--units", "field", "--strict", code=1)
+    assert "strict: notes are errors (doubt, misfit)" in strict.err
+    assert re.search(r"a slack-off weight of [\d.]+ klbf above the rotating weight of [\d.]+ klbf", strict.err)
+    metadata = json.loads((tmp_path / "table.csv.json").read_text())
+    assert metadata["case"]["name"]
+    assert any(note.startswith("with care: b: a slack-off weight") for note in metadata["notes"])
     monkeypatch.setattr("fctd.calibration.scatter._CLOSE", 0.0)
     assert "the fit with scatter did not settle" in cli("calibrate", *files, *options).err
     printed = cli("calibrate", *files, *options, "--no-scatter", "--units", "field").out
