@@ -11,12 +11,14 @@ ATTEMPTS: tuple[Attempt, ...] = (
     (25, 0.2, 3.0, 1.0, 0.05),
     (60, 0.05, 3.0, 0.3, 0.02),
 )
+# Small steps of Newton's method find strings that are pushed so hard that they lie far from the guess.
+SMALL_STEPS: Attempt = (300, 0.05, 1.5, 0.3, 0.005)
 # Of a string that has no balance under any share of its loads, such as one a thousand times as stiff as steel, and of
 # a buckled string with the analytic force of the helix, which is added to the loads of a first balance.
 PATIENT: tuple[Attempt, ...] = (
     (80, 0.1, 1.5, 1.0, 0.02),
     (200, 0.1, 1.1, 1.0, 0.01),
-    (300, 0.05, 1.5, 0.3, 0.005),
+    SMALL_STEPS,
 )
 # Of a string without a hole, which may hang far from where it is laid: the lateral limit is that of a wall.
 IN_THE_OPEN: tuple[Attempt, ...] = ((300, 0.2, 3.0, 1.0, 1e9),)

@@ -5,7 +5,7 @@ loads says whether it lies still under those of the operation, whether its slack
 them a shape was found.
 """
 
-from fctd.steady.balance import ATTEMPTS, LARGEST_TURN, balance
+from fctd.steady.balance import ATTEMPTS, LARGEST_TURN, SMALL_STEPS, balance
 from fctd.steady.climb import LOW_FRICTION, Climb, Step, close, come_to_rest, keep, rolls
 from fctd.steady.continuation import CONVERGED, Pace
 from fctd.steady.problem import FULL, Problem, Share
@@ -14,9 +14,6 @@ from fctd.steady.problem import FULL, Problem, Share
 ITERATIONS = 100
 # With three trials the end is known to an eighth of what lies between the first balance and the loads.
 TRIALS = 3
-# Small steps of Newton's method find strings that are pushed so hard that they lie far from the guess: iterations,
-# first pseudo-time [s], growth, shrink, largest lateral step [m].
-PATIENT = (300, 0.05, 1.5, 0.3, 0.005)
 
 
 def bisect(problem: Problem) -> Climb:
@@ -97,7 +94,7 @@ def _is_found_patiently(problem: Problem, path: Climb, share: Share) -> bool:
     if problem.rates.spin != 0:
         return False
     problem.lay_guess(share)
-    code, done = problem.iterate(Pace(*PATIENT, LARGEST_TURN, problem.allowed, problem.allowed), share)
+    code, done = problem.iterate(Pace(*SMALL_STEPS, LARGEST_TURN, problem.allowed, problem.allowed), share)
     path.iterations += done
     return code == CONVERGED and _settles(problem, path, share)
 
