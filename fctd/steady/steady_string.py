@@ -44,7 +44,7 @@ class Equilibrium:
     """A steady string with the bit at one depth.
 
     status : loads are valid where ``status.has_loads``, also for ``locked_up``, ``under_resolved`` and ``unstable``;
-    message : details.
+    message : details.  method : the rung of the ladder (ladder.py) that found the string.
     shape : of a buckled string whose segments follow it, snaking or helix, else none; hookload_low, hookload_high
     [N] : of both shapes where they differ, else NaN; slack_off_spent_at, locked_up_at : shares of the friction (of the
     weight on bit where the message says so) at which the hook load is −block weight and at which no push suffices;
@@ -68,6 +68,7 @@ class Equilibrium:
     sum_r_mu_fn: float
     imbalance: float
     _shape: Shape = field(repr=False)
+    method: str
     shape: str = "none"
     hookload_low: float = float("nan")
     hookload_high: float = float("nan")
@@ -138,8 +139,12 @@ def steady_string(
     answer: Answer,
     code: int,
     negative: int,
+    method: str,
 ) -> Equilibrium:
-    """The steady string of an answer; code : of the iteration; negative : number of unstable modes."""
+    """The steady string of an answer.
+
+    code : of the iteration; negative : number of unstable modes; method : name of the rung that found it (ladder.py).
+    """
     kind, numbers = KINDS[operation], answer.numbers
     on_bottom = (case.bit.weight_on_bit, case.bit.torque) if kind.on_bottom else (0.0, 0.0)
     shape = Shape(
@@ -155,7 +160,7 @@ def steady_string(
     normal, r_ft, r_mu_n = shape.numbers[SUM_NORMAL : SUM_R_MU_FN + 1].tolist()
     return Equilibrium(
         case, operation, laid.string.bit_depth, status, message, int(iterations), hookload, torque,
-        indicator, drive, normal, r_ft, r_mu_n, imbalance, shape,
+        indicator, drive, normal, r_ft, r_mu_n, imbalance, shape, method,
     )  # fmt: skip
 
 

@@ -145,7 +145,7 @@ def test_a_tolerance_out_of_reach_is_exit_code_1(case_file: Path, tmp_path: Path
 def test_a_string_without_an_answer_is_exit_code_1_and_no_file(
     case_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:
-    monkeypatch.setattr("fctd.steady.equilibrium.IN_THE_OPEN", ((2, *IN_THE_OPEN[0][1:]),))
+    monkeypatch.setattr("fctd.steady.attempts.IN_THE_OPEN", ((2, *IN_THE_OPEN[0][1:]),))
     out = tmp_path / "fine.toml"
     options = ("--most", "40", "--out", out, "--set", "contact.enabled=false")
     captured = cli("refine", case_file, *options, code=1)

@@ -263,7 +263,7 @@ def test_long_segments_cannot_snake() -> None:
 
 def test_chart_rows_say_where_the_string_is_buckled(monkeypatch: pytest.MonkeyPatch) -> None:
     """A row of each kind: buckled, in tension, without a hole to buckle in, without an answer in five iterations."""
-    monkeypatch.setattr("fctd.steady.equilibrium.IN_THE_OPEN", ((5, *IN_THE_OPEN[0][1:]),))
+    monkeypatch.setattr("fctd.steady.attempts.IN_THE_OPEN", ((5, *IN_THE_OPEN[0][1:]),))
     stations, parts = [[0, 0, 0], [600, 0, 0]], [pipe(None, None, segment_length=10.0)]
     case = make_case(stations, parts, bit={"weight_on_bit": 1e5})
     down, up = torque_drag(case, ["drill_sliding", "trip_out"], [300.0]).to_dict("records")

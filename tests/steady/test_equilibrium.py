@@ -202,7 +202,7 @@ def test_a_straight_string_beyond_its_buckling_load_leaves_it_for_a_helix() -> N
 
 def test_a_string_without_a_balance_has_a_status(monkeypatch: pytest.MonkeyPatch) -> None:
     """A clamped string without walls in a slanting hole hangs down in a loop, which five iterations do not find."""
-    monkeypatch.setattr("fctd.steady.equilibrium.IN_THE_OPEN", ((5, *IN_THE_OPEN[0][1:]),))
+    monkeypatch.setattr("fctd.steady.attempts.IN_THE_OPEN", ((5, *IN_THE_OPEN[0][1:]),))
     case = make_case([[0, 60, 0], [300, 60, 0]], [pipe(None, None, segment_length=10.0)], contact={"enabled": False})
     point = equilibrium(case, "trip_in", 300.0)
     assert point.status == "max_iterations"

@@ -9,7 +9,8 @@ from fctd.mechanics import state
 from fctd.model.operations import steady_rates
 from fctd.model.section import section_of
 from fctd.results.status import SteadyStatus
-from fctd.steady.equilibrium import TOO_FINE, TOO_MUCH, Solver
+from fctd.steady.equilibrium import Solver
+from fctd.steady.ladder import TOO_FINE, TOO_MUCH
 from fctd.steady.steady_string import AT_FULL
 from tests.steady.buckled import HOLE, level_case, onset
 

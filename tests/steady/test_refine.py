@@ -165,7 +165,7 @@ def test_a_tolerance_that_is_not_reached_has_a_message() -> None:
 
 def test_a_string_without_a_balance_has_a_message(monkeypatch: pytest.MonkeyPatch) -> None:
     """Hanging sideways without walls, which five iterations do not find at any count."""
-    monkeypatch.setattr("fctd.steady.equilibrium.IN_THE_OPEN", ((5, *IN_THE_OPEN[0][1:]),))
+    monkeypatch.setattr("fctd.steady.attempts.IN_THE_OPEN", ((5, *IN_THE_OPEN[0][1:]),))
     case = make_case([[0, 60, 0], [300, 60, 0]], [pipe(None, None, segment_length=10.0)], contact={"enabled": False})
     found = fctd.refine(case, 0.01, "trip_in", 300.0, most=64)
     assert found.status == "no_answer"

@@ -15,7 +15,15 @@ def judged(times_onset: float, segment: float, code: int = CONVERGED, negative: 
     problem = problem_of(case.model_copy(update={"rig": case.rig.model_copy(update={"block_weight": 1e6})}))
     balance(problem, ATTEMPTS)
     return steady_string(
-        problem.case, problem.hole, problem.operation, problem.rates, problem.laid, problem.answer(1), code, negative
+        problem.case,
+        problem.hole,
+        problem.operation,
+        problem.rates,
+        problem.laid,
+        problem.answer(1),
+        code,
+        negative,
+        "newton",
     )
 
 

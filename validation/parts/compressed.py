@@ -101,9 +101,9 @@ class Watched(Solver):
         super().__init__(case)
         self.kept: list[tuple[Shape, Problem, Pose, int]] = []
 
-    def answer(self, problem: Problem, code: int, iterations: int, negative: int) -> Equilibrium:
+    def answer(self, problem: Problem, code: int, iterations: int, negative: int, method: str) -> Equilibrium:
         """The steady string of a problem in its pose, which is kept."""
-        point = super().answer(problem, code, iterations, negative)
+        point = super().answer(problem, code, iterations, negative, method)
         self.kept.append((point._shape, problem, problem.copy_pose(), problem.at_axis))
         return point
 

@@ -1,0 +1,158 @@
+"""The attempts of the ladder's rungs (ladder.py): each finds the string of a row with its loads, or leaves it to the
+next."""
+
+from dataclasses import replace
+
+from fctd.results.status import SteadyStatus
+from fctd.steady import post_buckling
+from fctd.steady.balance import ATTEMPTS, IN_THE_OPEN, LARGEST_TURN, PATIENT, balance
+from fctd.steady.bisection import bisect
+from fctd.steady.carried_shape import begin, carry
+from fctd.steady.climb import LARGEST_PUSH, SOUND_PUSH, climb, lock_up
+from fctd.steady.continuation import CONVERGED, Pace
+from fctd.steady.findings import Findings
+from fctd.steady.helical_force import add_helical_force
+from fctd.steady.post_buckling import Resolved, is_resolved
+from fctd.steady.problem import Problem
+from fctd.steady.steady_string import Equilibrium
+
+# Shapes of a buckled string whose hook loads differ by more than this share of its weight are both stated.
+APART = 0.01
+
+
+def in_the_open(problem: Problem, so_far: Findings) -> Equilibrium | None:
+    """A string that no wall holds, by Newton's method with long lateral steps."""
+    return so_far.answer(problem, *balance(problem, IN_THE_OPEN))
+
+
+def newton(problem: Problem, so_far: Findings) -> Equilibrium | None:
+    """The string in which Newton's method ends from the guess of a soft string, if it would stay there."""
+    so_far.code, iterations, negative = balance(problem, (*ATTEMPTS, *PATIENT) if so_far.is_analytic else ATTEMPTS)
+    so_far.first = so_far.answer(problem, so_far.code, iterations, negative)
+    so_far.is_stable = so_far.code == CONVERGED and negative == 0
+    return so_far.first if so_far.is_stable and not so_far.is_to_be_resolved else None
+
+
+def carried(problem: Problem, so_far: Findings) -> Equilibrium | None:
+    """A buckled string on fine segments that comes to rest in the shapes of the row above."""
+    assert so_far.above is not None  # the rung is due
+    begun = begin(so_far.case, so_far.above, problem.string.bit_depth, so_far.lay_finer)
+    point = None if begun is None else of_lower_energy(begun, so_far)
+    if point is not None and point.status == SteadyStatus.CONVERGED:
+        return point
+    so_far.lay_anew()
+    return None
+
+
+def resolved(problem: Problem, so_far: Findings) -> Equilibrium | None:
+    """A buckled string on segments that can bend as it does, followed from small loads."""
+    problem.at_axis = 1
+    coarse = climb(problem, most=SOUND_PUSH)
+    found = post_buckling.resolve(so_far.case, coarse, problem, so_far.lay_finer)
+    so_far.resolved = of_lower_energy(found, so_far)
+    lacking = SteadyStatus.UNDER_RESOLVED, SteadyStatus.MAX_ITERATIONS
+    return None if so_far.resolved.status in lacking else so_far.resolved
+
+
+def of_lower_energy(resolved: Resolved, so_far: Findings) -> Equilibrium:
+    """The answer of a resolved string: its helix, where it has one, with the hook loads of both shapes."""
+    problem, snaking, helix = resolved
+    point = so_far.end_of(problem, snaking)
+    if helix is None:
+        chosen = replace(point, shape="snaking")
+    else:
+        wound = point if helix is snaking else so_far.end_of(problem, helix)
+        chosen = replace(wound, shape="helix")
+        loads = [p.hookload for p in (point, wound) if p.answered]
+        if len(loads) == 2 and abs(loads[1] - loads[0]) > APART * problem.weight:
+            chosen = replace(chosen, hookload_low=min(loads), hookload_high=max(loads))
+    shapes = carry(resolved) if chosen.status == SteadyStatus.CONVERGED else None
+    return replace(chosen, iterations=chosen.iterations + so_far.first.iterations, carried=shapes)
+
+
+def as_resolved(_: Problem, so_far: Findings) -> Equilibrium | None:
+    """The string on the finest segments that it may have."""
+    return so_far.resolved
+
+
+def as_cut(_: Problem, so_far: Findings) -> Equilibrium | None:
+    """Newton's string on the segments of the case; without one they are laid out for the rungs that follow."""
+    so_far.lay_anew()
+    return so_far.first if so_far.is_stable else None
+
+
+def bisected(problem: Problem, so_far: Findings) -> Equilibrium | None:
+    """The string at its loads, or at the end of a few balances at less, if its segments are too long for more steps."""
+    problem.at_axis = 1
+    so_far.path = path = bisect(problem)
+    path.iterations += so_far.first.iterations
+    if path.pose is None:
+        so_far.is_coarse = bool(path.balances) and not so_far.is_analytic and not is_resolved(problem, path)
+        if not so_far.is_coarse:
+            return None
+        problem.put_pose(path.balances[-1].pose)
+    so_far.ended = so_far.end_of(problem, path)
+    return so_far.ended if so_far.ended.answered else None
+
+
+def patient(problem: Problem, so_far: Findings) -> Equilibrium | None:
+    """A string without a balance under any share of its loads, by Newton's method in small steps."""
+    problem.at_axis = 0
+    code, iterations, negative = balance(problem, PATIENT)
+    so_far.path.iterations += iterations
+    if code == CONVERGED and negative == 0:
+        return so_far.answer(problem, code, so_far.path.iterations, negative)
+    problem.at_axis = 1
+    return None
+
+
+def climbed(problem: Problem, so_far: Findings) -> Equilibrium | None:
+    """The string followed in small steps from the last balance at less than its loads, or else from the least loads."""
+    so_far.path = climb(problem, path=so_far.path if so_far.path.balances else None)
+    lock_up(problem, so_far.path)
+    so_far.ended = so_far.end_of(problem, so_far.path)
+    return so_far.ended if so_far.ended.answered else None
+
+
+def as_first_found(_: Problem, so_far: Findings) -> Equilibrium | None:
+    """Newton's string."""
+    return so_far.first
+
+
+def as_unstable(_: Problem, so_far: Findings) -> Equilibrium | None:
+    """Newton's string, in a balance that it would leave; the message says how its path ends."""
+    point, ended = so_far.first, so_far.ended
+    assert ended is not None  # a rung before has followed the string
+    return replace(point, status=SteadyStatus.UNSTABLE, message=ended.message, iterations=so_far.path.iterations)
+
+
+def as_under_resolved(_: Problem, so_far: Findings) -> Equilibrium | None:
+    """The string without loads of a path on segments that cannot bend; the message says which could."""
+    ended = so_far.ended
+    assert ended is not None  # a rung before has followed the string
+    message = f"{ended.message}; {ended._shape.buckling.shortfall(so_far.case.solver.buckling)}"
+    return replace(ended, status=SteadyStatus.UNDER_RESOLVED, message=message)
+
+
+def as_ended(_: Problem, so_far: Findings) -> Equilibrium | None:
+    """The string without loads at the end of its path."""
+    return so_far.ended
+
+
+def with_helix(problem: Problem, so_far: Findings) -> Equilibrium | None:
+    """The string that was found, with the wall force of a helix where its segments cannot bend into one."""
+    point, allowed = so_far.found, problem.allowed
+    added = add_helical_force(problem, Pace(*ATTEMPTS[0], LARGEST_TURN, allowed, allowed))
+    wound = so_far.answer(problem, CONVERGED, point.iterations + added.iterations, problem.unstable_modes())
+    if added.settled and not problem.added.any():
+        so_far.found = replace(wound, method=point.method)
+        return None
+    if added.settled:
+        return wound
+    pushed = -wound.hookload > so_far.case.rig.push
+    status = SteadyStatus.LOCKED_UP if pushed or added.endless else SteadyStatus.UNSTABLE
+    end = (
+        f"the push exceeds {LARGEST_PUSH:g} times the string's weight" if added.endless else "no steady shape was found"
+    )
+    spent = "slack-off is spent, and " if pushed else ""
+    return replace(wound.without_loads(), status=status, message=f"{spent}{end}")
