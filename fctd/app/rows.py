@@ -12,9 +12,10 @@ from fctd.case.load import Case
 from fctd.model.operations import rates_of_all
 from fctd.model.wellbore import Wellbore
 from fctd.results.status import SteadyStatus
-from fctd.steady.batch import Row, hole_of, solve_batch
+from fctd.steady.batch import Row, solve_batch
 from fctd.steady.equilibrium import Solver
 from fctd.steady.laid_string import LaidString
+from fctd.steady.laws import hole_of
 from fctd.steady.problem import Workspace
 from fctd.steady.steady_string import Equilibrium
 from fctd.store.limits import cores

@@ -18,8 +18,7 @@ from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.mechanics import state
-from fctd.mechanics.jit import entry, kernel
-from fctd.mechanics.law_names import CODES
+from fctd.mechanics.jit import entry, inlined, kernel
 from fctd.model.operations import SteadyRates
 from fctd.model.string_in_hole import damping_of, pressure_of
 from fctd.model.string_rows import EI, WEIGHT, fill_rows, find_contacts
@@ -30,6 +29,7 @@ from fctd.steady.block_thomas import negative_pivots
 from fctd.steady.continuation import CONVERGED, Pace, converge, limits
 from fctd.steady.first_guess import axis_at, find_owners, guess, piece_at
 from fctd.steady.laid_string import LaidString
+from fctd.steady.laws import Hole, hole_of, steady_laws
 from fctd.steady.problem import SEED, Workspace
 from fctd.steady.reading import (
     ALLOWED,
@@ -46,7 +46,7 @@ from fctd.steady.reading import (
     read_shape,
     read_top,
 )
-from fctd.steady.tangent import Steady, frictionless_tangent
+from fctd.steady.tangent import frictionless_tangent
 
 Part = TypeVar("Part")
 Found = TypeVar("Found")
@@ -54,6 +54,8 @@ Found = TypeVar("Found")
 ITERATIONS, TAU, GROWTH, SHRINK, SHIFT = ATTEMPTS[0]
 # Columns of the loads of a row.
 SPEED, SPIN, WEIGHT_ON_BIT, BIT_TORQUE, LOADS = 0, 1, 2, 3, 4
+
+laws_of = inlined(steady_laws)
 
 
 class Row(NamedTuple):
@@ -63,23 +65,6 @@ class Row(NamedTuple):
     friction: int
     operation: str
     rates: SteadyRates
-
-
-class Hole(NamedTuple):
-    """The hole with its sets of friction factors: a table of pieces for each of them.
-
-    with_wall : its geometry, or OPEN where the string does not touch it; bends : of ``Wellbore``; wall_exponent,
-    wall_reference, orthotropic : as in ``Laws``.
-    """
-
-    pieces: Array
-    geometry: int
-    with_wall: int
-    law: int
-    bends: Array
-    wall_exponent: float
-    wall_reference: float
-    orthotropic: bool | None
 
 
 class Strings(NamedTuple):
@@ -99,16 +84,6 @@ class Strings(NamedTuple):
     damping: Array
     pressure: Array
     per_metre: bool
-
-
-def hole_of(case: Case, holes: Sequence[Wellbore]) -> Hole:
-    """The hole of a case; holes : it with each set of friction factors, all of them orthotropic or none."""
-    geometry = holes[0].geometry
-    pieces = np.stack([hole.pieces for hole in holes]) if len(holes) > 1 else holes[0].pieces[None]
-    with_wall = geometry if case.contact.enabled else state.OPEN
-    law = CODES[case.contact.friction_law]
-    exponent, reference = map(float, case.contact.wall_law)
-    return Hole(pieces, geometry, with_wall, law, holes[0].bends, exponent, reference, holes[0].orthotropic)
 
 
 NO_ROOM = Workspace(0)
@@ -243,10 +218,8 @@ def solve_row(
     pressing, torque = loads[WEIGHT_ON_BIT], loads[BIT_TORQUE]
     i = piece_at(C, C.shape[0] - 1, bit_depth)
     _, _, _, bx, by, bz = axis_at(C, hole.geometry, i, bit_depth)
-    laws = Steady(
-        hole.with_wall, hole.law, 1.0, loads[SPEED], loads[SPIN], -pressing * bx, -pressing * by, -pressing * bz,
-        torque, 0, hole.wall_exponent, hole.wall_reference, 1.0, hole.orthotropic,
-    )  # fmt: skip
+    bit = -pressing * bx, -pressing * by, -pressing * bz
+    laws = laws_of(hole, 1.0, loads[SPEED], loads[SPIN], *bit, torque, 0)
     _, allowed = limits(S, n, bit_depth, pressing, fed, top_length)
     guess(S, n, C, laws, top_md, -pressing, SEED, G, P)
     find_owners(C, n, G, owner)

@@ -16,12 +16,13 @@ from fctd.model.operations import SteadyRates, steady_rates
 from fctd.model.string_in_hole import check_fit
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.results.buckling import NOT_BUCKLED
-from fctd.steady.batch import Hole, Row, hole_of, solve_batch
+from fctd.steady.batch import Row, solve_batch
 from fctd.steady.carried_shape import Carried
 from fctd.steady.continuation import CONVERGED
 from fctd.steady.findings import Findings
 from fctd.steady.ladder import NEWTON, look_for
 from fctd.steady.laid_string import LaidString
+from fctd.steady.laws import Hole, hole_of
 from fctd.steady.problem import Allowance, Problem, Workspace
 from fctd.steady.reading import SOLVED, Answer
 from fctd.steady.steady_string import Equilibrium, steady_string

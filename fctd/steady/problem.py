@@ -11,7 +11,6 @@ from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.mechanics import state
 from fctd.mechanics.contact import FACTOR, FACTOR_AROUND
-from fctd.mechanics.law_names import CODES
 from fctd.mechanics.query import WALL_COLUMNS, Walls
 from fctd.model.bent_housings import bent_joints, kink_of
 from fctd.model.operations import SteadyRates
@@ -21,6 +20,7 @@ from fctd.steady.block_thomas import SIZE, negative_pivots, solve_with_pivoting
 from fctd.steady.continuation import NOT_FINITE, UNSOUND, Pace, add_pseudo_mass, converge, limits, take_step
 from fctd.steady.first_guess import MD, NODE, find_owners, guess, lay_guess
 from fctd.steady.laid_string import LaidString
+from fctd.steady.laws import hole_of, steady_laws
 from fctd.steady.pose import PLACE, POSE, QUATERNION
 from fctd.steady.reading import ANSWER, SHAPE, STEPS, TOP, Answer, read_shape, read_top
 from fctd.steady.relaxation import Creep, relax
@@ -135,7 +135,6 @@ class Problem:
         self.kinks = np.zeros((self.n + 2, 4))
         self.kinks[:, 0] = 1.0
         self.at_axis = 0
-        self.wall_law = case.contact.wall_law
         self.added = np.zeros((self.n, 3))
         self.allowance = allowance
 
@@ -156,13 +155,10 @@ class Problem:
 
     def laws(self, share: Share = FULL) -> Steady:
         """Motion, friction and bit loads at a share of the loads."""
-        geometry = self.hole.geometry if self.case.contact.enabled else state.OPEN
         x, y, z = (-self.weight_on_bit * share.weight * self.laid.bit_axis).tolist()
-        return Steady(
-            geometry, CODES[self.case.contact.friction_law], share.friction, self.rates.speed, self.rates.spin, x, y, z,
-            self.bit_torque * share.weight, self.at_axis, *self.wall_law,
-            orthotropic=self.hole.orthotropic,
-        )  # fmt: skip
+        hole, (speed, spin) = hole_of(self.case, [self.hole]), self.rates
+        torque = self.bit_torque * share.weight
+        return steady_laws(hole, share.friction, speed, spin, x, y, z, torque, self.at_axis)
 
     def lay_guess(self, share: Share = FULL) -> None:
         """Lay the string where a soft string would press on the hole."""

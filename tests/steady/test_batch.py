@@ -5,9 +5,10 @@ import pytest
 
 from fctd.case.load import Case
 from fctd.model.operations import steady_rates
-from fctd.steady.batch import Batches, Row, hole_of, on_threads, solve_batch
+from fctd.steady.batch import Batches, Row, on_threads, solve_batch
 from fctd.steady.equilibrium import Solver
 from fctd.steady.laid_string import LaidString
+from fctd.steady.laws import hole_of
 from fctd.steady.problem import Workspace
 from fctd.steady.reading import HOOKLOAD, SHAPE, SOLVED, STEPS, SUM_NORMAL, Answer
 from tests.cases import make_case, pipe

@@ -10,8 +10,9 @@ import pandas as pd
 from fctd import Case, Equilibrium
 from fctd.case.operations import KINDS
 from fctd.model.operations import steady_rates
-from fctd.steady.batch import Row, hole_of, solve_batch
+from fctd.steady.batch import Row, solve_batch
 from fctd.steady.equilibrium import Solver
+from fctd.steady.laws import hole_of
 from fctd.steady.problem import Workspace
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts.plausible_rows import LESS, REPEATED, Drawn, drawn
