@@ -153,13 +153,11 @@ def solve_batch(case: Case, hole: Hole, rows: Sequence[Row], work: Workspace) ->
     which = np.array([(places[id(row.laid)], row.friction) for row in rows])
     bit = {False: (0.0, 0.0), True: (case.bit.weight_on_bit, case.bit.torque)}
     loads = np.array([(*row.rates, *bit[KINDS[row.operation].on_bottom]) for row in rows], float)
-    packed, w = _pack(case, list(laid.values())), work
+    packed = _pack(case, list(laid.values()))
     answers = np.zeros((len(rows), ANSWER))
     most = int(np.diff(packed.first).max()) + 1
     joints, contacts, walls = (np.zeros((len(rows), most, k)) for k in SHAPE_COLUMNS)
-    solve_rows(
-        hole, packed, which, loads, w.S, w.P, w.G, w.R, w.D, w.A, w.U, w.W, w.owner, answers, joints, contacts, walls
-    )
+    solve_rows(hole, packed, which, loads, work, answers, joints, contacts, walls)
     ends = [row.laid.string.segments + 1 for row in rows]
     return [Answer(answers[k], *(of[k, 1:end] for of in (joints, contacts, walls))) for k, end in enumerate(ends)]
 
@@ -181,12 +179,12 @@ def _pack(case: Case, laid: Sequence[LaidString]) -> Strings:
 
 
 @entry
-def solve_rows(hole, strings, which, loads, S, P, G, R, D, A, U, W, owner, answers, joints, contacts, walls):
+def solve_rows(hole, strings, which, loads, w, answers, joints, contacts, walls):
     """Fill answers (r, ANSWER), joints, contacts and walls (r, n + 1, ...) of rows.
 
-    which (r, 2) : string and set of friction factors; loads (r, LOADS); the other arrays : of ``Workspace``.
+    which (r, 2) : string and set of friction factors; loads (r, LOADS); w : the ``Workspace``.
     """
-    most = len(owner)
+    most = len(w.owner)
     kinks = np.zeros((most, 4))
     kinks[:, 0] = 1.0
     middle, radius, tributary = np.empty(most, np.bool_), np.empty(most), np.empty(most)
@@ -197,24 +195,25 @@ def solve_rows(hole, strings, which, loads, S, P, G, R, D, A, U, W, owner, answe
         n, long_segment = last - first, strings.long_segment[k]
         length, component = strings.length[first:last], strings.component[first:last]
         damping, pressure = strings.damping[first:last], strings.pressure[first:last]
-        fed = fill_rows(S, length, component, strings.sections, long_segment, damping, pressure, strings.per_metre)
+        fed = fill_rows(w.S, length, component, strings.sections, long_segment, damping, pressure, strings.per_metre)
         find_contacts(length, component, strings.sections, long_segment, middle, radius, tributary)
         for j in range(n):
             stiffness[j], weight[j] = strings.sections[component[j], EI], strings.sections[component[j], WEIGHT]
         pipe = Pipe(stiffness[:n], weight[:n], radius[:n], length, middle[:n])
         solve_row(
-            S, n, P, kinks, hole.pieces[which[r, 1]], hole, pipe, fed, length[0] if long_segment else 0.0,
-            strings.top_md, strings.bit_depth[k], strings.sections, component, loads[r], G, R, D, A, U, W, owner,
-            answers[r], joints[r, : n + 1], contacts[r, : n + 1], walls[r, 1 : n + 1],
+            w, n, kinks, hole.pieces[which[r, 1]], hole, pipe, fed, length[0] if long_segment else 0.0, strings.top_md,
+            strings.bit_depth[k], strings.sections, component, loads[r], answers[r], joints[r, : n + 1],
+            contacts[r, : n + 1], walls[r, 1 : n + 1],
         )  # fmt: skip
 
 
 @kernel
 def solve_row(
-    S, n, P, kinks, C, hole, pipe, fed, top_length, top_md, bit_depth, sections, component, loads, G, R, D, A, U, W,
-    owner, answer, joints, contacts, walls,
+    w, n, kinks, C, hole, pipe, fed, top_length, top_md, bit_depth, sections, component, loads, answer, joints,
+    contacts, walls,
 ):  # fmt: skip
-    """Fill the answer of one string, whose constants are in S; its pose is then in P."""
+    """Fill the answer of one string, whose constants are in the workspace; its pose is then there too."""
+    S, P, G, R, D, A, U, W, owner = w
     pressing, torque = loads[WEIGHT_ON_BIT], loads[BIT_TORQUE]
     i = piece_at(C, C.shape[0] - 1, bit_depth)
     _, _, _, bx, by, bz = axis_at(C, hole.geometry, i, bit_depth)

@@ -1,7 +1,7 @@
 """A string at one depth under the loads of one operation: arrays of the solver, and what its methods start from."""
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,22 +41,43 @@ SEED = 1e-4
 SLOWEST = 100.0
 
 
-class Workspace:
-    """The solver's arrays, allocated once for a whole chart.
+class Arrays(NamedTuple):
+    """The solver's arrays as compiled code takes them, for n segments at most.
 
-    S : engine's buffer, for the constants of bodies and joints; P (n + 1, POSE) pose; G (n + 1, NODE) guess;
-    R (n + 1, 6) imbalance; D, A, U (n + 1, 6, 6) tangent; W elimination; owner (n + 2,) pieces of the hole.
+    S : engine's buffer, for the constants of bodies and joints; P (n + 2, POSE) pose; G (n + 2, NODE) guess;
+    R (n + 2, 6) imbalance; D, A, U (n + 2, 6, 6) tangent; W elimination; owner (n + 2,) pieces of the hole.
     """
 
-    def __init__(self, segments: int) -> None:
+    S: Array
+    P: Array
+    G: Array
+    R: Array
+    D: Array
+    A: Array
+    U: Array
+    W: Array
+    owner: NDArray[np.int64]
+
+
+class Workspace(Arrays):
+    """The solver's arrays, allocated once for a whole chart."""
+
+    __slots__ = ()
+
+    def __new__(cls, segments: int) -> Self:
+        """Arrays for a number of segments; of none, they only wait for ``for_segments``, since S is large."""
         rows = segments + 2
-        self.segments = segments
-        # The engine's buffer is large: one of no segments only waits for ``for_segments``.
-        self.S = state.new_state(segments) if segments else np.zeros(0)
-        self.P, self.G, self.R = np.zeros((rows, POSE)), np.zeros((rows, NODE)), np.zeros((rows, SIZE))
-        self.D, self.A, self.U = (np.zeros((rows, SIZE, SIZE)) for _ in range(3))
-        self.W = np.zeros((rows, SIZE, SIZE + 1))
-        self.owner = np.zeros(rows, np.int64)
+        D, A, U = (np.zeros((rows, SIZE, SIZE)) for _ in range(3))
+        return super().__new__(
+            cls, state.new_state(segments) if segments else np.zeros(0), np.zeros((rows, POSE)),
+            np.zeros((rows, NODE)), np.zeros((rows, SIZE)), D, A, U, np.zeros((rows, SIZE, SIZE + 1)),
+            np.zeros(rows, np.int64),
+        )  # fmt: skip
+
+    @property
+    def segments(self) -> int:
+        """The number of segments for which there is room."""
+        return len(self.owner) - 2
 
     def for_segments(self, segments: int) -> "Workspace":
         """This, or a larger one where it is too small; the depths of a chart rise."""

@@ -9,7 +9,7 @@ from fctd.steady.balance import ATTEMPTS, balance
 from fctd.steady.climb import creep_of
 from fctd.steady.continuation import CONVERGED
 from fctd.steady.equilibrium import Solver
-from fctd.steady.problem import FULL, Problem, Share
+from fctd.steady.problem import FULL, Problem, Share, Workspace
 from fctd.steady.tangent import JOINT_TENSION, JOINT_TORQUE
 from tests.cases import make_case, pipe
 from tests.steady.buckled import level_case, problem_of
@@ -107,3 +107,11 @@ def test_the_weight_is_that_of_the_whole_string(long: bool) -> None:
     assert string.long_segment == long
     assert problem.weight == pytest.approx(float(string.of("weight") @ string.length) + 1e4, rel=1e-12)
     assert problem.allowed == pytest.approx(1e-7 * problem.weight, rel=1e-12)
+
+
+def test_a_workspace_has_room_for_its_segments_or_makes_way_for_a_larger_one() -> None:
+    work = Workspace(20)
+    assert (work.segments, len(work.P), len(work.owner)) == (20, 22, 22)
+    assert work.for_segments(20) is work
+    assert Workspace(0).for_segments(20).segments >= 20
+    assert Workspace(0).for_segments(state.MAX_SEGMENTS).segments == state.MAX_SEGMENTS
