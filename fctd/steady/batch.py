@@ -213,7 +213,7 @@ def solve_row(
     contacts, walls,
 ):  # fmt: skip
     """Fill the answer of one string, whose constants are in the workspace; its pose is then there too."""
-    S, P, G, R, D, A, U, W, owner = w
+    S, P, G, R, D, A, U, _W, owner = w
     pressing, torque = loads[WEIGHT_ON_BIT], loads[BIT_TORQUE]
     i = piece_at(C, C.shape[0] - 1, bit_depth)
     _, _, _, bx, by, bz = axis_at(C, hole.geometry, i, bit_depth)
@@ -223,7 +223,7 @@ def solve_row(
     guess(S, n, C, laws, top_md, -pressing, SEED, G, P)
     find_owners(C, n, G, owner)
     pace = Pace(ITERATIONS, TAU, GROWTH, SHRINK, SHIFT, LARGEST_TURN, allowed, allowed)
-    code, steps, _ = converge(S, n, P, kinks, C, owner, laws, pace, R, D, A, U, W, TAU)
+    code, steps, _ = converge(w, n, kinks, C, laws, pace, TAU)
     if code != CONVERGED:
         return
     # The forces out of balance are still in R.

@@ -106,13 +106,15 @@ def take_step(P, n, X, share):
 
 
 @entry
-def converge(S, n, P, kinks, C, owner, laws, pace, R, D, A, U, W, tau):
-    """Iterate from pose P towards balance; returns status, iterations and the last pseudo-time.
+def converge(w, n, kinks, C, laws, pace, tau):
+    """Iterate from the pose towards balance; returns status, iterations and the last pseudo-time.
 
-    R then contains the forces and moments out of balance and, in row 0, the reactions of the top drive.
+    w : the ``Workspace``; its R then contains the forces and moments out of balance and, in row 0, the reactions of the
+    top drive.
     ``UNSOUND`` : the elimination met a near singular block; ``assemble`` and ``add_pseudo_mass`` build the system
     again for another solver.
     """
+    S, P, _G, R, D, A, U, W, owner = w
     before = np.inf
     share = 0.0
     for k in range(pace.iterations):

@@ -200,10 +200,7 @@ class Problem:
         w, n, pieces, kinks, laws = self.work, self.n, self.hole.pieces, self.kinks, self.laws(share)
         done, tau = 0, pace.tau
         while True:
-            code, k, tau = converge(
-                w.S, n, w.P, kinks, pieces, w.owner, laws, pace._replace(iterations=pace.iterations - done),
-                w.R, w.D, w.A, w.U, w.W, tau,
-            )  # fmt: skip
+            code, k, tau = converge(w, n, kinks, pieces, laws, pace._replace(iterations=pace.iterations - done), tau)
             done += k
             if code != UNSOUND:
                 return code, done
@@ -219,11 +216,9 @@ class Problem:
 
     def relax(self, creep: Creep, share: Share = FULL) -> tuple[int, int]:
         """Let the string come to rest from the pose, within the allowance; returns code and iterations."""
-        w, most = self.work, int(self.allowance.left // self.n)
-        code, done = relax(
-            w.S, self.n, w.P, self.kinks, self.hole.pieces, w.owner, self.laws(share),
-            creep._replace(iterations=min(creep.iterations, most)), w.R, w.D, w.A, w.U, w.W,
-        )  # fmt: skip
+        most = int(self.allowance.left // self.n)
+        limited = creep._replace(iterations=min(creep.iterations, most))
+        code, done = relax(self.work, self.n, self.kinks, self.hole.pieces, self.laws(share), limited)
         self.allowance.left -= done * self.n
         return code, done
 

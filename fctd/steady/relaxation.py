@@ -145,11 +145,13 @@ def move_round(S, n, P, C, owner, geometry, X, share):
 
 
 @entry
-def relax(S, n, P, kinks, C, owner, laws, creep, R, D, A, U, W):
-    """Let pose P come to rest; returns status and iterations.
+def relax(w, n, kinks, C, laws, creep):
+    """Let the pose come to rest; returns status and iterations.
 
-    R then contains the forces and moments out of balance and, in row 0, the reactions of the top drive.
+    w : the ``Workspace``; its R then contains the forces and moments out of balance and, in row 0, the reactions of the
+    top drive.
     """
+    S, P, _G, R, D, A, U, W, owner = w
     places, arcs = np.zeros((n + 1, PLACES)), np.zeros((n + 1, 3))
     tau = creep.tau
     for k in range(creep.iterations):

@@ -55,11 +55,10 @@ class Chain:
 
     def converge(self, pace: Pace, tau: float | None = None) -> tuple[int, int, float]:
         """Status, iterations and last pseudo-time."""
-        w = self.work
+        begun = pace.tau if tau is None else tau
         found: tuple[int, int, float] = converge(
-            w.S, SEGMENTS, w.P, self.kinks, self.hole.pieces, w.owner, self.laws, pace,
-            w.R, w.D, w.A, w.U, w.W, pace.tau if tau is None else tau,
-        )  # fmt: skip
+            self.work, SEGMENTS, self.kinks, self.hole.pieces, self.laws, pace, begun
+        )
         return found
 
 
