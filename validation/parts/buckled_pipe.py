@@ -48,7 +48,8 @@ class Rig:
 
     length, segment [m]; stations : (md, inclination, azimuth) [m, deg] from the rig's top on, by default a level hole;
     friction : factor, or factors of stretches that end at depths [m] below the rig's top;
-    held : a bit as wide as the hole holds the lower end on the axis, without a moment; otherwise it lies on the wall.
+    held : a bit as wide as the hole holds the lower end on the axis, without a moment; otherwise it lies on the wall;
+    hole : diameter [m]; ``pipe`` is the pipe with its clearance.
     """
 
     def __init__(
@@ -59,14 +60,16 @@ class Rig:
         friction: float | list[tuple[float, float]] = 0.0,
         held: bool = True,
         wall: float = WALL,
+        hole: float = HOLE,
     ) -> None:
         stations = stations or [(0.0, 90.0, 0.0), (length, 90.0, 0.0)]
         above = (0.0, *stations[0][1:])
         shifted = [above, *((md + BELOW_SURFACE, inc, azi) for md, inc, azi in stations)]
         stretches = friction if isinstance(friction, list) else [(length, friction)]
-        bit = [{**PIPE, "name": "bit", "length": 0.5 * segment, "segments": 1, "contact_diameter": HOLE}]
-        pipe = {**PIPE, "length": length + 1.0, "segment_length": segment}
-        self.length, self.segment, self.wall = length, segment, wall
+        bit = [{**PIPE, "name": "bit", "length": 0.5 * segment, "segments": 1, "contact_diameter": hole}]
+        string = {**PIPE, "length": length + 1.0, "segment_length": segment}
+        self.length, self.segment, self.wall, self.diameter = length, segment, wall, hole
+        self.pipe = BUCKLING._replace(clearance=0.5 * (hole - PIPE["outer_diameter"]))
         self.case = Case.model_validate(
             {
                 "name": "buckled pipe",
@@ -76,10 +79,10 @@ class Rig:
                     "geometry": "arcs",
                     "stiffness_per_length": wall,
                     "intervals": [
-                        {"to_md": BELOW_SURFACE + to, "diameter": HOLE, "friction": mu} for to, mu in stretches
+                        {"to_md": BELOW_SURFACE + to, "diameter": hole, "friction": mu} for to, mu in stretches
                     ],
                 },
-                "string": {"top_md": BELOW_SURFACE, "components": [*(bit if held else []), pipe]},
+                "string": {"top_md": BELOW_SURFACE, "components": [*(bit if held else []), string]},
                 "mud": {"density": MUD, "viscosity": 0},
                 "rig": {"block_weight": 1e9},  # it pushes as much as the pipe needs
             }
@@ -112,8 +115,8 @@ class Rig:
         high, right = hole_frame(self.solver.hole.at(md)[1])
         at = angle(above)[:, None]
         # The ends come off the wall within half a wave.
-        room = np.minimum(1.0, np.minimum(md - md[0], above) / (1.5 * BUCKLING.wave))[:, None]
-        nodes[:, OFFSET : OFFSET + 3] = BUCKLING.clearance * room * (np.sin(at) * right - np.cos(at) * high)
+        room = np.minimum(1.0, np.minimum(md - md[0], above) / (1.5 * self.pipe.wave))[:, None]
+        nodes[:, OFFSET : OFFSET + 3] = self.pipe.clearance * room * (np.sin(at) * right - np.cos(at) * high)
         self.problem.lay_nodes()
 
     def wind(self, force: float, compression: Along | None = None) -> None:
@@ -145,7 +148,9 @@ class Rig:
         problem.weight_on_bit = force
         code, iterations = problem.relax(CREEP._replace(force=problem.allowed, moment=problem.allowed))
         if code != CONVERGED:
-            raise UnsettledError(f"no balance at {force / BUCKLING.onset:.4g} times the onset, {iterations} iterations")
+            raise UnsettledError(
+                f"no balance at {force / self.pipe.onset:.4g} times the onset, {iterations} iterations"
+            )
         return self.solver.answer(problem, code, iterations, problem.unstable_modes())
 
     def rest_as_rod(self, force: float) -> pd.DataFrame:
@@ -153,7 +158,7 @@ class Rig:
         count, hole = round(self.length / self.segment), self.solver.hole
         rod = rest(
             hole, SECTION, BELOW_SURFACE, BELOW_SURFACE + self.length, count, self.wall, ROD_DAMPING, ROD_TOLERANCE,
-            ROD_LONGEST, Bit(force, 0.5 * HOLE), self.nodes(count),
+            ROD_LONGEST, Bit(force, 0.5 * self.diameter), self.nodes(count),
         )  # fmt: skip
         walls = hole.walls(rod.nodes)
         high, right = hole_frame(hole.at(walls.md)[1])
