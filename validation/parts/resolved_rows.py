@@ -7,6 +7,7 @@ import pandas as pd
 
 from fctd import Case, Equilibrium, equilibrium
 from references.buckling import helix, mitchell
+from references.buckling.onset import Pipe
 from validation.harness.study import Check, Rows, table_of_rows
 from validation.parts.buckled_pipe import BELOW_SURFACE, BUCKLING, MUD, OPERATION, PIPE, SECTION, Rig, turns_of, wave_of
 
@@ -38,7 +39,7 @@ def level_rows(waved: float, wound: float) -> Rows:
         if point.shape == "helix" and turns is not None:
             found, exact = turns.wall_force, helix.wall_force(BUCKLING, force)
         elif point.shape == "snaking" and wave is not None:
-            found, exact = wave.amplitude, _amplitude(force, wave.half_wave)
+            found, exact = wave.amplitude, amplitude_at(BUCKLING, force, wave.half_wave)
         yield {
             "times_onset": ratio, "status": str(point.status), "shape": point.shape,
             "measured": "wall force, N/m" if point.shape == "helix" else "amplitude, °",
@@ -122,9 +123,9 @@ def checks(tables: dict[str, pd.DataFrame]) -> list[Check]:
     return found
 
 
-def _amplitude(force: float, half_wave: float) -> float:
-    """Amplitude of snaking of such half waves [deg]; NaN where there is none."""
+def amplitude_at(pipe: Pipe, force: float, half_wave: float) -> float:
+    """Amplitude of snaking of half waves of a length [m] by Mitchell's equation [deg]; NaN where there is none."""
     try:
-        return float(np.degrees(mitchell.snaking(BUCKLING, force, half_wave).amplitude))
+        return float(np.degrees(mitchell.snaking(pipe, force, half_wave).amplitude))
     except mitchell.NoShapeError:
         return float("nan")
