@@ -295,7 +295,7 @@ def run(context: Context) -> Outcome:
             "pushed": "Force through a helix that slides, with the tan law of the planning tools",
             "hanging": "Shortening of vertical tubing by its helix",
             "convergence": "Segment length, against the value of none",
-            "half_waves": "Half waves that a level pipe keeps, over that of least energy, with the band of the equation",
+            "half_waves": "Half waves that a level pipe keeps, over that of least energy, and those of the equation",
             "rows": "Rows of a level pipe of long segments, with its buckling resolved",
             "half_waves_of_rows": "Snaking of such rows at the half wave that each takes",
             "analytic_pushed": "Force through a level pipe of long segments, with and without the helix's wall force",

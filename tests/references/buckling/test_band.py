@@ -1,4 +1,4 @@
-"""Half waves in which snaking stands: the shift is neutral, the least energy stands, and near the onset Eckhaus' band."""
+"""Half waves in which snaking stands: the shift is neutral, the least energy stands, Eckhaus' band near the onset."""
 
 import numpy as np
 import pytest
@@ -30,8 +30,10 @@ def test_band_encloses_the_least_energy() -> None:
     shortest, longest = band(PIPE, force)
     best = snaking(PIPE, force).length
     assert shortest < best < longest
-    assert stands(PIPE, force, 1.005 * shortest) and not stands(PIPE, force, 0.995 * shortest)
-    assert stands(PIPE, force, 0.995 * longest) and not stands(PIPE, force, 1.005 * longest)
+    assert stands(PIPE, force, 1.005 * shortest)
+    assert not stands(PIPE, force, 0.995 * shortest)
+    assert stands(PIPE, force, 0.995 * longest)
+    assert not stands(PIPE, force, 1.005 * longest)
 
 
 def test_band_near_the_onset() -> None:
