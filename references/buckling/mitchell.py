@@ -148,6 +148,15 @@ def wall_contact_limit() -> float:
     return float(brentq(least, 1.2, 2.2, xtol=1e-4))
 
 
+def helix_contact_limit() -> float:
+    """Least F over the onset at which the helix of least energy presses on the wall everywhere."""
+
+    def least(ratio: float) -> float:
+        return float(helix(UNIT, ratio * UNIT.onset).wall_force.min())
+
+    return float(brentq(least, 1.25, 1.5, xtol=1e-4))
+
+
 def equal_energy_ratio() -> float:
     """F over the onset above which the helix has less energy than snaking."""
 

@@ -1,5 +1,6 @@
 """Buckled strings as a user asks for them: rows of cases with long segments, which the engine cuts as it needs."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ from validation.parts.buckled_pipe import BELOW_SURFACE, BUCKLING, MUD, OPERATIO
 
 JOINT = 9.0  # [m]: a joint of drill pipe, which cannot bend as the waves do
 LENGTH = 300.0  # [m]
+BEYOND = 1.1  # of the lock-up length
 # A horizontal well: vertical to 900 m, build of 4.5° in 30 m, level from 1500 to 2700 m.
 BUILT = [[900.0 + 30 * k, 4.5 * k, 0.0] for k in range(21)]
 DEPTH, CASED, WEIGHT_ON_BIT, WALL = 2700.0, 1500.0, 88.96e3, 1e6
@@ -47,21 +49,23 @@ def level_rows(waved: float, wound: float) -> Rows:
         }  # fmt: skip
 
 
-def pushed_row(times_onset: float, friction: float, share: float) -> pd.DataFrame:
-    """The row of a helix that slides through a share of its lock-up length."""
+@table_of_rows
+def pushed_rows(times_onset: float, friction: float, shares: Sequence[float]) -> Rows:
+    """Rows of a helix that slides through shares of its lock-up length, the last of them more than all of it.
+
+    Its push at the top is that of the reciprocal law, and it locks up at the reciprocal of the share times the friction.
+    """
     force = times_onset * BUCKLING.onset
-    length = share * helix.lock_up_length(BUCKLING, force, friction)
-    point = resolved(Rig(length, JOINT, friction=friction), force)
-    law = helix.pushed_force(BUCKLING, force, friction, length)
-    return pd.DataFrame(
-        [
-            {
-                "length_m": length, "status": str(point.status), "shape": point.shape, "push_kN": -point.hookload / 1e3,
-                "reciprocal_kN": law / 1e3, "off_percent": 100 * (-point.hookload / law - 1),
-                "push_snaking_kN": -point.hookload_high / 1e3,
-            }
-        ]
-    )  # fmt: skip
+    for share in (*shares, BEYOND):
+        length = share * helix.lock_up_length(BUCKLING, force, friction)
+        point = resolved(Rig(length, JOINT, friction=friction), force)
+        law = helix.pushed_force(BUCKLING, force, friction, length)
+        yield {
+            "share_of_lock_up_percent": 100 * share, "length_m": length, "status": str(point.status),
+            "shape": point.shape, "push_kN": -point.hookload / 1e3, "reciprocal_kN": law / 1e3,
+            "off_percent": 100 * (-point.hookload / law - 1), "push_snaking_kN": -point.hookload_high / 1e3,
+            "locked_up_at": point.locked_up_at, "locked_up_off_percent": 100 * (point.locked_up_at * share - 1),
+        }  # fmt: skip
 
 
 def well_rows() -> pd.DataFrame:
@@ -112,11 +116,42 @@ def checks(tables: dict[str, pd.DataFrame]) -> list[Check]:
         for ratio, off in zip(rows["times_onset"], rows["off_percent"], strict=True)
     ]
     if "well" in tables:
-        row, well = tables["pushed_row"].iloc[0], tables["well"]
+        pushed, well = tables["pushed_row"], tables["well"]
         off = float(well["off_percent_of_weight"].abs().iloc[-1])
         halved = float(well["off_percent_of_weight"].abs().iloc[-3])
         found += [
-            Check("row of the helix that slides, push", abs(row["off_percent"]), 3.0, "at_most", "%", "reciprocal law"),
+            Check(
+                "row of the helix that slides, push",
+                abs(pushed["off_percent"].iloc[0]),
+                3.0,
+                "at_most",
+                "%",
+                "reciprocal law",
+            ),
+            Check(
+                "rows of the helix that slides, largest difference of the push",
+                float(pushed["off_percent"].iloc[:-1].abs().max()),
+                3.0,
+                "at_most",
+                "%",
+                "reciprocal law",
+            ),
+            Check(
+                "rows of the helix that slides, largest difference of the lock-up friction",
+                float(pushed["locked_up_off_percent"].abs().max(skipna=False)),
+                3.0,
+                "at_most",
+                "%",
+                "reciprocal law",
+            ),
+            Check(
+                "push of a row of the helix beyond its lock-up length",
+                float(np.isfinite(pushed["push_kN"].iloc[-1])),
+                0.0,
+                "at_most",
+                "",
+                "reciprocal law",
+            ),
             Check("well, resolved against the finest segments", off, 1.0, "at_most", "%", "of the string's weight"),
             Check("well, finest segments doubled", halved, 1.0, "at_most", "%", "of the string's weight"),
         ]

@@ -14,7 +14,7 @@ import pandas as pd
 from references.buckling import helix, mitchell
 from references.buckling.onset import FREE_END, half_wave, snaking_limit
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
-from validation.parts import analytic_helix, half_waves, resolved_rows
+from validation.parts import analytic_helix, half_waves, resolved_rows, wall_limits
 from validation.parts.buckled_pipe import BUCKLING, Rig, Turns, UnsettledError, energy, middle, turns_of, wave_of
 
 Number = Any  # a number, or a column of them
@@ -41,7 +41,7 @@ ROD_LENGTH, ROD_SEGMENT, ROD_WAVES = 100.0, 1.0, 8  # [m], [m], half waves
 
 # Captions of the tables of the full run.
 FULL = {
-    "pushed_row": "A row of the helix that slides",
+    "pushed_row": "Rows of the helix that slides, the last one beyond its lock-up length",
     "well": "Hook load of a horizontal well that slides, against the segment length; the last row is resolved",
     "analytic_well": "Hook load of that well on long segments, with and without the helix's wall force",
     "second_route": "One string by a second route",
@@ -269,7 +269,7 @@ def run(context: Context) -> Outcome:
     ]
     if not context.quick:
         parts += [
-            ("pushed_row", lambda: resolved_rows.pushed_row(PUSHED, FRICTION, SHARES[0])),
+            ("pushed_row", lambda: resolved_rows.pushed_rows(PUSHED, FRICTION, SHARES)),
             ("well", resolved_rows.well_rows),
             ("analytic_well", analytic_helix.well_rows),
             ("second_route", second_route),
@@ -351,7 +351,8 @@ def _checks(tables: dict[str, pd.DataFrame]) -> list[Check]:
         order = float(np.log2((coarse - middling) / (middling - fine)))
         name = f"order of convergence, {column.split('_')[0]}"
         checks.append(Check(name, order, (1.7, 2.5), "within", "", "a chain of rigid segments: second order"))
-    checks += resolved_rows.checks(tables) + half_waves.checks(tables) + analytic_helix.checks(tables)
+    for part in (resolved_rows, half_waves, wall_limits, analytic_helix):
+        checks += part.checks(tables)
     if "second_route" in tables:
         routes = tables["second_route"].set_index(["route", "times_onset"])
         other, own = routes.loc["PyElastica"], routes.loc["engine"]
