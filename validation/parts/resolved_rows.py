@@ -23,9 +23,9 @@ WELL_FRICTION = 0.19
 WELL_SEGMENTS = (20.0, 10.0, 5.0, 2.5, 1.25)  # [m]
 
 
-def resolved(rig: Rig, force: float) -> Equilibrium:
-    """The row of a rig's case with its buckling resolved, with a weight on bit [N]."""
-    changes = {"bit": {"weight_on_bit": force}, "solver": {"buckling": "resolve"}}
+def resolved(rig: Rig, force: float, **changes: Any) -> Equilibrium:
+    """The row of a rig's case with its buckling resolved, with a weight on bit [N] and changed tables of the case."""
+    changes |= {"bit": {"weight_on_bit": force}, "solver": {"buckling": "resolve"}}
     case = Case.model_validate(rig.case.model_dump(exclude_defaults=True) | changes)
     return equilibrium(case, OPERATION, BELOW_SURFACE + rig.length)
 
@@ -49,22 +49,39 @@ def level_rows(waved: float, wound: float) -> Rows:
         }  # fmt: skip
 
 
-@table_of_rows
-def pushed_rows(times_onset: float, friction: float, shares: Sequence[float]) -> Rows:
-    """Rows of a helix that slides through shares of its lock-up length, the last of them more than all of it.
+def pushed_row(times_onset: float, friction: float, share: float) -> pd.DataFrame:
+    """The row of a helix that slides through a share of its lock-up length."""
+    force = times_onset * BUCKLING.onset
+    length = share * helix.lock_up_length(BUCKLING, force, friction)
+    point = resolved(Rig(length, JOINT, friction=friction), force)
+    law = helix.pushed_force(BUCKLING, force, friction, length)
+    return pd.DataFrame(
+        [
+            {
+                "length_m": length, "status": str(point.status), "shape": point.shape, "push_kN": -point.hookload / 1e3,
+                "reciprocal_kN": law / 1e3, "off_percent": 100 * (-point.hookload / law - 1),
+                "push_snaking_kN": -point.hookload_high / 1e3,
+            }
+        ]
+    )  # fmt: skip
 
-    Its push at the top is that of the reciprocal law, and it locks up at the reciprocal of the share times the friction.
+
+@table_of_rows
+def locked_rows(times_onset: float, friction: float, shares: Sequence[float]) -> Rows:
+    """Rows of a helix that no block pushes, through shares of its lock-up length, the last more than all of it.
+
+    The push at the top is that of the reciprocal law, and at the friction over the share none suffices.
     """
     force = times_onset * BUCKLING.onset
     for share in (*shares, BEYOND):
         length = share * helix.lock_up_length(BUCKLING, force, friction)
-        point = resolved(Rig(length, JOINT, friction=friction), force)
+        point = resolved(Rig(length, JOINT, friction=friction), force, rig={"block_weight": 0.0})
         law = helix.pushed_force(BUCKLING, force, friction, length)
         yield {
             "share_of_lock_up_percent": 100 * share, "length_m": length, "status": str(point.status),
             "shape": point.shape, "push_kN": -point.hookload / 1e3, "reciprocal_kN": law / 1e3,
-            "off_percent": 100 * (-point.hookload / law - 1), "push_snaking_kN": -point.hookload_high / 1e3,
-            "locked_up_at": point.locked_up_at, "locked_up_off_percent": 100 * (point.locked_up_at * share - 1),
+            "off_percent": 100 * (-point.hookload / law - 1), "locked_up_at": point.locked_up_at,
+            "reciprocal_locked_up_at": 1 / share, "locked_up_off_percent": 100 * (point.locked_up_at * share - 1),
         }  # fmt: skip
 
 
@@ -116,45 +133,22 @@ def checks(tables: dict[str, pd.DataFrame]) -> list[Check]:
         for ratio, off in zip(rows["times_onset"], rows["off_percent"], strict=True)
     ]
     if "well" in tables:
-        pushed, well = tables["pushed_row"], tables["well"]
+        row, well, locked = tables["pushed_row"].iloc[0], tables["well"], tables["locked_rows"]
         off = float(well["off_percent_of_weight"].abs().iloc[-1])
         halved = float(well["off_percent_of_weight"].abs().iloc[-3])
         found += [
-            Check(
-                "row of the helix that slides, push",
-                abs(pushed["off_percent"].iloc[0]),
-                3.0,
-                "at_most",
-                "%",
-                "reciprocal law",
-            ),
-            Check(
-                "rows of the helix that slides, largest difference of the push",
-                float(pushed["off_percent"].iloc[:-1].abs().max()),
-                3.0,
-                "at_most",
-                "%",
-                "reciprocal law",
-            ),
-            Check(
-                "rows of the helix that slides, largest difference of the lock-up friction",
-                float(pushed["locked_up_off_percent"].abs().max(skipna=False)),
-                3.0,
-                "at_most",
-                "%",
-                "reciprocal law",
-            ),
-            Check(
-                "push of a row of the helix beyond its lock-up length",
-                float(np.isfinite(pushed["push_kN"].iloc[-1])),
-                0.0,
-                "at_most",
-                "",
-                "reciprocal law",
-            ),
+            Check("row of the helix that slides, push", abs(row["off_percent"]), 3.0, "at_most", "%", "reciprocal law"),
             Check("well, resolved against the finest segments", off, 1.0, "at_most", "%", "of the string's weight"),
             Check("well, finest segments doubled", halved, 1.0, "at_most", "%", "of the string's weight"),
-        ]
+            Check("rows of the helix that no block pushes, push, largest difference",
+                  float(locked["off_percent"].iloc[:-1].abs().max(skipna=False)), 3.0, "at_most", "%",
+                  "reciprocal law"),
+            Check("rows of the helix that no block pushes, lock-up friction, largest difference",
+                  float(locked["locked_up_off_percent"].abs().max(skipna=False)), 3.0, "at_most", "%",
+                  "reciprocal law"),
+            Check("loads of a row beyond its lock-up length", float(np.isfinite(locked["push_kN"].iloc[-1])), 0.0,
+                  "at_most", "", "reciprocal law"),
+        ]  # fmt: skip
     return found
 
 

@@ -41,7 +41,8 @@ ROD_LENGTH, ROD_SEGMENT, ROD_WAVES = 100.0, 1.0, 8  # [m], [m], half waves
 
 # Captions of the tables of the full run.
 FULL = {
-    "pushed_row": "Rows of the helix that slides, the last one beyond its lock-up length",
+    "pushed_row": "A row of the helix that slides",
+    "locked_rows": "Rows of a helix that no block pushes, the last beyond its lock-up length",
     "well": "Hook load of a horizontal well that slides, against the segment length; the last row is resolved",
     "analytic_well": "Hook load of that well on long segments, with and without the helix's wall force",
     "second_route": "One string by a second route",
@@ -269,7 +270,8 @@ def run(context: Context) -> Outcome:
     ]
     if not context.quick:
         parts += [
-            ("pushed_row", lambda: resolved_rows.pushed_rows(PUSHED, FRICTION, SHARES)),
+            ("pushed_row", lambda: resolved_rows.pushed_row(PUSHED, FRICTION, SHARES[0])),
+            ("locked_rows", lambda: resolved_rows.locked_rows(PUSHED, FRICTION, SHARES)),
             ("well", resolved_rows.well_rows),
             ("analytic_well", analytic_helix.well_rows),
             ("second_route", second_route),
@@ -284,8 +286,10 @@ def run(context: Context) -> Outcome:
             "measured in the half between them.",
             "Friction acts at the pipe's axis here, as in the closed forms: its moment at the pipe's surface turns a "
             "helix about the hole's axis without end.",
-            f"Mitchell's equation holds up to {mitchell.wall_contact_limit():.3g} times the onset. Beyond it, snaking "
-            "leaves the wall at its turning points; the full run compares it with a Cosserat rod of PyElastica there.",
+            f"Mitchell's equation holds up to {wall_limits.limits()['snaking']:.3g} times the onset. Beyond it, "
+            "snaking leaves the wall at its turning points; the full run compares it with a Cosserat rod of PyElastica "
+            "there.",
+            half_waves.note(tables["half_waves"]),
         ],
         display={
             "onset": "Onset of buckling",
