@@ -29,7 +29,7 @@ def taken(ratio: float, half_wave: float, length: float, clamped: bool) -> float
     shape = snaking(UNIT, ratio * UNIT.onset, half_wave)
     cells = round(length / half_wave * POINTS)
     h = length / cells
-    at = np.arange(1, cells) * h
+    at = np.linspace(0, length, cells + 1)[1:-1]
     # The ends of the laid waves are let down to the low side.
     angle = shape.waves(at) * np.minimum(1, np.minimum(at, length - at))
     angle = _relaxed(angle, h, ratio, clamped)

@@ -109,11 +109,9 @@ def note(waves: pd.DataFrame) -> str:
         low, high = part["band_from"].iloc[0], part["band_to"].iloc[0]
         found.append(f"{kept.min():.2f} to {kept.max():.2f} ({low:.2f} to {high:.2f}) at {ratio:g} times the onset")
     return (
-        f"Snaking stands in a band of half waves. Laid in others, a pipe of {LENGTH:g} m with its ends on the hole's axis keeps, "
-        "over that of least energy and with the band of a pipe without ends in brackets: "
-        + ", ".join(found)
-        + ". Where "
-        "an end is no passage of the wave, waves come in and leave there."
+        f"Snaking stands in a band of half waves. Laid in others, a pipe of {LENGTH:g} m with its ends on the hole's "
+        "axis keeps, over that of least energy and with the band of a pipe without ends in brackets: "
+        f"{', '.join(found)}. Where an end is no passage of the wave, waves come in and leave there."
     )
 
 

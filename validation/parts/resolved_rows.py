@@ -23,9 +23,11 @@ WELL_FRICTION = 0.19
 WELL_SEGMENTS = (20.0, 10.0, 5.0, 2.5, 1.25)  # [m]
 
 
-def resolved(rig: Rig, force: float, **changes: Any) -> Equilibrium:
-    """The row of a rig's case with its buckling resolved, with a weight on bit [N] and changed tables of the case."""
-    changes |= {"bit": {"weight_on_bit": force}, "solver": {"buckling": "resolve"}}
+def resolved(rig: Rig, force: float, block: float | None = None) -> Equilibrium:
+    """The row of a rig's case with its buckling resolved, a weight on bit [N], and a block of another weight [N]."""
+    changes: dict[str, Any] = {"bit": {"weight_on_bit": force}, "solver": {"buckling": "resolve"}}
+    if block is not None:
+        changes["rig"] = {"block_weight": block}
     case = Case.model_validate(rig.case.model_dump(exclude_defaults=True) | changes)
     return equilibrium(case, OPERATION, BELOW_SURFACE + rig.length)
 
@@ -75,7 +77,7 @@ def locked_rows(times_onset: float, friction: float, shares: Sequence[float]) ->
     force = times_onset * BUCKLING.onset
     for share in (*shares, BEYOND):
         length = share * helix.lock_up_length(BUCKLING, force, friction)
-        point = resolved(Rig(length, JOINT, friction=friction), force, rig={"block_weight": 0.0})
+        point = resolved(Rig(length, JOINT, friction=friction), force, block=0.0)
         law = helix.pushed_force(BUCKLING, force, friction, length)
         yield {
             "share_of_lock_up_percent": 100 * share, "length_m": length, "status": str(point.status),

@@ -16,6 +16,7 @@ from references.buckling.mitchell import (
     Shape,
     equal_energy_ratio,
     helix,
+    helix_contact_limit,
     one_term_ratio,
     snaking,
     wall_contact_limit,
@@ -115,10 +116,16 @@ def test_one_term_error_at_1_4() -> None:
 
 @pytest.mark.slow
 def test_limits_of_the_equation(monkeypatch: pytest.MonkeyPatch) -> None:
-    """From 1.77 times the onset on the pipe leaves the wall; the helix has less energy from 1.45 times on (trials)."""
-    monkeypatch.setattr(mitchell, "TOLERANCE", 1e-5)  # moves neither by more than 0.003
+    """From 1.77 times the onset on the pipe leaves the wall; the helix has less energy from 1.45 times on (trials).
+
+    A helix lies on the wall from 1.37 times on.
+    """
+    monkeypatch.setattr(mitchell, "TOLERANCE", 1e-5)  # moves none by more than 0.003
     assert wall_contact_limit() == pytest.approx(1.77, abs=0.005)
     assert equal_energy_ratio() == pytest.approx(1.45, abs=0.005)
+    limit = helix_contact_limit()
+    assert limit == pytest.approx(1.372, abs=0.005)
+    assert helix(PIPE, limit * PIPE.onset).wall_force.min() == pytest.approx(0, abs=5e-3 * PIPE.weight)
 
 
 def test_helix_of_a_level_hole_approaches_the_weightless_one() -> None:
