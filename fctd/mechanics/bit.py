@@ -10,8 +10,11 @@ energy in the ledger is what the string gives to motor and bit.
 import math
 
 from fctd.mechanics.jit import inlined
+from fctd.mechanics.joints import cross
 from fctd.mechanics.rock import GIVEN_LOADS, bit_loads
 from fctd.mechanics.state import (
+    ARM_BOTTOM,
+    CURVE,
     FX,
     FY,
     FZ,
@@ -20,11 +23,22 @@ from fctd.mechanics.state import (
     LX,
     LY,
     LZ,
+    NX,
+    NY,
+    NZ,
+    OX,
+    OY,
+    OZ,
+    TX,
+    TY,
+    TZ,
     UX,
     UY,
     UZ,
     WZ,
     axis,
+    contact_point,
+    global_spin,
     velocity,
 )
 from fctd.mechanics.topdrive import (
@@ -43,6 +57,26 @@ from fctd.mechanics.topdrive import (
 
 
 @inlined
+def bottom_axis(S, n):
+    """Unit vector along the hole beside the bit, by the piece of hole that is stored there, else along the bit.
+
+    Rock presses the bit along the hole, as it does the steady string's.  A weight that turned with the bit would follow
+    it (Beck 1952): it never pushes a bit aside that swings, and so would keep a string from buckling at its lower end.
+    """
+    tx, ty, tz = S[TX + n], S[TY + n], S[TZ + n]
+    if tx == 0 and ty == 0 and tz == 0:
+        return axis(S, n)
+    x, y, z = contact_point(S, n)
+    nx, ny, nz = S[NX + n], S[NY + n], S[NZ + n]
+    dx, dy, dz = x - S[OX + n], y - S[OY + n], z - S[OZ + n]
+    sine = S[CURVE + n] * (dx * tx + dy * ty + dz * tz)
+    cosine = 1 - S[CURVE + n] * (dx * nx + dy * ny + dz * nz)
+    k = 1 / math.sqrt(cosine * cosine + sine * sine)
+    sine, cosine = k * sine, k * cosine
+    return cosine * tx + sine * nx, cosine * ty + sine * ny, cosine * tz + sine * nz
+
+
+@inlined
 def press_bit(S, top, n, rock, motion, dt):
     """Update the rock's loads on the bit, also in the free joint below it, given the loads of the joints above."""
     share = ramp(top[TOP_TIME] + 0.5 * dt, motion.start, motion.duration, motion.bit_from, motion.bit_to)
@@ -54,8 +88,12 @@ def press_bit(S, top, n, rock, motion, dt):
     weight, limit = bit_loads(rock, top[PRESSED], share, rock.motor + S[WZ + n])
     torque = -min(limit, abs(free) / response)
     torque = torque if free > 0 else -torque
-    S[FX + n + 1], S[FY + n + 1], S[FZ + n + 1] = weight * ax, weight * ay, weight * az
-    S[UX + n + 1], S[UY + n + 1], S[UZ + n + 1] = torque * ax, torque * ay, torque * az
+    tx, ty, tz = bottom_axis(S, n)
+    S[FX + n + 1], S[FY + n + 1], S[FZ + n + 1] = weight * tx, weight * ty, weight * tz
+    # The force on the bit acts an arm away from the centre of the last body.
+    arm = weight * S[ARM_BOTTOM + n]
+    mx, my, mz = cross(tx, ty, tz, arm * ax, arm * ay, arm * az)
+    S[UX + n + 1], S[UY + n + 1], S[UZ + n + 1] = torque * ax + mx, torque * ay + my, torque * az + mz
     top[BIT_WEIGHT], top[BIT_TORQUE] = weight, torque
 
 
@@ -65,9 +103,12 @@ def drill(S, top, n, rock, dt):
 
     The bottom under a drag bit moves implicitly, with the weight at the end of the step.
     """
-    ax, ay, az = axis(S, n)
+    tx, ty, tz = bottom_axis(S, n)
     vx, vy, vz = velocity(S, n)
-    moved, spin = dt * (vx * ax + vy * ay + vz * az), S[WZ + n]
+    ax, ay, az = axis(S, n)
+    swing = S[ARM_BOTTOM + n]
+    sx, sy, sz = cross(*global_spin(S, n), swing * ax, swing * ay, swing * az)
+    moved, spin = dt * ((vx + sx) * tx + (vy + sy) * ty + (vz + sz) * tz), S[WZ + n]
     weight, torque = top[BIT_WEIGHT], top[BIT_TORQUE]
     pressed = top[PRESSED] + moved
     made = 0.0

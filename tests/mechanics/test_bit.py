@@ -41,6 +41,26 @@ def test_the_rock_pushes_along_the_bit_and_against_its_spin() -> None:
     assert at(S, 2, ON_UPPER) == pytest.approx(3e3 * at(S, 1, AXIS))
 
 
+def test_the_rock_pushes_along_the_hole_at_the_bit_and_not_along_a_bit_that_is_tilted() -> None:
+    """In an arc of 100 m radius that begins downwards and builds to the north; the bit is 20 m along it."""
+    S, top = bit_with(spin=10.0)
+    S[state.ARM_BOTTOM + 1] = 4.0
+    bottom, angle = at(S, 1, AXIS) * S[state.ARM_CONTACT + 1], 0.2
+    put(S, 1, (state.TX, state.TY, state.TZ), np.array([0.0, 0.0, 1.0]))
+    put(S, 1, (state.NX, state.NY, state.NZ), np.array([1.0, 0.0, 0.0]))
+    S[state.CURVE + 1] = 0.01
+    put(S, 1, (state.OX, state.OY, state.OZ), bottom - 100 * np.array([1 - np.cos(angle), 0.0, np.sin(angle)]))
+    along = np.array([np.sin(angle), 0.0, np.cos(angle)])
+    press_bit(S, top, 1, GIVEN, LOADED, DT)
+    assert at(S, 2, FORCE) == pytest.approx(8e4 * along)
+    lever = 4.0 * at(S, 1, AXIS)
+    assert at(S, 2, ON_UPPER) == pytest.approx(-3e3 * at(S, 1, AXIS) + np.cross(lever, -8e4 * along))
+    put(S, 1, VELOCITY, np.array([0.3, 0.0, 0.0]))
+    S[state.WZ + 1] = 0.0
+    drill(S, top, 1, DRAG, 1.0)
+    assert top[topdrive.PRESSED] == pytest.approx(0.3 * np.sin(angle))
+
+
 @pytest.mark.parametrize(("spin", "torque"), [(0.1, 0.0), (0.0, 2e3), (0.0, -2.9e3), (-0.2, 0.0)])
 def test_a_torque_within_the_limit_stops_the_bit_and_does_not_turn_it(spin: float, torque: float) -> None:
     """The joint above and the rock together leave no spin at the end of the step."""
