@@ -16,10 +16,13 @@ from fctd.results.status import SteadyStatus
 
 LANE = 0.21  # width of a lane [in]
 # Hatches by status; a row that no push moves is black, one without an answer empty with a cross.
-HATCHES: dict[str, str] = {"converged": "", "locked_up": "/////", "under_resolved": ".....", "unstable": "xxxxx"}
+HATCHES: dict[str, str] = {
+    "converged": "", "locked_up": "/////", "rolling": "ooo", "under_resolved": ".....", "unstable": "xxxxx",
+}  # fmt: skip
 STUCK = "#000000"
 NAMES = {
     "locked_up": "slack-off is spent (locked up)",
+    "rolling": "rolls round the hole",
     "under_resolved": "under-resolved: segments too long",
     "unstable": "unstable",
 }

@@ -30,11 +30,13 @@ class SteadyStatus(Status):
     """Status of a steady string.
 
     Lock-up is an acceptable answer, for coarse segments too: they bend less than the string, and miss some of its
-    friction.  An unstable equilibrium is not, nor is a buckled string whose segments cannot bend that way.
+    friction.  So is a string that rolls steadily round the hole: its loads stay while its shape goes round.  An
+    unstable equilibrium is not, nor is a buckled string whose segments cannot bend that way.
     """
 
     CONVERGED = "converged", "", True, True
     LOCKED_UP = "locked_up", "the top would have to be pushed with more than the block weight", True, True
+    ROLLING = "rolling", "the string rolls round the hole", True, True
     UNDER_RESOLVED = "under_resolved", "the segments are too long to bend as the string does", True, False
     UNSTABLE = "unstable", "the equilibrium is unstable: the string would leave it", True, False
     MAX_ITERATIONS = "max_iterations", "no equilibrium was found: the string may have no steady shape", False, False

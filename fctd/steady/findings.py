@@ -102,6 +102,11 @@ class Findings:
         is_wound = found.answered and found.status != SteadyStatus.UNSTABLE and found.buckling.mode == "helical"
         return self.is_analytic and is_wound and not found.buckling.resolved
 
+    @property
+    def may_roll(self) -> bool:
+        """Whether the string that was found has no steady shape, and turns where it can roll round the hole."""
+        return self.found.status == SteadyStatus.UNSTABLE and not self.is_analytic and self.problem.can_roll
+
     def answer(self, problem: Problem, code: int, iterations: int, negative: int) -> Equilibrium:
         """The string of a problem in its pose; code, negative : see ``steady_string``."""
         return self.read(problem, code, iterations, negative, self.rung)

@@ -13,6 +13,7 @@ from fctd.steady import attempts
 from fctd.steady.continuation import CONVERGED
 from fctd.steady.findings import Findings
 from fctd.steady.problem import Problem
+from fctd.steady.rolling import rolled
 from fctd.steady.steady_string import Equilibrium
 
 NEWTON = "newton"  # also of the strings that a batch finds (batch.py)
@@ -58,6 +59,8 @@ LADDER = (
     Rung("without loads", lambda _: True, attempts.as_ended),
 )  # fmt: skip
 
+# Of a string without a steady shape.
+ROLL = Rung("rolled", lambda so_far: so_far.may_roll, rolled)
 # Added to a helix that was found on segments which cannot bend into it.
 HELIX = Rung("analytic helix", lambda so_far: so_far.lacks_helix, attempts.with_helix, f"{{}}; {ANALYTIC}")
 
@@ -65,8 +68,9 @@ HELIX = Rung("analytic helix", lambda so_far: so_far.lacks_helix, attempts.with_
 def look_for(so_far: Findings) -> Equilibrium:
     """The string of a row, by the first rung that finds it."""
     so_far.found = _first_found(so_far)
-    if HELIX.is_due(so_far) and (point := _try(HELIX, so_far)) is not None:
-        return point
+    for rung in (ROLL, HELIX):
+        if rung.is_due(so_far) and (point := _try(rung, so_far)) is not None:
+            return point
     return so_far.found
 
 

@@ -53,14 +53,12 @@ def resolve(case: Case, coarse: Climb, problem: Problem, lay: Callable[[Case], P
 
     coarse, problem : path and string of the case's own segments; lay : makes a problem of a case with others.
     """
-    bit_depth, needed = problem.string.bit_depth, (np.full(0, np.inf), np.full(0, np.inf))
+    needed = np.full(0, np.inf), np.full(0, np.inf)
     path, total, wound = coarse, coarse.iterations, None
     for _ in range(LAYOUTS):
         needed = shorter(needed, needed_lengths(problem, path))
-        finer = layouts.with_components(case, layouts.resolved(case, bit_depth, *needed))
-        if layouts.segments_in_hole(finer, bit_depth) > state.MAX_SEGMENTS:
-            break
-        if np.array_equal(lay_out(finer, bit_depth).length, problem.string.length):
+        finer = finer_case(case, problem, needed)
+        if finer is None:
             break
         problem = lay(finer)
         wound = None if problem.has_friction else _wind_at_once(problem, FULL)
@@ -87,6 +85,18 @@ def resolve(case: Case, coarse: Climb, problem: Problem, lay: Callable[[Case], P
         # Of the shape that is not the answer only the hook load at the loads of the operation is of use.
         climb(problem, path=path)
     return Resolved(problem, path, path_of_helix)
+
+
+def finer_case(case: Case, problem: Problem, needed: tuple[Array, Array]) -> Case | None:
+    """The case with segments as short as needed, None where a string may not have so many or has no longer ones.
+
+    needed : measured depths [m], and the segment length there.
+    """
+    bit_depth = problem.string.bit_depth
+    finer = layouts.with_components(case, layouts.resolved(case, bit_depth, *needed))
+    if layouts.segments_in_hole(finer, bit_depth) > state.MAX_SEGMENTS:
+        return None
+    return None if np.array_equal(lay_out(finer, bit_depth).length, problem.string.length) else finer
 
 
 def _wind(problem: Problem, snaking: Climb) -> tuple[Helix, Climb] | None:
@@ -160,14 +170,17 @@ def is_resolved(problem: Problem, path: Climb) -> bool:
 
 def needed_lengths(problem: Problem, path: Climb) -> tuple[Array, Array]:
     """Measured depths of top and contact points (n + 1,) [m], and the segment length to plan there (n + 1,)."""
-    here = _end_of(problem, path)
+    return planned_lengths(_end_of(problem, path), problem.weight, pushed=path.spent_at <= 1)
+
+
+def planned_lengths(here: Compressed, weight: float, *, pushed: bool = False) -> tuple[Array, Array]:
+    """``needed_lengths`` of a string against its limits; weight : of the string and on the bit [N]; pushed : at its
+    top."""
     fine = (here.rows[:, MODE] != NEITHER) | (here.compression > FINE_SHARE * here.rows[:, SINUSOIDAL_LIMIT])
-    half_wave = _half_wave(here.EI, COMPRESSION_GROWTH * here.compression + COMPRESSION_ADDED * problem.weight)
+    half_wave = _half_wave(here.EI, COMPRESSION_GROWTH * here.compression + COMPRESSION_ADDED * weight)
     length = np.where(fine, half_wave / IN_HALF_WAVE, np.inf)
-    if path.spent_at <= 1:
-        length = np.minimum(
-            length, _half_wave(here.EI, here.compression + LOCKING_WEIGHTS * problem.weight) / LOCKING_SEGMENTS
-        )
+    if pushed:
+        length = np.minimum(length, _half_wave(here.EI, here.compression + LOCKING_WEIGHTS * weight) / LOCKING_SEGMENTS)
     for k in np.flatnonzero(np.diff(fine, prepend=False, append=False)):
         at = min(int(k), len(fine) - 1)
         beside = np.abs(here.md - here.md[at]) < FINE_HALF_WAVES * half_wave[at]

@@ -39,6 +39,8 @@ SEED = 1e-4
 # A mode that takes longer to grow [s] is neutral within the imbalance of a balance, as that of a helix rolling round a
 # vertical hole is: a kilometre of string swings back a hundred times as fast, in the square.
 SLOWEST = 100.0
+# Largest angle between a hole in which strings roll and the vertical [rad]: pipe of 300 N/m has 0.3 N/m to one side.
+UPRIGHT = 1e-3
 
 
 class Arrays(NamedTuple):
@@ -168,6 +170,15 @@ class Problem:
     def is_driven(self) -> bool:
         """Whether rotation or the torque at the bit may drive the string round the hole."""
         return bool(self.rates.spin != 0 or self.bit_torque != 0)
+
+    @property
+    def can_roll(self) -> bool:
+        """Whether the string turns in a vertical hole, with friction that drives it round and mud that resists."""
+        if self.rates.spin == 0 or self.hole.geometry == state.OPEN or not self.has_friction:
+            return False
+        md = np.append(self.string.top_md, self.string.top_md + np.cumsum(self.string.length))
+        across = np.linalg.norm(self.hole.at(md)[1][:, :2], axis=1)
+        return bool((across < UPRIGHT).all() and state.row(self.work.S, state.MUD_LATERAL, self.n).any())
 
     @property
     def has_friction(self) -> bool:

@@ -44,7 +44,8 @@ class Equilibrium:
     """A steady string with the bit at one depth.
 
     status : loads are valid where ``status.has_loads``, also for ``locked_up``, ``under_resolved`` and ``unstable``;
-    message : details.  method : the rung of the ladder (ladder.py) that found the string.
+    message : details.  method : the rung of the ladder (ladder.py) that found the string.  roll_rate : of a string that
+    rolls round the hole [rad/s], against a clockwise rotation below 0, else NaN.
     shape : of a buckled string whose segments follow it, snaking or helix, else none; hookload_low, hookload_high
     [N] : of both shapes where they differ, else NaN; slack_off_spent_at, locked_up_at : shares of the friction (of the
     weight on bit where the message says so) at which the hook load is −block weight and at which no push suffices;
@@ -74,6 +75,7 @@ class Equilibrium:
     hookload_high: float = float("nan")
     slack_off_spent_at: float = float("nan")
     locked_up_at: float = float("nan")
+    roll_rate: float = float("nan")
     carried: Carried | None = field(default=None, repr=False)
 
     def __repr__(self) -> str:

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 LOCKED_UP, IS_BUCKLED, IS_HELICAL, NO_ANSWER = "locked up", "buckled", "buckled helically", "no answer"
 # Statuses of rows with an answer: of steady strings, of runs, of refinements.
 ANSWERED: Final = (
-    "converged", "locked_up", "under_resolved", "unstable", "completed", "inaccurate", "within_tolerance",
+    "converged", "locked_up", "rolling", "under_resolved", "unstable", "completed", "inaccurate", "within_tolerance",
     "not_reached",
 )  # fmt: skip
 

@@ -25,6 +25,7 @@ ALL = list(chain(SteadyStatus, RunStatus, RefineStatus))
 OUTCOMES = [
     ("equilibrium", "converged", 0, True, "forces are in balance, as was asked"),
     ("equilibrium", "locked_up", 0, True, "so far and no farther is an answer, with the push that it takes"),
+    ("equilibrium", "rolling", 0, True, "forces are in balance in a frame that goes round with the string"),
     ("equilibrium", "under_resolved", 1, True, "forces are in balance, without the wall force of the wave"),
     ("equilibrium", "unstable", 1, True, "forces are in balance, but no string stays there"),
     ("equilibrium", "max_iterations", 1, False, "the forces of the last iterate are not in balance"),
