@@ -6,7 +6,7 @@ import pytest
 
 from fctd import Case, equilibrium
 from validation.parts.plausible_rows import drawn
-from validation.parts.stepped_rows import step
+from validation.parts.stepped_rows import MOVING, damped, step
 
 
 def case_of(index: int) -> tuple[Case, Any]:
@@ -34,6 +34,19 @@ def test_a_string_without_a_steady_shape_moves() -> None:
     point = equilibrium(case, operation=kind, bit_depth=string.bit_depth, **string.rates[kind])
     assert point.status == "unstable"
     assert step(case, kind, string.bit_depth, string.rates[kind]).moves
+
+
+@pytest.mark.slow
+def test_a_string_that_rolls_slowly_goes_round_in_time_as_the_solver_says() -> None:
+    case, string = case_of(930)
+    kind = "drill_rotating"
+    found = step(case, kind, string.bit_depth, string.rates[kind])
+    point = equilibrium(damped(case), kind, string.bit_depth, **string.rates[kind])
+    assert point.status == "rolling"
+    assert found.moves
+    assert found.sideways < MOVING
+    assert found.hookload == pytest.approx(point.hookload, rel=1e-3)
+    assert found.round_it == pytest.approx(point.roll_rate, rel=0.1)
 
 
 @pytest.mark.slow
