@@ -19,7 +19,7 @@ from fctd.steady.continuation import CONVERGED
 from fctd.steady.first_guess import MD, OFFSET, TENSION, TORQUE
 from fctd.steady.helix import Helix
 from fctd.steady.post_buckling import LAYOUTS, Resolved, is_resolved, lay_helix, needed_lengths, shorter
-from fctd.steady.problem import FULL, Problem
+from fctd.steady.problem import FULL, Problem, Share
 from fctd.steady.tangent import JOINT_TENSION, JOINT_TORQUE
 
 LEAST_CLEARANCE: Final = 1e-6  # [m]
@@ -38,11 +38,11 @@ class CarriedShape(NamedTuple):
     tension: Array
     torque: Array
 
-    def lay(self, problem: Problem) -> None:
-        """Lay a string in this shape, with its bit at another depth."""
-        problem.lay_guess()
+    def lay(self, problem: Problem, above: float = 0.0) -> None:
+        """Lay a string in this shape, with its bit at another depth; above [m] : its top is above where it will be."""
+        problem.lay_guess(above=above)
         nodes, n = problem.work.G, problem.n
-        above_bit = problem.string.bit_depth - nodes[: n + 1, MD]
+        above_bit = problem.string.bit_depth - above - nodes[: n + 1, MD]
         low, right, tension, torque = (np.interp(-above_bit, -self.above_bit, of)[:, None] for of in self[1:])
         first, second = carried_frame(problem.hole.at(nodes[1 : n + 1, MD])[1])
         clearance = problem.walls(problem.reactions().contacts).radius - problem.string.contact_radius()
@@ -142,7 +142,12 @@ def _shape(problem: Problem, path: Climb) -> CarriedShape:
     """The shape at the end of a path."""
     assert path.pose is not None  # the caller has looked
     problem.put_pose(path.pose)
-    found, bit_depth = problem.reactions(), problem.string.bit_depth
+    return shape_of(problem)
+
+
+def shape_of(problem: Problem, share: Share = FULL) -> CarriedShape:
+    """The shape of a string in its pose, in balance with these loads."""
+    found, bit_depth = problem.reactions(share), problem.string.bit_depth
     walls = problem.walls(found.contacts)
     # A bit at gauge has none.
     clearance = np.maximum(walls.radius - problem.string.contact_radius(), LEAST_CLEARANCE)
@@ -151,6 +156,6 @@ def _shape(problem: Problem, path: Climb) -> CarriedShape:
         bit_depth - np.append(problem.string.top_md, walls.md),
         np.append(0.0, low),
         np.append(0.0, right),
-        np.append(found.joints[:, JOINT_TENSION], problem.bit_tension()),
+        np.append(found.joints[:, JOINT_TENSION], problem.bit_tension(share)),
         np.append(found.joints[:, JOINT_TORQUE], found.joints[-1, JOINT_TORQUE]),
     )

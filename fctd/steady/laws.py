@@ -50,5 +50,5 @@ def steady_laws(
     """
     return Steady(
         hole.with_wall, hole.law, friction_scale, speed, spin, x, y, z, torque, at_axis, hole.wall_exponent,
-        hole.wall_reference, 1.0, hole.orthotropic,
+        hole.wall_reference, 1.0, hole.orthotropic, None,
     )  # fmt: skip

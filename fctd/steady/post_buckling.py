@@ -163,7 +163,11 @@ def lay_helix(problem: Problem, helix: Helix, path: Climb, share: Share, most: i
 
 def is_resolved(problem: Problem, path: Climb) -> bool:
     """Whether the segments are short enough at the end of a path."""
-    here = _end_of(problem, path)
+    return are_short(problem, _end_of(problem, path))
+
+
+def are_short(problem: Problem, here: Compressed) -> bool:
+    """Whether the segments are short enough for a string of these compressions."""
     needed = here.rows[:, NEEDED]
     return bool((problem.string.length <= np.minimum(needed[:-1], needed[1:]) * (1 + 1e-9)).all())
 

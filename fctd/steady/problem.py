@@ -19,6 +19,7 @@ from fctd.results.buckling import buckling_along
 from fctd.steady.block_thomas import SIZE, negative_pivots, solve_with_pivoting
 from fctd.steady.continuation import NOT_FINITE, UNSOUND, Pace, add_pseudo_mass, converge, limits, take_step
 from fctd.steady.first_guess import MD, NODE, find_owners, guess, lay_guess
+from fctd.steady.held_friction import Held
 from fctd.steady.laid_string import LaidString
 from fctd.steady.laws import hole_of, steady_laws
 from fctd.steady.pose import PLACE, POSE, QUATERNION
@@ -137,7 +138,8 @@ class Problem:
 
     string, hole; weight : of the string and on the bit [N]; allowed : largest imbalance of a body when converged [N];
     at_axis : see ``tangent.Steady``; added (n, 3) : wall force beside that of the wall's springs, in the columns of
-    contact loads (helical_force.py); allowance : what relaxations may still take.
+    contact loads (helical_force.py); held : of a string that is fed (feed.py); allowance : what relaxations may still
+    take.
     """
 
     def __init__(
@@ -159,6 +161,7 @@ class Problem:
         self.kinks[:, 0] = 1.0
         self.at_axis = 0
         self.added = np.zeros((self.n, 3))
+        self.held: Held | None = None
         self.allowance = allowance
 
     @property
@@ -190,13 +193,15 @@ class Problem:
         x, y, z = (-self.weight_on_bit * share.weight * self.laid.bit_axis).tolist()
         hole, (speed, spin) = hole_of(self.case, [self.hole]), self.rates
         torque = self.bit_torque * share.weight
-        return steady_laws(hole, share.friction, speed, spin, x, y, z, torque, self.at_axis)
+        return steady_laws(hole, share.friction, speed, spin, x, y, z, torque, self.at_axis)._replace(
+            held=self.held
+        )
 
-    def lay_guess(self, share: Share = FULL) -> None:
-        """Lay the string where a soft string would press on the hole."""
+    def lay_guess(self, share: Share = FULL, above: float = 0.0) -> None:
+        """Lay the string where a soft string would press on the hole; above [m] : its top is above where it will be."""
         w, string = self.work, self.string
         tension = self.bit_tension(share)
-        guess(w.S, self.n, self.hole.pieces, self.laws(share), string.top_md, tension, SEED, w.G, w.P)
+        guess(w.S, self.n, self.hole.pieces, self.laws(share), string.top_md - above, tension, SEED, w.G, w.P)
         self._bend()
         self._find_owners()
 

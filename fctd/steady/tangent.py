@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fctd.mechanics.jit import entry, kernel
+from fctd.mechanics.jit import entry, inlined, kernel
 from fctd.mechanics.joints import cross, gap, joint_loads
 from fctd.mechanics.rotations import rotation_columns, twist_angle
 from fctd.mechanics.state import (
@@ -29,6 +29,7 @@ from fctd.mechanics.state import (
     WEIGHT,
 )
 from fctd.steady.block_thomas import SIZE
+from fctd.steady.held_friction import Held, add_held_wall, press_rock
 from fctd.steady.joint_tangent import LOADS, UNKNOWNS, add_joint
 from fctd.steady.pose import SPIN, in_frame, quaternion, times
 from fctd.steady.wall_tangent import DIRECTIONS, add_wall, read_wall
@@ -51,6 +52,7 @@ class Steady(NamedTuple):
     along the hole acts at the string's axis and not at its surface, which leaves out its bending moment, and the torque
     at the bit is semi-tangential, half about the bit's axis and half about the hole's (Ziegler 1968).
     wall_exponent, wall_reference, orthotropic : as in Laws.  given : share of the loads that are given to the bodies.
+    held : of a string that is fed, whose friction remembers; None of one that slides or turns at its rates.
     """
 
     geometry: int
@@ -67,6 +69,23 @@ class Steady(NamedTuple):
     wall_reference: float = 1e-3
     given: float = 1.0
     orthotropic: bool | None = None
+    held: Held | None = None
+
+
+@inlined
+def add_wall_of(held, S, j, P, C, owner, laws, R, D, pressed):
+    """Add the wall with the friction of rates, or with friction that remembers."""
+    if held is None:
+        add_wall(S, j, P, C, owner, laws, R, D, pressed)
+    else:
+        add_held_wall(S, j, P, C, owner, laws, R, D, pressed)
+
+
+@inlined
+def add_rock_of(held, S, n, P, R, D):
+    """Add the rock under the bit of a string that is fed."""
+    if held is not None:
+        press_rock(S, n, P, held, R, D)
 
 
 @entry
@@ -98,7 +117,8 @@ def assemble(S, n, P, kinks, C, owner, laws, R, D, A, U):
             D[j, i, 3] += push * dy
             D[j, i, 4] -= push * dx
         if laws.geometry != OPEN:
-            add_wall(S, j, P, C, owner, laws, R, D, pressed)
+            add_wall_of(laws.held, S, j, P, C, owner, laws, R, D, pressed)
+    add_rock_of(laws.held, S, n, P, R, D)
     R[n, 0] += laws.bit_x
     R[n, 1] += laws.bit_y
     R[n, 2] += laws.bit_z
@@ -136,7 +156,7 @@ def frictionless_tangent(S, n, P, kinks, C, owner, laws, R, D, A, U):
     """
     bare = Steady(
         laws.geometry, laws.friction, 0.0, 0.0, 0.0, laws.bit_x, laws.bit_y, laws.bit_z, laws.bit_torque,
-        laws.at_axis, laws.wall_exponent, laws.wall_reference, 0.0, laws.orthotropic,
+        laws.at_axis, laws.wall_exponent, laws.wall_reference, 0.0, laws.orthotropic, None,
     )  # fmt: skip
     assemble(S, n, P, kinks, C, owner, bare, R, D, A, U)
     for j in range(2, n + 1):

@@ -1,0 +1,270 @@
+"""A string that the block feeds into its hole: feed is the path's parameter, and hook load and weight on bit follow.
+
+As at the rig the string begins off bottom.  In increments of feed each contact point sticks until its limit and then
+slides against its own displacement (held_friction.py), and carries its friction on.  The string comes to rest after
+each increment (relaxation.py).  Where a small increment has no balance nearby the string snaps: friction then follows
+every step of the relaxation, and takes up the energy that the snap releases.
+
+Lock-up is where further feed no longer arrives: on bottom the weight on bit, off bottom the bit's way.
+"""
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import NamedTuple
+
+import numpy as np
+
+from fctd.arrays import Array
+from fctd.mechanics import state
+from fctd.mechanics.rotations import rotation_columns
+from fctd.steady.carried_shape import CarriedShape
+from fctd.steady.climb import SOUND_PUSH, creep_of
+from fctd.steady.continuation import CONVERGED
+from fctd.steady.held_friction import ALONG_THEN, MEMORY, PLACE_THEN, Held, end_increment
+from fctd.steady.pose import PLACE, QUATERNION
+from fctd.steady.problem import Pose, Problem, Share
+
+# The top begins so far above the rotary table [m], since feeding moves it down.
+ABOVE = 2.0
+# Increments of feed [m]: the first, the smallest and the largest.  One grows after few iterations of the one before, and
+# shrinks after many.
+FIRST, SMALLEST, LARGEST = 0.1, 0.02, 1.0
+FEW, MANY, GROWTH, SHRINKAGE, CUT = 30, 60, 1.5, 0.67, 0.4
+ITERATIONS, FIRST_TIME = 100, 0.2
+# A snap: so many times the friction follows some steps of the relaxation, and then holds.
+SNAPS, SLIPPING, SNAP_TIME = 12, 20, 0.05
+# On the way a balance may be out by this multiple of what a balance is allowed: the last one is exact.
+IMBALANCE = 30.0
+# The bit follows the block where it moves by this share of an increment.
+FOLLOWING = 0.98
+# A string is locked up where less than this share of the feed (off bottom) or of the push (on bottom) arrives at the
+# bit, over the last ``OVER`` of the string's weight in push or ``OVER_FEED`` of feed [m], whichever comes first.
+ARRIVING, OVER, OVER_FEED = 0.01, 0.01, 10.0
+MOVED = 0.01  # [m]
+# No rig pushes with more than so many weights; no string takes up more feed [m].
+LARGEST_PUSH, MOST_FEED = 10.0, 60.0
+# The rock gives way by a millimetre under the force that stretches a metre of the string by a millimetre.
+ROCK_LENGTH = 1.0
+# The weight on bit is reached within this share of it.
+REACHED, OVERSHOT = 1e-3, 0.01
+
+
+class End(StrEnum):
+    """How feeding ended."""
+
+    ARRIVED = "arrived"
+    LOCKED = "locked"
+    LOST = "lost"
+
+
+class Fed(NamedTuple):
+    """A balance on the path: feed [m], push at the top [N], place of the bit along the hole [m], weight on bit [N],
+    whether the string snapped."""
+
+    feed: float
+    push: float
+    bit: float
+    weight: float
+    snapped: bool
+
+
+class _Kept(NamedTuple):
+    pose: Pose
+    memory: Array
+    feed: float
+
+
+class Start(NamedTuple):
+    """A shape off bottom, and whether the string slides in it; else it is at rest without friction."""
+
+    shape: CarriedShape
+    slides: bool
+
+
+@dataclass
+class FedString:
+    """A string of a problem that is fed at a share of its friction.
+
+    path : its balances; iterations : all; sound : the last pose in which it was hardly pushed.
+    """
+
+    problem: Problem
+    friction: float = 1.0
+    arriving: float = ARRIVING
+    path: list[Fed] = field(default_factory=list)
+    iterations: int = 0
+    sound: Pose | None = None
+
+    def __post_init__(self) -> None:
+        problem = self.problem
+        self._share = Share(self.friction, 0.0)
+        self._memory = np.zeros((problem.n + 2, MEMORY))
+        self._axis, self._ahead = problem.laid.top_axis, problem.laid.bit_axis
+        self._feed = 0.0
+
+    def begin(self, start: Start) -> bool:
+        """Hang the string off bottom in a shape of the case's own segments; returns whether it comes to rest.
+
+        A string that slides begins with the friction of sliding, one at rest without any: it is fed until its bit
+        follows.
+        """
+        problem, n = self.problem, self.problem.n
+        problem.held, problem.at_axis = None, 1
+        start.shape.lay(problem, ABOVE)
+        self._hold(0.0, 0.0, 0.0)
+        self._remember()
+        self._memory[:, ALONG_THEN:] = 0.0
+        if start.slides:
+            # As if each point had come down by a metre.
+            walls = problem.walls(problem.reactions(self._share).contacts)
+            self._memory[1 : n + 1, PLACE_THEN] -= problem.hole.at(walls.md)[1]
+        if self._rest(ITERATIONS, False)[0] != CONVERGED and not self._snaps():
+            return False
+        self._remember()
+        self._keep(False)
+        return True
+
+    def trip(self) -> End:
+        """Feed the string off bottom until its bit follows the block."""
+        return self._feed_until(None)
+
+    def press(self, weight: float) -> End:
+        """Feed the string onto the rock under its bit until that has the weight on bit [N]."""
+        stiffness = float(self.problem.string.of("EA")[-1]) / ROCK_LENGTH
+        self._hold(stiffness, self._bit(), 0.0)
+        self._keep(False)
+        return self._feed_until(weight)
+
+    def let_go(self) -> None:
+        """Take rock and memory away: the problem's string then slides at its rates."""
+        self.problem.held = None
+
+    @property
+    def push(self) -> float:
+        """Push at the top [N]."""
+        return self.path[-1].push
+
+    @property
+    def snaps(self) -> int:
+        """Number of snaps on the path."""
+        return sum(of.snapped for of in self.path)
+
+    def _feed_until(self, weight: float | None) -> End:
+        step, start = FIRST, self._feed
+        first = len(self.path) - 1
+        while self._feed - start < MOST_FEED:
+            kept = self._kept()
+            self._move(step)
+            code, done = self._rest(ITERATIONS, False)
+            if code != CONVERGED and step > SMALLEST:
+                self._put(kept)
+                step = max(CUT * step, SMALLEST)
+                continue
+            snapped = code != CONVERGED
+            if snapped and not self._snaps():
+                self._put(kept)
+                return End.LOST
+            over = self._pressed() - (weight or np.inf)
+            if over > OVERSHOT * (weight or 0.0) and step > SMALLEST:
+                self._put(kept)
+                now = self.path[-1].weight
+                step = max(step * (weight - now) / (weight + over - now), SMALLEST)
+                continue
+            self._remember()
+            self._keep(snapped, weight)
+            end = self._end(first, weight)
+            if end is not None:
+                return end
+            step *= GROWTH if done < FEW else SHRINKAGE if done > MANY else 1.0
+            step = self._next(min(max(step, SMALLEST), LARGEST), weight)
+        return End.LOCKED
+
+    def _end(self, first: int, weight: float | None) -> End | None:
+        """How the path ends at its last balance, None where it goes on."""
+        before, now = self.path[-2:]
+        if weight is not None and now.weight >= (1 - REACHED) * weight:
+            return End.ARRIVED
+        if weight is None and now.bit - before.bit > FOLLOWING * (now.feed - before.feed):
+            return End.ARRIVED
+        if now.push > LARGEST_PUSH * self.problem.weight:
+            return End.LOCKED
+        least = OVER * self.problem.weight
+        for then in reversed(self.path[first:-1]):
+            if weight is not None and then.snapped:
+                return None  # what a snap releases comes back first
+            pushed, fed = now.push - then.push, now.feed - then.feed
+            if pushed < least and fed < OVER_FEED:
+                continue
+            if weight is None:
+                # A bit that has not moved yet waits for the friction of the whole string.
+                moved = then.bit - self.path[first].bit > MOVED
+                stalls = moved and now.bit - then.bit < self.arriving * fed
+            else:
+                stalls = now.weight - then.weight < self.arriving * abs(pushed)
+            return End.LOCKED if stalls else None
+        return None
+
+    def _next(self, step: float, weight: float | None) -> float:
+        """The next increment [m], no longer than to the weight on bit."""
+        before, now = self.path[-2:]
+        if weight is None or now.weight <= before.weight or now.feed == before.feed:
+            return step
+        slope = (now.weight - before.weight) / (now.feed - before.feed)
+        return max(min(step, (weight - now.weight) / slope), SMALLEST / 10)
+
+    def _hold(self, rock: float, level: float, torque: float) -> None:
+        x, y, z = self._ahead.tolist()
+        self.problem.held = Held(self._memory, rock, level, x, y, z, torque)
+
+    def _bit(self) -> float:
+        """Place of the bit along the direction of the hole there [m]."""
+        w, n = self.problem.work, self.problem.n
+        axis = np.array(rotation_columns(*w.P[n, QUATERNION])[6:])
+        return float((w.P[n, PLACE] + w.S[state.ARM_BOTTOM + n] * axis) @ self._ahead)
+
+    def _pressed(self) -> float:
+        """Weight on bit [N]."""
+        held = self.problem.held
+        return max(held.rock * (self._bit() - held.level), 0.0) if held is not None else 0.0
+
+    def _move(self, step: float) -> None:
+        self.problem.work.P[0, PLACE] += step * self._axis
+        self._feed += step
+
+    def _rest(self, iterations: int, slips: bool) -> tuple[int, int]:
+        """Let the string come to rest; returns code and iterations."""
+        creep = creep_of(self.problem, iterations, IMBALANCE)
+        code, done = self.problem.relax(creep._replace(tau=SNAP_TIME if slips else FIRST_TIME, slips=slips), self._share)
+        self.iterations += done
+        return code, done
+
+    def _snaps(self) -> bool:
+        """Let the string snap into another shape; returns whether it comes to rest."""
+        for _ in range(SNAPS):
+            self._rest(SLIPPING, True)
+            if self._rest(ITERATIONS, False)[0] == CONVERGED:
+                return True
+        return False
+
+    def _remember(self) -> None:
+        problem, w = self.problem, self.problem.work
+        end_increment(w.S, problem.n, w.P, problem.hole.pieces, w.owner, problem.laws(self._share))
+
+    def _keep(self, snapped: bool, weight: float | None = None) -> None:
+        """Add the balance to the path, and let the torque at the bit follow the weight on it."""
+        problem, held = self.problem, self.problem.held
+        assert held is not None  # since ``begin``
+        bit, pressed = self._bit(), self._pressed()
+        self.path.append(Fed(self._feed, -problem.reactions(self._share).hookload, bit, pressed, snapped))
+        if weight:
+            problem.held = held._replace(torque=min(pressed / weight, 1.0) * problem.bit_torque)
+        if self.sound is None or self.push < SOUND_PUSH * problem.weight:
+            self.sound = problem.copy_pose()
+
+    def _kept(self) -> _Kept:
+        return _Kept(self.problem.copy_pose(), self._memory.copy(), self._feed)
+
+    def _put(self, kept: _Kept) -> None:
+        self.problem.put_pose(kept.pose)
+        self._memory[:] = kept.memory
+        self._feed = kept.feed
