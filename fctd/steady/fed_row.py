@@ -1,6 +1,8 @@
 """The row of a buckled string that slides down: fed from rest, on segments that can bend as it does."""
 
 from collections.abc import Callable
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -12,17 +14,20 @@ from fctd.results.status import SteadyStatus
 from fctd.steady.attempts import of_lower_energy
 from fctd.steady.balance import ATTEMPTS, LARGEST_TURN
 from fctd.steady.carried_shape import shape_of
-from fctd.steady.climb import LOW_FRICTION, START_ITERATIONS, Climb, climb, come_to_rest, keep, lock_up
+from fctd.steady.climb import LOW_FRICTION, START_ITERATIONS, Climb, climb, close, come_to_rest, keep, lock_up
 from fctd.steady.continuation import CONVERGED, Pace
 from fctd.steady.feed import End, FedString, Start
 from fctd.steady.findings import Findings
 from fctd.steady.first_guess import TENSION
+from fctd.steady.helix import Helix
 from fctd.steady.post_buckling import LAYOUTS, Resolved, are_short, planned_lengths, shorter
 from fctd.steady.problem import FULL, Compressed, Problem, Share
 from fctd.steady.steady_string import Equilibrium
 
 # Shares of the friction at which a string is fed that has no balance at all of it.
 SHARES = (0.7, 0.45, 0.25, LOW_FRICTION)
+# Work with which lock-up is looked for beyond the friction of the case, iterations times segments.
+WORK_BEYOND = 2e6
 OFF_BOTTOM, AT_REST = Share(1.0, 0.0), Share(0.0, 0.0)
 
 
@@ -31,18 +36,40 @@ def is_fed(problem: Problem) -> bool:
     return problem.rates.speed > 0 and problem.rates.spin == 0 and problem.has_friction
 
 
+class FedRow(NamedTuple):
+    """A string that was fed at all of its friction, how that ended, and its path in friction."""
+
+    problem: Problem
+    string: FedString
+    end: End
+    path: Climb
+
+
 def fed(problem: Problem, so_far: Findings) -> Equilibrium | None:
     """A buckled string on fine segments that is fed from rest, off bottom and then onto it."""
-    found = feed_row(so_far.case, problem, so_far.lay_finer)
-    if found is None:
+    row = feed_row(so_far.case, problem, so_far.lay_finer)
+    if row is None:
         so_far.lay_anew()
         return None
-    so_far.resolved = of_lower_energy(found, so_far)
+    point = of_lower_energy(Resolved(row.problem, row.path, None), so_far)
+    shape = "helix" if point.answered and Helix(row.problem).is_wound() else "snaking"
+    so_far.resolved = point = replace(point, shape=shape, fed=tuple(row.string.path))
+    if row.end == End.LOCKED:
+        so_far.resolved = point = replace(point, message=f"{_locked(row)}; {point.message}")
     lacking = SteadyStatus.UNDER_RESOLVED, SteadyStatus.MAX_ITERATIONS
-    return None if so_far.resolved.status in lacking else so_far.resolved
+    return None if point.status in lacking else point
 
 
-def feed_row(case: Case, problem: Problem, lay: Callable[[Case], Problem]) -> Resolved | None:
+def _locked(row: FedRow) -> str:
+    """Where a string that was fed from rest is locked up, in words."""
+    weight = row.problem.weight_on_bit
+    if weight == 0:
+        return "fed from rest, the string is locked up before its bit moves"
+    most = max(of.weight for of in row.string.path)
+    return f"fed from rest, the string is locked up with {100 * most / weight:.3g} % of the weight on bit"
+
+
+def feed_row(case: Case, problem: Problem, lay: Callable[[Case], Problem]) -> FedRow | None:
     """The path of a string that is fed from rest, None where it is not found at rest.
 
     problem : the string on the case's own segments; lay : makes a problem of a case with others.
@@ -50,7 +77,7 @@ def feed_row(case: Case, problem: Problem, lay: Callable[[Case], Problem]) -> Re
     starts = {share: _start(problem, share) for share in (OFF_BOTTOM, AT_REST)}
     bit_depth, iterations = problem.string.bit_depth, 0
     needed = planned_lengths(problem, _soft(problem), False)
-    found = None
+    found: tuple[Problem, FedString, End] | None = None
     for _ in range(LAYOUTS):
         finer = layouts.with_components(case, layouts.resolved(case, bit_depth, *needed))
         if layouts.segments_in_hole(finer, bit_depth) > state.MAX_SEGMENTS:
@@ -69,21 +96,34 @@ def feed_row(case: Case, problem: Problem, lay: Callable[[Case], Problem]) -> Re
         return None
     problem, string, end = found
     path = Climb(iterations=iterations)
+    row = FedRow(problem, string, end, path)
     if end == End.ARRIVED and _settles(problem, string, path, 1.0):
         path.pose = path.balances[-1].pose
-        lock_up(problem, path)
+        _look_beyond(problem, path)
         if path.spent_at <= 1:
             _add_less(problem, starts, path)
-        return Resolved(problem, path, None)
+        return row
     path.none_at.append(FULL)
     for share in SHARES:
-        string, end = _feed(problem, starts, share)
-        path.iterations += string.iterations
-        if end == End.ARRIVED and _settles(problem, string, path, share):
+        less, arrived = _feed(problem, starts, share)
+        path.iterations += less.iterations
+        if arrived == End.ARRIVED and _settles(problem, less, path, share):
             break
         path.none_at.append(Share(share, 1.0))
-    climb(problem, path=path)
-    return Resolved(problem, path, None)
+        if problem.is_spent:
+            break
+    path.is_cut = problem.is_spent
+    if path.balances:
+        climb(problem, path=path)
+    return row
+
+
+def _look_beyond(problem: Problem, path: Climb) -> None:
+    """Follow a string that is pushed to the friction that no push overcomes, with a part of the allowance."""
+    left = problem.allowance.left
+    problem.allowance.left = min(left, WORK_BEYOND)
+    lock_up(problem, path)
+    problem.allowance.left += left - min(left, WORK_BEYOND)
 
 
 def _feed(problem: Problem, starts: dict[Share, Start | None], share: float) -> tuple[FedString, End]:
@@ -151,7 +191,7 @@ def _settles(problem: Problem, string: FedString, path: Climb, share: float) -> 
 
 def _add_less(problem: Problem, starts: dict[Share, Start | None], path: Climb) -> None:
     """Add balances at less friction, down to one at which slack-off is not spent."""
-    pose, steps, balances = problem.copy_pose(), path.steps, path.balances
+    pose = problem.copy_pose()
     for share in SHARES:
         less = Climb()
         string, end = _feed(problem, starts, share)
@@ -162,6 +202,4 @@ def _add_less(problem: Problem, starts: dict[Share, Start | None], path: Climb) 
         if path.steps[0].hookload + problem.case.rig.push > 0:
             break
     problem.put_pose(pose)
-    from fctd.steady.climb import close
-
     close(problem, path)

@@ -234,7 +234,9 @@ class FedString:
     def _rest(self, iterations: int, slips: bool) -> tuple[int, int]:
         """Let the string come to rest; returns code and iterations."""
         creep = creep_of(self.problem, iterations, IMBALANCE)
-        code, done = self.problem.relax(creep._replace(tau=SNAP_TIME if slips else FIRST_TIME, slips=slips), self._share)
+        code, done = self.problem.relax(
+            creep._replace(tau=SNAP_TIME if slips else FIRST_TIME, slips=slips), self._share
+        )
         self.iterations += done
         return code, done
 

@@ -14,7 +14,7 @@ from fctd.arrays import Array
 from fctd.model.frames import carried_frame
 from fctd.results.buckling import SINUSOIDAL_LIMIT
 from fctd.steady.first_guess import MD, OFFSET, TENSION, TORQUE
-from fctd.steady.problem import Problem, Reactions, Share
+from fctd.steady.problem import FULL, Problem, Reactions, Share
 from fctd.steady.tangent import JOINT_TENSION, JOINT_TORQUE
 
 # Compression over the sinusoidal limit above which the helix has the lower energy.
@@ -83,6 +83,11 @@ class Helix:
         """Count the turns of the string in its pose as laid."""
         self.beyond = self._due(share, self.problem.reactions(share))[0]
         self.turns = self._turns()
+
+    def is_wound(self) -> bool:
+        """Whether the string in its pose is a helix where that has the lower energy; nothing is laid."""
+        self.beyond, _, due = self._due(FULL, self.problem.reactions())
+        return due >= LEAST_TURNS and self._turns() > STILL * due
 
     def stands(self) -> bool:
         """Whether the string in its pose still has most of the turns that were laid."""

@@ -193,9 +193,7 @@ class Problem:
         x, y, z = (-self.weight_on_bit * share.weight * self.laid.bit_axis).tolist()
         hole, (speed, spin) = hole_of(self.case, [self.hole]), self.rates
         torque = self.bit_torque * share.weight
-        return steady_laws(hole, share.friction, speed, spin, x, y, z, torque, self.at_axis)._replace(
-            held=self.held
-        )
+        return steady_laws(hole, share.friction, speed, spin, x, y, z, torque, self.at_axis)._replace(held=self.held)
 
     def lay_guess(self, share: Share = FULL, above: float = 0.0) -> None:
         """Lay the string where a soft string would press on the hole; above [m] : its top is above where it will be."""

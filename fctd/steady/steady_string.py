@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
     from fctd.steady.carried_shape import Carried
+    from fctd.steady.feed import Fed
 
 
 AT_FULL = "solved at its full friction alone, from which share of it on is not known"
@@ -77,6 +78,7 @@ class Equilibrium:
     locked_up_at: float = float("nan")
     roll_rate: float = float("nan")
     carried: Carried | None = field(default=None, repr=False)
+    fed: tuple[Fed, ...] = field(default=(), repr=False)
 
     def __repr__(self) -> str:
         loads = ", ".join(f"{label} {value}" for label, value in self._load_rows(MAIN).items())
@@ -108,6 +110,19 @@ class Equilibrium:
         shape, mud = self._shape, self.case.mud.density
         points = shape.contacts[:, PLACE]
         return profile_table(shape.hole, shape.laid.string, mud, shape.top, points, shape.walls, shape.loads)
+
+    @property
+    def feeding(self) -> pd.DataFrame:
+        """The path of a string that was fed from rest, a row per balance; empty for others.
+
+        Columns: feed_m (of the block), hookload_N, bit_moved_m (along the hole), weight_on_bit_N, snapped.
+        """
+        import pandas as pd  # slow to import, and seldom needed
+
+        names = ["feed_m", "hookload_N", "bit_moved_m", "weight_on_bit_N", "snapped"]
+        start = self.fed[0].bit if self.fed else 0.0
+        rows = [(of.feed, -of.push, of.bit - start, of.weight, of.snapped) for of in self.fed]
+        return pd.DataFrame(rows, columns=names)
 
     @property
     def offsets(self) -> Array:
