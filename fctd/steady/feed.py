@@ -26,8 +26,8 @@ from fctd.steady.problem import Pose, Problem, Share
 
 # The top begins so far above the rotary table [m], since feeding moves it down.
 ABOVE = 2.0
-# Increments of feed [m]: the first, the smallest and the largest.  One grows after few iterations of the one before, and
-# shrinks after many.
+# Increments of feed [m]: the first, the smallest and the largest.  One grows after few iterations of the one before,
+# and shrinks after many.
 FIRST, SMALLEST, LARGEST = 0.1, 0.02, 1.0
 FEW, MANY, GROWTH, SHRINKAGE, CUT = 30, 60, 1.5, 0.67, 0.4
 ITERATIONS, FIRST_TIME = 100, 0.2

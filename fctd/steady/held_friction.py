@@ -9,8 +9,6 @@ the return in units of the half axes is radial, and the sliding takes most energ
 
 from typing import NamedTuple
 
-import numpy as np
-
 from fctd.arrays import Array
 from fctd.mechanics.contact import arc_owner, cylinder_owner
 from fctd.mechanics.dual import reciprocal, root
