@@ -76,7 +76,7 @@ def feed_row(case: Case, problem: Problem, lay: Callable[[Case], Problem]) -> Fe
     """
     starts = {share: _start(problem, share) for share in (OFF_BOTTOM, AT_REST)}
     bit_depth, iterations = problem.string.bit_depth, 0
-    needed = planned_lengths(problem, _soft(problem), False)
+    needed = planned_lengths(_soft(problem), problem.weight)
     found: tuple[Problem, FedString, End] | None = None
     for _ in range(LAYOUTS):
         finer = layouts.with_components(case, layouts.resolved(case, bit_depth, *needed))
@@ -91,7 +91,7 @@ def feed_row(case: Case, problem: Problem, lay: Callable[[Case], Problem]) -> Fe
         here = _compressed(problem, string)
         if are_short(problem, here):
             break
-        needed = shorter(needed, planned_lengths(problem, here, end != End.ARRIVED))
+        needed = shorter(needed, planned_lengths(here, problem.weight, pushed=end != End.ARRIVED))
     if found is None:
         return None
     problem, string, end = found
