@@ -12,6 +12,7 @@ from fctd.steady.climb import LARGEST_PUSH, SOUND_PUSH, climb, lock_up
 from fctd.steady.continuation import CONVERGED, Pace
 from fctd.steady.findings import Findings
 from fctd.steady.helical_force import add_helical_force
+from fctd.steady.helix import Helix
 from fctd.steady.post_buckling import Resolved, is_resolved
 from fctd.steady.problem import Problem
 from fctd.steady.steady_string import Equilibrium
@@ -59,14 +60,16 @@ def of_lower_energy(resolved: Resolved, so_far: Findings) -> Equilibrium:
     problem, snaking, helix = resolved
     point = so_far.end_of(problem, snaking)
     if helix is None:
-        chosen = replace(point, shape="snaking")
+        is_helix = problem.slides_down and point.answered and Helix(problem).is_wound()
+        chosen = replace(point, shape="helix" if is_helix else "snaking")
     else:
         wound = point if helix is snaking else so_far.end_of(problem, helix)
         chosen = replace(wound, shape="helix")
         loads = [p.hookload for p in (point, wound) if p.answered]
         if len(loads) == 2 and abs(loads[1] - loads[0]) > APART * problem.weight:
             chosen = replace(chosen, hookload_low=min(loads), hookload_high=max(loads))
-    shapes = carry(resolved) if chosen.status == SteadyStatus.CONVERGED else None
+    is_begun = chosen.status == SteadyStatus.CONVERGED and not problem.slides_down
+    shapes = carry(resolved) if is_begun else None
     return replace(chosen, iterations=chosen.iterations + so_far.first.iterations, carried=shapes)
 
 

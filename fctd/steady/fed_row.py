@@ -19,7 +19,6 @@ from fctd.steady.continuation import CONVERGED, Pace
 from fctd.steady.feed import End, FedString, Start
 from fctd.steady.findings import Findings
 from fctd.steady.first_guess import TENSION
-from fctd.steady.helix import Helix
 from fctd.steady.post_buckling import LAYOUTS, Resolved, are_short, planned_lengths, shorter
 from fctd.steady.problem import FULL, Compressed, Problem, Share
 from fctd.steady.steady_string import Equilibrium
@@ -27,13 +26,8 @@ from fctd.steady.steady_string import Equilibrium
 # Shares of the friction at which a string is fed that has no balance at all of it.
 SHARES = (0.7, 0.45, 0.25, LOW_FRICTION)
 # Work with which lock-up is looked for beyond the friction of the case, iterations times segments.
-WORK_BEYOND = 2e6
+WORK_BEYOND = 1e6
 OFF_BOTTOM, AT_REST = Share(1.0, 0.0), Share(0.0, 0.0)
-
-
-def is_fed(problem: Problem) -> bool:
-    """Whether the block feeds the string: it slides down without rotation, and a wall holds it."""
-    return problem.rates.speed > 0 and problem.rates.spin == 0 and problem.has_friction
 
 
 class FedRow(NamedTuple):
@@ -52,8 +46,7 @@ def fed(problem: Problem, so_far: Findings) -> Equilibrium | None:
         so_far.lay_anew()
         return None
     point = of_lower_energy(Resolved(row.problem, row.path, None), so_far)
-    shape = "helix" if point.answered and Helix(row.problem).is_wound() else "snaking"
-    so_far.resolved = point = replace(point, shape=shape, fed=tuple(row.string.path))
+    so_far.resolved = point = replace(point, fed=tuple(row.string.path))
     if row.end == End.LOCKED:
         so_far.resolved = point = replace(point, message=f"{_locked(row)}; {point.message}")
     lacking = SteadyStatus.UNDER_RESOLVED, SteadyStatus.MAX_ITERATIONS
@@ -75,30 +68,30 @@ def feed_row(case: Case, problem: Problem, lay: Callable[[Case], Problem]) -> Fe
     problem : the string on the case's own segments; lay : makes a problem of a case with others.
     """
     starts = {share: _start(problem, share) for share in (OFF_BOTTOM, AT_REST)}
-    bit_depth, iterations = problem.string.bit_depth, 0
+    bit_depth, row, iterations = problem.string.bit_depth, None, 0
     needed = planned_lengths(_soft(problem), problem.weight)
-    found: tuple[Problem, FedString, End] | None = None
     for _ in range(LAYOUTS):
         finer = layouts.with_components(case, layouts.resolved(case, bit_depth, *needed))
         if layouts.segments_in_hole(finer, bit_depth) > state.MAX_SEGMENTS:
             break
         problem = lay(finer)
         string, end = _feed(problem, starts, 1.0)
-        iterations += string.iterations
         if string.sound is None:
             return None
-        found = problem, string, end
+        iterations += string.iterations
+        row = FedRow(problem, string, end, Climb(iterations=iterations))
         here = _compressed(problem, string)
-        if are_short(problem, here):
+        if are_short(problem, here) and end == End.ARRIVED and _settles(problem, string, row.path, 1.0):
+            row.path.pose = row.path.balances[-1].pose
+            here = problem.compressed()
+        iterations = row.path.iterations
+        if are_short(problem, here) or problem.is_spent:
             break
         needed = shorter(needed, planned_lengths(here, problem.weight, pushed=end != End.ARRIVED))
-    if found is None:
+    if row is None:
         return None
-    problem, string, end = found
-    path = Climb(iterations=iterations)
-    row = FedRow(problem, string, end, path)
-    if end == End.ARRIVED and _settles(problem, string, path, 1.0):
-        path.pose = path.balances[-1].pose
+    problem, path = row.problem, row.path
+    if path.pose is not None:
         _look_beyond(problem, path)
         if path.spent_at <= 1:
             _add_less(problem, starts, path)

@@ -63,6 +63,11 @@ class Findings:
         return self.case.solver.buckling == "resolve" and not is_as_cut
 
     @property
+    def is_to_be_carried(self) -> bool:
+        """Whether the row begins with the shapes of the row above; a string that is fed begins at rest."""
+        return self.is_to_be_resolved and self.above is not None and not self.problem.slides_down
+
+    @property
     def lacks_segments(self) -> bool:
         """Whether the string that was resolved needs more segments than it may have."""
         return self.resolved is not None and self.resolved.status == SteadyStatus.UNDER_RESOLVED

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from fctd.mechanics import state
 from fctd.steady import attempts
 from fctd.steady.continuation import CONVERGED
-from fctd.steady.fed_row import fed, is_fed
+from fctd.steady.fed_row import fed
 from fctd.steady.findings import Findings
 from fctd.steady.problem import Problem
 from fctd.steady.rolling import rolled
@@ -43,8 +43,8 @@ LADDER = (
     Rung("open", lambda so_far: not so_far.case.contact.enabled, attempts.in_the_open),
     Rung(NEWTON, lambda _: True, attempts.newton),
     # The case asks for segments on which a buckled string can bend.
-    Rung("carried", lambda so_far: so_far.is_to_be_resolved and so_far.above is not None, attempts.carried),
-    Rung("fed", lambda so_far: so_far.is_to_be_resolved and is_fed(so_far.problem), fed),
+    Rung("carried", lambda so_far: so_far.is_to_be_carried, attempts.carried),
+    Rung("fed", lambda so_far: so_far.is_to_be_resolved and so_far.problem.slides_down, fed),
     Rung("resolved", lambda so_far: so_far.is_to_be_resolved and so_far.resolved is None, attempts.resolved),
     Rung("resolved in part", lambda so_far: so_far.lacks_segments, attempts.as_resolved, f"{TOO_FINE}; {{}}"),
     Rung("as cut", lambda so_far: so_far.is_to_be_resolved, attempts.as_cut,

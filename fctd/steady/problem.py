@@ -184,6 +184,11 @@ class Problem:
         return bool((across < UPRIGHT).all() and state.row(self.work.S, state.MUD_LATERAL, self.n).any())
 
     @property
+    def slides_down(self) -> bool:
+        """Whether the block feeds it into the hole against friction, without rotation."""
+        return bool(self.rates.speed > 0 and self.rates.spin == 0) and self.has_friction
+
+    @property
     def has_friction(self) -> bool:
         """Whether a wall holds the string anywhere."""
         return bool(self.hole.pieces[:, [FACTOR, FACTOR_AROUND]].any())
