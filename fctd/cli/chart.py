@@ -153,7 +153,7 @@ def chart_command(
         raise InputError("a case file, or --resume with an unfinished chart", key="CASE")
     files = {"out": out, "plot": plot, "plot_profile": plot_profile, "measured": measured}
     asked = ChartRequest(operations, depths, frictions, speed, rpm, load, side_force, units, strict, **files)
-    check_targets(out, plot, plot_profile)
+    check_targets(out, plot, {"--plot-profile": plot_profile})
     case = read_case(case_file, changes_of(overrides, resolve=resolve_buckling))
     target = out or plot or plot_profile
 
@@ -210,7 +210,7 @@ def _chart(
     target : of its folder; opened : makes what keeps its rows there, once all input has been checked.
     """
     units, plot_profile = asked.units, asked.plot_profile
-    out, plot = check_targets(asked.out, asked.plot, plot_profile)
+    out, plot = check_targets(asked.out, asked.plot, {"--plot-profile": plot_profile})
     for key, path in {"--out": out, "--plot": plot, "--plot-profile": plot_profile}.items():
         refuse_sources(case, path, key, [asked.measured])
     bit_depths = read_depths(asked.depths, case, "--depths", bare_length(units))

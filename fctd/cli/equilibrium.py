@@ -13,6 +13,7 @@ from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
 from fctd.case.load import check_bit_depth, naming_file
 from fctd.case.text import printable
+from fctd.cli.feeding import OPTION, PlotFeeding, check_feeding, check_feeding_file, draw_feeding
 from fctd.cli.options import (
     CaseFile,
     Friction,
@@ -47,6 +48,7 @@ from fctd.cli.steady import (
     read_drive,
 )
 from fctd.model.depths import read_depth
+from fctd.model.operations import rates_of_all
 from fctd.results.buckling import BUCKLED
 from fctd.results.columns import COLUMNS, LOADS, SHAPES, SHARES
 from fctd.results.notes import as_metadata
@@ -73,13 +75,15 @@ def equilibrium_command(
         Path | None, file_option("--out", "Profile of the string, .csv, .parquet or .xlsx, or its picture.")
     ] = None,
     plot: Annotated[Path | None, file_option("--plot", f"Picture of the profile, {PICTURE_HELP}.")] = None,
+    plot_feeding: PlotFeeding = None,
     side_force: ShownSideForce = "length",
     units: Units = "si",
     quiet: Quiet = False,
     strict: Strict = False,
 ) -> None:
     """Solve the steady string of one operation and bit depth: its loads, and its profile from top to bit."""
-    out, plot = check_targets(out, plot)
+    check_feeding_file(plot_feeding)
+    out, plot = check_targets(out, plot, {OPTION: plot_feeding})
     if len(operations) > 1:
         raise InputError("one kind of operation (fctd chart takes several)", key="--operation", value=operations)
     (operation,) = operations
@@ -90,6 +94,7 @@ def equilibrium_command(
     with naming_file(case):
         check_bit_depth(depth, *case.depths, "--bit-depth", bit_depth)
     drive = read_drive(speed, rpm, units)
+    check_feeding(plot_feeding, case, rates_of_all(case, [operation], **drive)[operation])
     warnings = warnings_of(case, [operation], **drive)
     told = tell(case, warnings, strict=strict, units=units)
     point = equilibrium(case, operation, depth, **drive)
@@ -104,12 +109,14 @@ def equilibrium_command(
             written += write_table(in_units(units, point.profile), out, metadata)
         if point.answered and plot is not None:
             written += draw_profiles(plot, [point], units=units, force=side_force, warnings=told)
+        if plot_feeding is not None:
+            written += draw_feeding(plot_feeding, point, units, told)
     finally:
         _print_point(point, units)
         print_segments(case, depth, units)
     lacking = not point.answered and (out is not None or plot is not None)
     if lacking:
-        messages.print("Nothing is written: no equilibrium was found, so there is no profile.")
+        messages.print("No profile is written: no equilibrium was found.")
     print_written(written)
     finish(point.status.acceptable and not lacking, (note.code for note in point.notes), strict)
 

@@ -80,19 +80,19 @@ def check_table(out: Path | None, suffixes: Sequence[str] = TABLES) -> None:
 
 
 def check_targets(
-    out: Path | None, plot: Path | None, plot_profile: Path | None = None
+    out: Path | None, plot: Path | None, others: Mapping[str, Path | None]
 ) -> tuple[Path | None, Path | None]:
     """The table and the picture of a command: ``--out`` is a picture where its suffix is that of one.
 
-    Raises InputError for a file that cannot be written, before anything is computed.
+    others : pictures by option.  Raises InputError for a file that cannot be written, before anything is computed.
     """
     if out is None or out.suffix.lower() not in PICTURES:
         check_table(out, (*TABLES, *PICTURES))
-        check_pictures({"--plot": plot, "--plot-profile": plot_profile})
+        check_pictures({"--plot": plot, **others})
         return out, plot
     if plot is not None:
         raise InputError(f"a table, {' or '.join(TABLES)}, beside the picture of --plot", key="--out", value=out)
-    check_pictures({"--out": out, "--plot-profile": plot_profile})
+    check_pictures({"--out": out, **others})
     return None, out
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from fctd.plots.calibration import calibration_figure, prediction_figure
     from fctd.plots.chart import chart_figure
+    from fctd.plots.feeding import feeding_figure
     from fctd.plots.loads import ChartLook
     from fctd.plots.monitor import monitor_figure
     from fctd.plots.page import chart_page, profile_page, save_page
@@ -25,6 +26,7 @@ __all__ = [
     "calibration_figure",
     "chart_figure",
     "chart_page",
+    "feeding_figure",
     "map_figure",
     "monitor_figure",
     "prediction_figure",
@@ -43,6 +45,7 @@ _HOMES = {
     "calibration_figure": "calibration",
     "chart_figure": "chart",
     "chart_page": "page",
+    "feeding_figure": "feeding",
     "map_figure": "sweep",
     "monitor_figure": "monitor",
     "prediction_figure": "calibration",
