@@ -53,6 +53,13 @@ def chart() -> Figure:
     return plots.chart_figure(fctd.torque_drag(case, kinds, range(1750, 2451, 25)), "si", case)
 
 
+def feeding() -> Figure:
+    """A string of the horizontal example that locks up, fed from rest."""
+    changes = {"friction": 0.45, "bit.weight_on_bit": "120 kN", "solver.buckling": "resolve"}
+    case = fctd.load_case(ROOT / "examples" / "horizontal_well.toml", changes)
+    return plots.feeding_figure(fctd.equilibrium(case, operation="drill_sliding", bit_depth=1900))
+
+
 def monitor() -> Figure:
     """The readings of the example, whose open hole has a quarter more friction from 2,200 m on."""
     case = fctd.load_case(WELL)
@@ -102,8 +109,8 @@ def _tables(*names: str) -> dict[str, pd.DataFrame]:
 
 
 PICTURES: dict[str, Callable[[], Figure]] = {
-    "overview": overview, "chart": chart, "monitor": monitor, "run": run, "public_well": public_well,
-    "judged_rows": judged_rows,
+    "overview": overview, "chart": chart, "feeding": feeding, "monitor": monitor, "run": run,
+    "public_well": public_well, "judged_rows": judged_rows,
     "bands": bands, "stick_slip": stick_slip,
 }  # fmt: skip
 # Those drawn from the stored study of a public well, whose data are not part of the project.

@@ -12,7 +12,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from fctd.arrays import Array
 from fctd.case.operations import KINDS
 from fctd.plots.facts import heading_of_profile
 from fctd.plots.palette import DARK, LOOKS, PALETTE, QUIET
@@ -26,7 +25,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 # Sizes [in]: of the panels, and of what stands beside and below them.
-WIDTH, LEFT, RIGHT, BELOW, BETWEEN = 6.6, 0.85, 0.2, 0.5, 0.16
+WIDTH, LEFT, RIGHT, BELOW, BETWEEN = 6.6, 0.85, 0.2, 0.44, 0.16
 LOAD, ARRIVING = 2.7, 1.7
 NEAR = 0.15  # share of the range of hook loads within which the limit of slack-off is drawn
 SNAP: Final[dict[str, Any]] = {
@@ -161,8 +160,8 @@ def _lag(path: pd.DataFrame) -> float:
 
 def _span(values: pd.Series[float]) -> float:
     """From 0 to the end, not 0 itself."""
-    last: Array = values.to_numpy(float)[-1:]
-    return float(last[0]) if last[0] > 0 else 1.0
+    last = float(values.iloc[-1])
+    return last if last > 0 else 1.0
 
 
 def _words(status: str) -> str:

@@ -12,6 +12,7 @@ from fctd import plots
 from fctd.case.operations import KINDS
 from fctd.results.series import FRICTION_LABEL
 from tests.plots.made import chart, locked_chart, points, well
+from tests.plots.test_feeding import OFF_BOTTOM, PRESSED, SLIDING, fed
 
 CASE = well(bit={"weight_on_bit": 8e4}, rig={"block_weight": 1e5}, mud={"density": 1200.0})
 THREE = ["trip_out", "rotate_off_bottom", "trip_in"]
@@ -67,6 +68,9 @@ def main(folder: Path) -> None:
     alone = next(point for point in points() if point.operation == "drill_sliding")
     figures["profile_six"] = plots.profile_figure(points(), "si")
     figures["profile_one"] = plots.profile_figure([alone], "field", force="joint")
+    for units in ("si", "field"):
+        figures[f"fed_on_bottom_{units}"] = plots.feeding_figure(fed("drill_sliding", OFF_BOTTOM + PRESSED), units)  # type: ignore[arg-type]
+        figures[f"fed_off_bottom_{units}"] = plots.feeding_figure(fed("trip_in", SLIDING), units)  # type: ignore[arg-type]
     for name, figure in figures.items():
         (path,) = plots.save(figure, folder / f"{name}.png")
         with Image.open(path) as picture:

@@ -33,7 +33,8 @@ def marks(ax: Axes, look: dict[str, Any]) -> list[tuple[float, float]]:
     """Places of marks with a look."""
     lines = [line for line in ax.lines if line.get_marker() == look["marker"] and line.get_color() == look["color"]
              and line.get_markersize() == look["markersize"]]  # fmt: skip
-    return [(float(x), float(y)) for line in lines for x, y in zip(*line.get_data(), strict=True)]
+    places = [np.column_stack([line.get_xdata(), line.get_ydata()]) for line in lines]
+    return [(float(x), float(y)) for place in places for x, y in place]
 
 
 def panels(figure: Figure) -> tuple[Axes, Axes]:
