@@ -1,6 +1,7 @@
 """The row of a buckled string that slides down: fed from rest, on segments that can bend as it does."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -11,7 +12,7 @@ from fctd.mechanics import state
 from fctd.model import layouts
 from fctd.results.buckling import MODE, NEITHER, buckling_along
 from fctd.results.status import SteadyStatus
-from fctd.steady.attempts import of_lower_energy
+from fctd.steady.attempts import APART, of_lower_energy
 from fctd.steady.balance import ATTEMPTS, LARGEST_TURN
 from fctd.steady.carried_shape import shape_of
 from fctd.steady.climb import LOW_FRICTION, START_ITERATIONS, Climb, climb, close, come_to_rest, keep, lock_up
@@ -19,14 +20,15 @@ from fctd.steady.continuation import CONVERGED, Pace
 from fctd.steady.feed import End, FedString, Start
 from fctd.steady.findings import Findings
 from fctd.steady.first_guess import TENSION
-from fctd.steady.post_buckling import LAYOUTS, Resolved, are_short, planned_lengths, shorter
+from fctd.steady.helix import Helix
+from fctd.steady.post_buckling import LAYOUTS, Resolved, are_short, lay_helix, planned_lengths, shorter
 from fctd.steady.problem import FULL, Compressed, Problem, Share
 from fctd.steady.steady_string import Equilibrium
 
 # Shares of the friction at which a string is fed that has no balance at all of it.
 SHARES = (0.7, 0.45, 0.25, LOW_FRICTION)
-# Work with which lock-up is looked for beyond the friction of the case, iterations times segments.
-WORK_BEYOND = 1e6
+# Work with which a helix is laid, and lock-up looked for beyond the friction of the case, iterations times segments.
+WORK_BESIDE = 1e6
 OFF_BOTTOM, AT_REST = Share(1.0, 0.0), Share(0.0, 0.0)
 
 
@@ -46,20 +48,53 @@ def fed(problem: Problem, so_far: Findings) -> Equilibrium | None:
         so_far.lay_anew()
         return None
     point = of_lower_energy(Resolved(row.problem, row.path, None), so_far)
-    so_far.resolved = point = replace(point, fed=tuple(row.string.path))
-    if row.end == End.LOCKED:
-        so_far.resolved = point = replace(point, message=f"{_locked(row)}; {point.message}")
+    so_far.resolved = point = replace(point, fed=tuple(row.string.path), **_both(row, point))
+    if row.path.pose is None:
+        so_far.resolved = point = replace(point, message=f"{_end_in_words(row)}; {point.message}")
     lacking = SteadyStatus.UNDER_RESOLVED, SteadyStatus.MAX_ITERATIONS
     return None if point.status in lacking else point
 
 
-def _locked(row: FedRow) -> str:
-    """Where a string that was fed from rest is locked up, in words."""
-    weight = row.problem.weight_on_bit
-    if weight == 0:
-        return "fed from rest, the string is locked up before its bit moves"
-    most = max(of.weight for of in row.string.path)
-    return f"fed from rest, the string is locked up with {100 * most / weight:.3g} % of the weight on bit"
+def _both(row: FedRow, point: Equilibrium) -> dict[str, float]:
+    """The hook loads of a fed string that snakes and of a helix, where that is a balance too and they differ."""
+    problem, path = row.problem, row.path
+    if path.pose is None or point.shape == "helix":
+        return {}
+    problem.put_pose(path.pose)
+    helix, wound = Helix(problem), Climb()
+    with _limited(problem, WORK_BESIDE):
+        stands = helix.is_due(FULL) and lay_helix(problem, helix, wound, FULL)
+    if not stands or not wound.steps:
+        return {}
+    loads = sorted((point.hookload, wound.steps[-1].hookload))
+    return dict(zip(("hookload_low", "hookload_high"), loads, strict=True)) if _are_apart(loads, problem) else {}
+
+
+def _are_apart(loads: list[float], problem: Problem) -> bool:
+    return loads[1] - loads[0] > APART * problem.weight
+
+
+@contextmanager
+def _limited(problem: Problem, work: float) -> Iterator[None]:
+    """Let a problem take only a part of its allowance."""
+    left = problem.allowance.left
+    problem.allowance.left = given = min(left, work)
+    try:
+        yield
+    finally:
+        problem.allowance.left += left - given
+
+
+def _end_in_words(row: FedRow) -> str:
+    """How feeding ended, of a string that has no loads at all of its friction."""
+    weight, path = row.problem.weight_on_bit, row.string.path
+    most = max(of.weight for of in path)
+    reached = f"with {100 * most / weight:.3g} % of the weight on bit" if most > 0 else "off bottom"
+    if row.end == End.ARRIVED:
+        arrives = "the weight on bit arrives" if weight else "the bit follows"
+        return f"fed from rest, {arrives}, but no steady shape was found that slides on"
+    what = "the string is locked up" if row.end == End.LOCKED else "the string finds no rest"
+    return f"fed from rest, {what} {reached}"
 
 
 def feed_row(case: Case, problem: Problem, lay: Callable[[Case], Problem]) -> FedRow | None:
@@ -93,14 +128,14 @@ def feed_row(case: Case, problem: Problem, lay: Callable[[Case], Problem]) -> Fe
     problem, path = row.problem, row.path
     if path.pose is not None:
         _look_beyond(problem, path)
-        if path.spent_at <= 1:
-            _add_less(problem, starts, path)
+        _add_less(problem, starts, path, 1.0)
         return row
     path.none_at.append(FULL)
     for share in SHARES:
         less, arrived = _feed(problem, starts, share)
         path.iterations += less.iterations
         if arrived == End.ARRIVED and _settles(problem, less, path, share):
+            _add_less(problem, starts, path, share)
             break
         path.none_at.append(Share(share, 1.0))
         if problem.is_spent:
@@ -113,10 +148,8 @@ def feed_row(case: Case, problem: Problem, lay: Callable[[Case], Problem]) -> Fe
 
 def _look_beyond(problem: Problem, path: Climb) -> None:
     """Follow a string that is pushed to the friction that no push overcomes, with a part of the allowance."""
-    left = problem.allowance.left
-    problem.allowance.left = min(left, WORK_BEYOND)
-    lock_up(problem, path)
-    problem.allowance.left += left - min(left, WORK_BEYOND)
+    with _limited(problem, WORK_BESIDE):
+        lock_up(problem, path)
 
 
 def _feed(problem: Problem, starts: dict[Share, Start | None], share: float) -> tuple[FedString, End]:
@@ -182,17 +215,18 @@ def _settles(problem: Problem, string: FedString, path: Climb, share: float) -> 
     return code == CONVERGED
 
 
-def _add_less(problem: Problem, starts: dict[Share, Start | None], path: Climb) -> None:
-    """Add balances at less friction, down to one at which slack-off is not spent."""
-    pose = problem.copy_pose()
+def _add_less(problem: Problem, starts: dict[Share, Start | None], path: Climb, first: float) -> None:
+    """Add balances below the first one of a path, down to one at which slack-off is not spent; the pose stays."""
+    pose, push = problem.copy_pose(), problem.case.rig.push
     for share in SHARES:
+        if share >= first:
+            continue
+        if path.steps[0].hookload + push > 0 or problem.is_spent:
+            break
         less = Climb()
         string, end = _feed(problem, starts, share)
         path.iterations += string.iterations
-        if end != End.ARRIVED or not _settles(problem, string, less, share):
-            continue
-        path.steps, path.balances = less.steps + path.steps, less.balances + path.balances
-        if path.steps[0].hookload + problem.case.rig.push > 0:
-            break
+        if end == End.ARRIVED and _settles(problem, string, less, share):
+            path.steps, path.balances = less.steps + path.steps, less.balances + path.balances
     problem.put_pose(pose)
     close(problem, path)

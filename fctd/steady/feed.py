@@ -23,6 +23,7 @@ from fctd.steady.continuation import CONVERGED
 from fctd.steady.held_friction import ALONG_THEN, MEMORY, PLACE_THEN, Held, end_increment
 from fctd.steady.pose import PLACE, QUATERNION
 from fctd.steady.problem import Pose, Problem, Share
+from fctd.steady.stability import push_aside
 
 # The top begins so far above the rotary table [m], since feeding moves it down.
 ABOVE = 2.0
@@ -31,6 +32,8 @@ ABOVE = 2.0
 FIRST, SMALLEST, LARGEST = 0.1, 0.02, 1.0
 FEW, MANY, GROWTH, SHRINKAGE, CUT = 30, 60, 1.5, 0.67, 0.4
 ITERATIONS, FIRST_TIME = 100, 0.2
+# Times that a string is pushed aside in an increment.
+PUSHES = 2
 # A snap: so many times the friction follows some steps of the relaxation, and then holds.
 SNAPS, SLIPPING, SNAP_TIME = 12, 20, 0.05
 # On the way a balance may be out by this multiple of what a balance is allowed: the last one is exact.
@@ -45,8 +48,11 @@ MOVED = 0.01  # [m]
 LARGEST_PUSH, MOST_FEED = 10.0, 60.0
 # The rock gives way by a millimetre under the force that stretches a metre of the string by a millimetre.
 ROCK_LENGTH = 1.0
-# The weight on bit is reached within this share of it.
-REACHED, OVERSHOT = 1e-3, 0.01
+# It has to be so in as many balances, one after the other.
+STALLS = 2
+# The weight on bit is reached within this share of it, and exceeded by less than another one; for that an increment
+# may be as short as this [m].
+REACHED, OVERSHOT, SHORTEST = 1e-3, 0.01, 1e-5
 
 
 class End(StrEnum):
@@ -100,7 +106,7 @@ class FedString:
         self._share = Share(self.friction, 0.0)
         self._memory = np.zeros((problem.n + 2, MEMORY))
         self._axis, self._ahead = problem.laid.top_axis, problem.laid.bit_axis
-        self._feed = 0.0
+        self._feed, self._stalls = 0.0, 0
 
     def begin(self, start: Start) -> bool:
         """Hang the string off bottom in a shape of the case's own segments; returns whether it comes to rest.
@@ -150,12 +156,12 @@ class FedString:
         return sum(of.snapped for of in self.path)
 
     def _feed_until(self, weight: float | None) -> End:
-        step, start = FIRST, self._feed
+        step, start, self._stalls = FIRST, self._feed, 0
         first = len(self.path) - 1
         while self._feed - start < MOST_FEED:
             kept = self._kept()
             self._move(step)
-            code, done = self._rest(ITERATIONS, False)
+            code, done = self._rest_aside()
             if code != CONVERGED and step > SMALLEST:
                 self._put(kept)
                 step = max(CUT * step, SMALLEST)
@@ -165,10 +171,10 @@ class FedString:
                 self._put(kept)
                 return End.LOST
             over = self._pressed() - (weight or np.inf)
-            if over > OVERSHOT * (weight or 0.0) and step > SMALLEST:
+            if over > OVERSHOT * (weight or 0.0) and step > SHORTEST:
                 self._put(kept)
                 now = self.path[-1].weight
-                step = max(step * (weight - now) / (weight + over - now), SMALLEST)
+                step = max(step * (weight - now) / (weight + over - now), SHORTEST)
                 continue
             self._remember()
             self._keep(snapped, weight)
@@ -201,7 +207,8 @@ class FedString:
                 stalls = moved and now.bit - then.bit < self.arriving * fed
             else:
                 stalls = now.weight - then.weight < self.arriving * abs(pushed)
-            return End.LOCKED if stalls else None
+            self._stalls = self._stalls + 1 if stalls else 0
+            return End.LOCKED if self._stalls >= STALLS else None
         return None
 
     def _next(self, step: float, weight: float | None) -> float:
@@ -210,7 +217,7 @@ class FedString:
         if weight is None or now.weight <= before.weight or now.feed == before.feed:
             return step
         slope = (now.weight - before.weight) / (now.feed - before.feed)
-        return max(min(step, (weight - now.weight) / slope), SMALLEST / 10)
+        return max(min(step, (weight - now.weight) / slope), SHORTEST)
 
     def _hold(self, rock: float, level: float, torque: float) -> None:
         x, y, z = self._ahead.tolist()
@@ -238,6 +245,20 @@ class FedString:
             creep._replace(tau=SNAP_TIME if slips else FIRST_TIME, slips=slips), self._share
         )
         self.iterations += done
+        return code, done
+
+    def _rest_aside(self) -> tuple[int, int]:
+        """Let the string come to rest, also out of a balance that it would leave; returns code and iterations.
+
+        A straight string stays straight above its buckling limit until something moves it aside, and friction lets it
+        go while it slides along.
+        """
+        code, done = self._rest(ITERATIONS, False)
+        for _ in range(PUSHES):
+            if code != CONVERGED or push_aside(self.problem, self._share) is None:
+                break
+            code, more = self._rest(ITERATIONS, False)
+            done += more
         return code, done
 
     def _snaps(self) -> bool:

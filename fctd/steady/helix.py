@@ -85,9 +85,14 @@ class Helix:
         self.turns = self._turns()
 
     def is_wound(self) -> bool:
-        """Whether the string in its pose is a helix where that has the lower energy; nothing is laid."""
+        """Whether the string in its pose is a helix where that has the lower energy; its sense may change on the way.
+
+        A string that snakes stays on its side of the hole, and each turn of a helix passes the other one.
+        """
         self.beyond, _, due = self._due(FULL, self.problem.reactions())
-        return due >= LEAST_TURNS and self._turns() > STILL * due
+        angle = self._angle()
+        passed = np.abs(np.diff(np.floor((angle + np.pi) / (2 * np.pi))))
+        return due >= LEAST_TURNS and float(passed[self.beyond[1:] & self.beyond[:-1]].sum()) > STILL * due
 
     def stands(self) -> bool:
         """Whether the string in its pose still has most of the turns that were laid."""
@@ -104,9 +109,13 @@ class Helix:
 
     def _turns(self) -> float:
         """Turns of the string in its pose about the hole's axis, in the part through which the helix goes."""
+        angle = self._angle()
+        both = self.beyond[1:] & self.beyond[:-1]
+        return float(abs(np.diff(angle)[both].sum())) / (2 * np.pi)
+
+    def _angle(self) -> Array:
+        """Angle of the contact points (n,) round the hole from its low side, which grows on from turn to turn [rad]."""
         problem = self.problem
         walls = problem.walls(problem.reactions().contacts)
         low, right = carried_frame(problem.hole.at(walls.md)[1])
-        angle = np.unwrap(np.arctan2((walls.offset * right).sum(axis=1), (walls.offset * low).sum(axis=1)))
-        both = self.beyond[1:] & self.beyond[:-1]
-        return float(abs(np.diff(angle)[both].sum())) / (2 * np.pi)
+        return np.unwrap(np.arctan2((walls.offset * right).sum(axis=1), (walls.offset * low).sum(axis=1)))

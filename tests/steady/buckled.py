@@ -27,6 +27,10 @@ def level_case(times_onset: float, length: float = 150.0, segment: float = 1.5, 
     return case.model_copy(update={"bit": bit})
 
 
+def with_tables(case: Case, **tables: dict[str, object]) -> Case:
+    return Case.model_validate(case.model_dump(exclude_defaults=True) | tables)
+
+
 def onset(case: Case) -> float:
     """2√(EI w/r) [N] (Dawson & Paslay 1984)."""
     s = section_of(case.string.components[0], case.mud.density)

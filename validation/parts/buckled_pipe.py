@@ -151,7 +151,7 @@ class Rig:
             raise UnsettledError(
                 f"no balance at {force / self.pipe.onset:.4g} times the onset, {iterations} iterations"
             )
-        return self.solver.answer(problem, code, iterations, problem.unstable_modes())
+        return self.solver.answer(problem, code, iterations, problem.unstable_modes(), "relaxed")
 
     def rest_as_rod(self, force: float) -> pd.DataFrame:
         """The rows of a profile of PyElastica's rod, with elements as long as segments, relaxed from the pose."""
