@@ -50,7 +50,11 @@ def fed(problem: Problem, so_far: Findings) -> Equilibrium | None:
     point = of_lower_energy(Resolved(row.problem, row.path, None), so_far)
     so_far.resolved = point = replace(point, fed=tuple(row.string.path), **_both(row, point))
     if row.path.pose is None:
-        so_far.resolved = point = replace(point, message=f"{_end_in_words(row)}; {point.message}")
+        status = SteadyStatus.LOCKED_UP if row.end == End.LOCKED else point.status
+        message = (
+            f"{_end_in_words(row)}; {point.message}" if point.message != point.status.message else _end_in_words(row)
+        )
+        so_far.resolved = point = replace(point, status=status, message=message)
     lacking = SteadyStatus.UNDER_RESOLVED, SteadyStatus.MAX_ITERATIONS
     return None if point.status in lacking else point
 
@@ -114,6 +118,11 @@ def feed_row(case: Case, problem: Problem, lay: Callable[[Case], Problem]) -> Fe
         if string.sound is None:
             return None
         iterations += string.iterations
+        if row is not None and end == End.LOST:
+            # That of longer segments has an end, and its reason says what they lack.
+            problem = lay(row.problem.case)
+            row.path.is_cut = problem.is_spent
+            return row._replace(problem=problem)
         row = FedRow(problem, string, end, Climb(iterations=iterations))
         here = _compressed(problem, string)
         if are_short(problem, here) and end == End.ARRIVED and _settles(problem, string, row.path, 1.0):

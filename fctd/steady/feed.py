@@ -32,8 +32,6 @@ ABOVE = 2.0
 FIRST, SMALLEST, LARGEST = 0.1, 0.02, 1.0
 FEW, MANY, GROWTH, SHRINKAGE, CUT = 30, 60, 1.5, 0.67, 0.4
 ITERATIONS, FIRST_TIME = 100, 0.2
-# Times that a string is pushed aside in an increment.
-PUSHES = 2
 # A snap: so many times the friction follows some steps of the relaxation, and then holds.
 SNAPS, SLIPPING, SNAP_TIME = 12, 20, 0.05
 # On the way a balance may be out by this multiple of what a balance is allowed: the last one is exact.
@@ -161,12 +159,12 @@ class FedString:
         while self._feed - start < MOST_FEED:
             kept = self._kept()
             self._move(step)
-            code, done = self._rest_aside()
+            code, done = self._rest(ITERATIONS, False)
             if code != CONVERGED and step > SMALLEST:
                 self._put(kept)
                 step = max(CUT * step, SMALLEST)
                 continue
-            snapped = code != CONVERGED
+            snapped = code != CONVERGED or not self._stays()
             if snapped and not self._snaps():
                 self._put(kept)
                 return End.LOST
@@ -181,7 +179,7 @@ class FedString:
             end = self._end(first, weight)
             if end is not None:
                 return end
-            step *= GROWTH if done < FEW else SHRINKAGE if done > MANY else 1.0
+            step *= 1.0 if snapped else GROWTH if done < FEW else SHRINKAGE if done > MANY else 1.0
             step = self._next(min(max(step, SMALLEST), LARGEST), weight)
         return End.LOCKED
 
@@ -247,19 +245,14 @@ class FedString:
         self.iterations += done
         return code, done
 
-    def _rest_aside(self) -> tuple[int, int]:
-        """Let the string come to rest, also out of a balance that it would leave; returns code and iterations.
+    def _stays(self) -> bool:
+        """Push the string aside where it would leave its balance; returns whether it comes to rest beside it.
 
         A straight string stays straight above its buckling limit until something moves it aside, and friction lets it
         go while it slides along.
         """
-        code, done = self._rest(ITERATIONS, False)
-        for _ in range(PUSHES):
-            if code != CONVERGED or push_aside(self.problem, self._share) is None:
-                break
-            code, more = self._rest(ITERATIONS, False)
-            done += more
-        return code, done
+        aside = push_aside(self.problem, self._share, if_driven=True)
+        return aside is None or self._rest(ITERATIONS, False)[0] == CONVERGED
 
     def _snaps(self) -> bool:
         """Let the string snap into another shape; returns whether it comes to rest."""

@@ -54,8 +54,11 @@ def fastest_mode(problem: Problem, share: Share) -> Mode | None:
     return Mode(mode, low)
 
 
-def push_aside(problem: Problem, share: Share) -> float | None:
-    """Push a string out of the balance of some loads that it would leave; returns in which time [s], None for never."""
+def push_aside(problem: Problem, share: Share, *, if_driven: bool = False) -> float | None:
+    """Push a string out of the balance of some loads that it would leave; returns in which time [s], None for never.
+
+    if_driven : only where its forces, friction among them, drive it on.
+    """
     fastest = fastest_mode(problem, share)
     if fastest is None:
         return None
@@ -65,11 +68,13 @@ def push_aside(problem: Problem, share: Share) -> float | None:
     arm = np.abs(state.row(problem.work.S, state.ARM_CONTACT, n))
     moved = np.linalg.norm(mode[:, :3], axis=1) + arm * np.linalg.norm(mode[:, 3:5], axis=1)
     balance, size = problem.copy_pose(), PUSH / (moved / clearance).max()
-    for _ in range(DOUBLINGS):
+    for doubling in range(DOUBLINGS):
         _shift(problem, mode, 2 * size)
         drives = _driving(problem, mode, share) > 0
         problem.put_pose(balance)
         if not drives:
+            if if_driven and doubling == 0:
+                return None
             break
         size *= 2
     _shift(problem, mode, size)
