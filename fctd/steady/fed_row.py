@@ -48,7 +48,8 @@ def fed(problem: Problem, so_far: Findings) -> Equilibrium | None:
         so_far.lay_anew()
         return None
     point = of_lower_energy(Resolved(row.problem, row.path, None), so_far)
-    so_far.resolved = point = replace(point, fed=tuple(row.string.path), **_both(row, point))
+    low, high = _both(row, point)
+    so_far.resolved = point = replace(point, fed=tuple(row.string.path), hookload_low=low, hookload_high=high)
     if row.path.pose is None:
         status = SteadyStatus.LOCKED_UP if row.end == End.LOCKED else point.status
         message = (
@@ -59,23 +60,19 @@ def fed(problem: Problem, so_far: Findings) -> Equilibrium | None:
     return None if point.status in lacking else point
 
 
-def _both(row: FedRow, point: Equilibrium) -> dict[str, float]:
-    """The hook loads of a fed string that snakes and of a helix, where that is a balance too and they differ."""
-    problem, path = row.problem, row.path
+def _both(row: FedRow, point: Equilibrium) -> tuple[float, float]:
+    """The hook loads of a fed string that snakes and of a helix, where that is another balance; else NaN."""
+    problem, path, none = row.problem, row.path, (float("nan"), float("nan"))
     if path.pose is None or point.shape == "helix":
-        return {}
+        return none
     problem.put_pose(path.pose)
     helix, wound = Helix(problem), Climb()
     with _limited(problem, WORK_BESIDE):
         stands = helix.is_due(FULL) and lay_helix(problem, helix, wound, FULL)
     if not stands or not wound.steps:
-        return {}
-    loads = sorted((point.hookload, wound.steps[-1].hookload))
-    return dict(zip(("hookload_low", "hookload_high"), loads, strict=True)) if _are_apart(loads, problem) else {}
-
-
-def _are_apart(loads: list[float], problem: Problem) -> bool:
-    return loads[1] - loads[0] > APART * problem.weight
+        return none
+    low, high = sorted((point.hookload, wound.steps[-1].hookload))
+    return (low, high) if high - low > APART * problem.weight else none
 
 
 @contextmanager

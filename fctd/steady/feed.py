@@ -168,11 +168,11 @@ class FedString:
             if snapped and not self._snaps():
                 self._put(kept)
                 return End.LOST
-            over = self._pressed() - (weight or np.inf)
-            if over > OVERSHOT * (weight or 0.0) and step > SHORTEST:
+            pressed = self._pressed()
+            if weight is not None and pressed > (1 + OVERSHOT) * weight and step > SHORTEST:
                 self._put(kept)
                 now = self.path[-1].weight
-                step = max(step * (weight - now) / (weight + over - now), SHORTEST)
+                step = max(step * (weight - now) / (pressed - now), SHORTEST)
                 continue
             self._remember()
             self._keep(snapped, weight)
