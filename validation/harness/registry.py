@@ -49,6 +49,7 @@ STUDIES: dict[str, str] = {
     "real_chart": "validation.studies.real_chart",
     "buckled_wells": "validation.studies.buckled_wells",
     "robust_rows": "validation.studies.robust_rows",
+    "fed_strings": "validation.studies.fed_strings",
     "refine_real": "validation.studies.refine_real",
     "calibration": "validation.studies.calibration",
     "monitoring": "validation.studies.monitoring",

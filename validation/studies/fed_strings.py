@@ -1,0 +1,265 @@
+"""Strings at their limit, fed from rest: one answer from every mesh, and the same from the stepper.
+
+Rows of strings that buckle as they slide down, drawn at random, on three meshes each; those that lock up on both sides
+of their limit; trips in by the stepper; and the threshold of what counts as locked up.
+"""
+
+import time
+from collections.abc import Iterator
+from itertools import count, islice
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from fctd import Case, torque_drag
+from fctd.results.status import SteadyStatus
+from fctd.steady.equilibrium import Solver
+from fctd.steady.feed import ARRIVING, End
+from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
+from validation.parts.fed_strings import (
+    LEAST_LIMIT,
+    MESHES,
+    RAISED,
+    SAME_FRICTION,
+    SAME_LOAD,
+    SEGMENT,
+    Drawn,
+    Feeding,
+    Locked,
+    Row,
+    as_found,
+    compare,
+    drawn,
+    locked_of,
+    meshed,
+    scaled,
+    solve,
+    solved,
+    trips,
+)
+from validation.parts.resolved_rows import CASED, DEPTH, horizontal_well
+from validation.parts.slid_strings import LONGEST, slide
+
+# Strings of each part, and those that were asked for: a row that is resolved takes ten seconds.
+STRINGS, LIMITS, STEPPED, VARIED = 15, 6, 2, 8
+ASKED = 120, 30, 30, 20
+QUICK = 9  # index of the one string of the quick run, which takes a second on each mesh
+BELOW, ABOVE = 0.95, 1.05  # of the friction at lock-up, on the same mesh
+OTHER, OTHER_BELOW, OTHER_ABOVE = 0.7, 0.92, 1.08  # share of the segments, and of the friction on that mesh
+SPEEDS = 0.2, 0.4  # of the stepper [m/s]
+FACTOR = 2.0  # by which the threshold of lock-up is varied either way
+CHART, CHART_FRICTION = 10, 0.25  # depths of a chart, and its friction factor
+Found = tuple[Drawn, Row]
+
+
+def strings(context: Context) -> Iterator[tuple[int, Drawn, Row]]:
+    """Strings that buckle, without end: index, string, and its row on the segments of the case."""
+    for index in count(QUICK if context.quick else 0):
+        string = drawn(context, index)
+        row = solved(string)
+        if row is not None and row.is_buckled:
+            yield index, string, row
+
+
+def meshes(context: Context) -> tuple[pd.DataFrame, pd.DataFrame, list[Found]]:
+    """A row per string and mesh, a row per string that compares them, and the strings on their first mesh."""
+    rows: list[dict[str, Any]] = []
+    alike: list[dict[str, Any]] = []
+    kept: list[Found] = []
+    buckled = islice(strings(context), 1 if context.quick else STRINGS)
+    for index, string, first in context.progress(buckled, "strings on three meshes"):
+        well, case, kind, depth, friction = string
+        finer = [solve(meshed(case, share), kind, depth) for share in MESHES[1:]]
+        of_string = {
+            "index": index, "well": well, "operation": kind, "bit_depth_m": depth, "friction": friction,
+            "weight_on_bit_kN": case.bit.weight_on_bit / 1e3 if kind == "drill_sliding" else 0.0,
+        }  # fmt: skip
+        for share, row in zip(MESHES, (first, *finer), strict=True):
+            rows.append(of_string | {"mesh": share, "lacks_segments": row.lacks_segments} | row.facts)
+            rows[-1]["lacks_work"] = row.lacks_work
+        found = compare((first, *finer), weight_of(case, depth))
+        alike.append(
+            of_string
+            | {
+                "statuses": ", ".join(row.status for row in (first, *finer)),
+                "hookload_apart_percent_of_weight": found.load, "locked_up_apart_percent": found.friction,
+                "differs": found.differs, "is_same": found.differs == "",
+            }
+        )  # fmt: skip
+        kept.append((string, first))
+    return pd.DataFrame(rows), pd.DataFrame(alike), kept
+
+
+@table_of_rows
+def chart() -> Rows:
+    """The time of a chart of the horizontal well, over its rows."""
+    case = horizontal_well(SEGMENT, "resolve", CHART_FRICTION)
+    depths = np.linspace(CASED, DEPTH, CHART).round(1)
+    began = time.process_time()
+    table = torque_drag(case, "drill_sliding", depths.tolist(), threads=1)
+    seconds = (time.process_time() - began) / len(table)
+    for row in table.itertuples():
+        yield {
+            "bit_depth_m": row.bit_depth_m, "status": row.status, "shape": row.shape,
+            "hookload_kN": float(str(row.hookload_N)) / 1e3, "seconds_a_row": seconds,
+        }  # fmt: skip
+
+
+@table_of_rows
+def limits(context: Context, locked: list[Locked]) -> Rows:
+    """Locked strings at shares of their friction at lock-up, and the two limits of each."""
+    for string, point in context.progress(locked, "locked strings at their limit"):
+        _, case, kind, depth, friction = string
+        at, same, other = point.locked_up_at, as_found(case, point), meshed(case, OTHER)
+        below, above, other_below, other_above = (
+            solve(scaled(on, share * at), kind, depth)
+            for on, share in ((same, BELOW), (same, ABOVE), (other, OTHER_BELOW), (other, OTHER_ABOVE))
+        )
+        low, high = Feeding(same, kind, depth).limit(at)
+        yield {
+            "well": string.well, "operation": kind, "bit_depth_m": depth, "friction": friction,
+            "locked_up_friction": friction * at, "fed_arrives_at": friction * low, "fed_locks_up_at": friction * high,
+            "below": below.status, "arrives_below": below.arrives, "above": above.status,
+            "arrives_above": above.arrives, "other_below": other_below.status,
+            "other_arrives_below": other_below.arrives, "other_above": other_above.status,
+            "other_arrives_above": other_above.arrives, "reason": point.message, "reason_below": _reason(below),
+            "reason_above": _reason(above),
+        }  # fmt: skip
+
+
+def _reason(row: Row) -> str:
+    return row.raised if row.point is None else row.point.message
+
+
+@table_of_rows
+def stepped(context: Context, locked: list[Locked]) -> Rows:
+    """Locked trips in, by the stepper at two speeds on both sides of their limit, and by feed.
+
+    Those with the fewest segments.
+    """
+    for string, point in context.progress(sorted(locked, key=lambda of: len(of[1].profile))[:STEPPED], "stepper"):
+        kind, depth, cut = string.operation, string.bit_depth, as_found(string.case, point)
+        feeding = Feeding(cut, kind, depth)
+        for share in (BELOW, ABOVE):
+            at = share * point.locked_up_at
+            slow, fast = (slide(scaled(cut, at), kind, depth, speed, settles=True) for speed in SPEEDS)
+            feed = feeding.at(at)
+            yield {
+                "well": string.well, "bit_depth_m": depth, "segments": len(point.profile) - 1,
+                "share_of_limit_percent": 100 * share, "status": slow.status, "fed_m": slow.fed,
+                "bit_follows_percent": 100 * slow.share, "push_weights": slow.push,
+                "apart_percent": 100 * abs(fast.push - slow.push) / max(abs(slow.push), 1.0),
+                "stepper": "arrives" if slow.slides else "not", "fast": "arrives" if fast.slides else "not",
+                "feed": "arrives" if feed == End.ARRIVED else "not", "feed_ends": str(feed),
+            }  # fmt: skip
+
+
+@table_of_rows
+def thresholds(context: Context, kept: list[Found]) -> Rows:
+    """Strings that are fed at all of their friction, with several thresholds of lock-up."""
+    fed = [(string, row.point) for string, row in kept if row.point is not None and len(row.point.fed)]
+    for string, point in context.progress(fed[:VARIED], "thresholds of lock-up"):
+        feeding = Feeding(as_found(string.case, point), string.operation, string.bit_depth)
+        less, own, more = (str(feeding.at(1.0, share * ARRIVING)) for share in (1 / FACTOR, 1.0, FACTOR))
+        yield {
+            "well": string.well, "operation": string.operation, "bit_depth_m": string.bit_depth,
+            "friction": string.friction, "half": less, "own": own, "twice": more, "changes": len({less, own, more}) > 1,
+        }  # fmt: skip
+
+
+def weight_of(case: Case, depth: float) -> float:
+    """Weight of a string in mud [N]."""
+    string = Solver(case).lay_out(depth).string
+    return float(string.of("weight") @ string.length)
+
+
+def run(context: Context) -> Outcome:
+    """Rows on three meshes; the full run has the other parts as well."""
+    rows, alike, kept = meshes(context)
+    counts = rows.groupby(["well", "operation", "status"], sort=False).size().rename("rows").reset_index()
+    tables = {"rows": rows, "alike": alike, "counts": counts}
+    display = {"counts": "Rows by status"}
+    if not context.quick:
+        tripped = list(islice(locked_of(trips(context)), max(STEPPED, LIMITS // 2)))
+        locked = [*islice(locked_of(kept), LIMITS - len(tripped)), *tripped]
+        tables |= {
+            "chart": chart(), "limits": limits(context, locked), "thresholds": thresholds(context, kept),
+            "stepped": stepped(context, tripped),
+        }  # fmt: skip
+        tables["differ"] = alike[~alike["is_same"]]
+        display |= {
+            "differ": "Strings whose meshes differ", "limits": "Locked strings at shares of their limit",
+            "stepped": "Locked trips in, by the stepper and by feed",
+            "thresholds": "Strings fed with half and twice the threshold of lock-up",
+        }  # fmt: skip
+    return Outcome(tables=tables, checks=_checks(tables), notes=_notes(tables), display=display)
+
+
+def _notes(tables: dict[str, pd.DataFrame]) -> list[str]:
+    alike = tables["alike"]
+    return [
+        f"{len(alike)} strings that buckle, of {int(alike['index'].max()) + 1} drawn, in a horizontal well, random "
+        "wells and a real survey; friction 0.1 to 0.5, 20 to 300 kN on bit or trips in. Rows of a string are the same "
+        f"where statuses are, hook loads agree within {100 * SAME_LOAD:g} % of the weight, and the friction at lock-up "
+        f"within {100 * SAME_FRICTION:g} % where all meshes have it.",
+        "A string arrives at a share of its friction where the row is converged, or locked up with loads since "
+        "slack-off is spent; it does not where the row is locked up without loads. Its limit of feeding lies between "
+        f"fed_arrives_at and fed_locks_up_at, and is looked for from {100 * LEAST_LIMIT:g} % of the friction at "
+        "lock-up on.",
+        f"Rows take some ten seconds each, so that fewer strings are run than the {ASKED[0]}, {ASKED[1]}, {ASKED[2]} "
+        f"and {ASKED[3]} that were asked for: {STRINGS} on three meshes, {LIMITS} at their limit, {STEPPED} by the "
+        f"stepper, {VARIED} with other thresholds. The stepper feeds a string by at most "
+        f"{LONGEST:g} m at {SPEEDS[0]:g} and {SPEEDS[1]:g} m/s.",
+    ]
+
+
+def _checks(tables: dict[str, pd.DataFrame]) -> list[Check]:
+    """The numbers with bounds."""
+    rows, alike = tables["rows"], tables["alike"]
+    coarse = (rows["status"] == SteadyStatus.UNDER_RESOLVED) & ~rows["lacks_segments"]
+    checks = [
+        Check("strings with one answer from three meshes", 100 * float(alike["is_same"].mean()), 97.0, "at_least", "%",
+              f"status, hook load within {100 * SAME_LOAD:g} % of the weight, friction at lock-up within "
+              f"{100 * SAME_FRICTION:g} %"),
+        Check("rows that raise", float((rows["status"] == RAISED).sum()), 0, "at_most", "", "an answer or a reason"),
+        Check("rows that are under-resolved", float(coarse.sum()), 0, "at_most", "",
+              "except where a string needs more segments than it may have"),
+        Check("rows whose resolving runs out of its work", float(rows["lacks_work"].sum()), 0, "at_most", "",
+              "an answer on segments that follow the waves"),
+        Check("slowest row", float(rows["seconds"].max()), 6.0, "at_most", "s", "processor time"),
+        Check("median row", float(rows["seconds"].median()), 1.0, "at_most", "s", "processor time"),
+    ]  # fmt: skip
+    if "chart" in tables:
+        checks.append(Check("row of a chart", float(tables["chart"]["seconds_a_row"].iloc[0]), 1.0, "at_most", "s",
+                            f"processor time over the rows of {CHART} depths"))  # fmt: skip
+    if len(of := tables.get("limits", pd.DataFrame())):
+        own = (of["arrives_below"] == True) & (of["arrives_above"] == False)  # noqa: E712
+        other = (of["other_arrives_below"] == True) & (of["other_arrives_above"] == False)  # noqa: E712
+        checks += [
+            Check(f"locked strings that arrive at {100 * BELOW:g} % of their limit and not at {100 * ABOVE:g} %",
+                  100 * float(own.mean()), 100 * 28 / 30, "at_least", "%", f"{len(of)} strings, the same mesh"),
+            Check(f"locked strings that arrive at {100 * OTHER_BELOW:g} % of their limit and not at "
+                  f"{100 * OTHER_ABOVE:g} % on another mesh", 100 * float(other.mean()), 100 * 28 / 30, "at_least",
+                  "%", f"{len(of)} strings, segments of {100 * OTHER:g} %"),
+        ]  # fmt: skip
+    if len(of := tables.get("stepped", pd.DataFrame())):
+        checks += [
+            Check("trips in that arrive by the stepper as by feed", 100 * float((of["stepper"] == of["feed"]).mean()),
+                  90.0, "at_least", "%", "27 of 30"),
+            Check("stepper at two speeds, push, largest difference", float(of["apart_percent"].max()), 1.0, "at_most",
+                  "%", "of the push, or of the weight where that is more"),
+        ]  # fmt: skip
+    if len(of := tables.get("thresholds", pd.DataFrame())):
+        checks.append(Check("strings that another threshold of lock-up changes", float(of["changes"].sum()), 1.0,
+                            "at_most", "", f"of {len(of)}, half and twice {100 * ARRIVING:g} %"))  # fmt: skip
+    return checks
+
+
+STUDY = Study(
+    "fed_strings",
+    "Do strings at their limit have one answer from every mesh, and does the stepper agree?",
+    run,
+    needs=("data",),
+    timed=True,
+)
