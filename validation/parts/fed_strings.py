@@ -35,7 +35,7 @@ SEED = 34
 WELLS = "horizontal", "random", "K05-ENC-05-S1"
 KINDS = "drill_sliding", "trip_in"
 FRICTION, WEIGHT = (0.1, 0.5), (20e3, 300e3)  # ranges of the factor, and of the weight on bit [N]
-MORE_FRICTION, SHORT = (0.4, 0.8), 3000.0  # of trips in that are to lock up, with the bit at most so deep [m]
+MORE_FRICTION, SHORT = (0.4, 0.6), 3000.0  # of trips in that are to lock up, with the bit at most so deep [m]
 LEAST_DEPTH = 0.4  # of the depths that a string can reach
 SEGMENT = 20.0  # of the horizontal well [m]
 MESHES = (1.0, 0.7, 0.5)  # shares of the segments of the case
@@ -44,6 +44,7 @@ SAME_LOAD, SAME_FRICTION = 0.01, 0.02
 # The limit of feeding is looked for between these shares of ``locked_up_at``, in so many halvings.
 LEAST_LIMIT, LARGEST_LIMIT, HALVINGS = 0.7, 1.3, 4
 AT_REST = Share(0.0, 0.0)
+ARRIVES, NOT = "arrives", "not"
 RAISED = "raised"  # the status of a row that ends in an exception
 
 
@@ -86,7 +87,10 @@ def drawn(context: Context, index: int, factors: tuple[float, float] = FRICTION)
 
 def meshed(case: Case, share: float) -> Case:
     """The case with segments of a share of their length."""
-    parts = [of.model_copy(update={"segment_length": share * of.segment_length}) for of in case.string.components]
+    parts = []
+    for of in case.string.components:
+        assert of.segment_length is not None  # of every string that is drawn
+        parts.append(of.model_copy(update={"segment_length": share * of.segment_length}))
     return layouts.with_components(case, tuple(parts))
 
 
@@ -132,12 +136,11 @@ class Row(NamedTuple):
         return self.point is not None and TOO_MUCH in self.point.message
 
     @property
-    def arrives(self) -> bool | None:
-        """Whether the string slides at its friction; None where the row says neither that it does nor that no push
-        moves it."""
+    def arrival(self) -> str:
+        """Whether the string slides at its friction: ``ARRIVES``, ``NOT`` where no push moves it, else its status."""
         if self.point is None or self.point.status not in (SteadyStatus.CONVERGED, SteadyStatus.LOCKED_UP):
-            return None
-        return self.point.answered
+            return self.status
+        return ARRIVES if self.point.answered else NOT
 
     @property
     def facts(self) -> dict[str, Any]:

@@ -18,8 +18,10 @@ from fctd.steady.equilibrium import Solver
 from fctd.steady.feed import ARRIVING, End
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts.fed_strings import (
+    ARRIVES,
     LEAST_LIMIT,
     MESHES,
+    NOT,
     RAISED,
     SAME_FRICTION,
     SAME_LOAD,
@@ -120,10 +122,8 @@ def limits(context: Context, locked: list[Locked]) -> Rows:
         yield {
             "well": string.well, "operation": kind, "bit_depth_m": depth, "friction": friction,
             "locked_up_friction": friction * at, "fed_arrives_at": friction * low, "fed_locks_up_at": friction * high,
-            "below": below.status, "arrives_below": below.arrives, "above": above.status,
-            "arrives_above": above.arrives, "other_below": other_below.status,
-            "other_arrives_below": other_below.arrives, "other_above": other_above.status,
-            "other_arrives_above": other_above.arrives, "reason": point.message, "reason_below": _reason(below),
+            "below": below.arrival, "above": above.arrival, "other_below": other_below.arrival,
+            "other_above": other_above.arrival, "reason": point.message, "reason_below": _reason(below),
             "reason_above": _reason(above),
         }  # fmt: skip
 
@@ -150,8 +150,8 @@ def stepped(context: Context, locked: list[Locked]) -> Rows:
                 "share_of_limit_percent": 100 * share, "status": slow.status, "fed_m": slow.fed,
                 "bit_follows_percent": 100 * slow.share, "push_weights": slow.push,
                 "apart_percent": 100 * abs(fast.push - slow.push) / max(abs(slow.push), 1.0),
-                "stepper": "arrives" if slow.slides else "not", "fast": "arrives" if fast.slides else "not",
-                "feed": "arrives" if feed == End.ARRIVED else "not", "feed_ends": str(feed),
+                "stepper": ARRIVES if slow.slides else NOT, "fast": ARRIVES if fast.slides else NOT,
+                "feed": ARRIVES if feed == End.ARRIVED else NOT, "feed_ends": str(feed),
             }  # fmt: skip
 
 
@@ -234,8 +234,8 @@ def _checks(tables: dict[str, pd.DataFrame]) -> list[Check]:
         checks.append(Check("row of a chart", float(tables["chart"]["seconds_a_row"].iloc[0]), 1.0, "at_most", "s",
                             f"processor time over the rows of {CHART} depths"))  # fmt: skip
     if len(of := tables.get("limits", pd.DataFrame())):
-        own = (of["arrives_below"] == True) & (of["arrives_above"] == False)  # noqa: E712
-        other = (of["other_arrives_below"] == True) & (of["other_arrives_above"] == False)  # noqa: E712
+        own = (of["below"] == ARRIVES) & (of["above"] == NOT)
+        other = (of["other_below"] == ARRIVES) & (of["other_above"] == NOT)
         checks += [
             Check(f"locked strings that arrive at {100 * BELOW:g} % of their limit and not at {100 * ABOVE:g} %",
                   100 * float(own.mean()), 100 * 28 / 30, "at_least", "%", f"{len(of)} strings, the same mesh"),
