@@ -14,6 +14,7 @@ import numpy as np
 
 from fctd import Case, Equilibrium
 from fctd.case.errors import InputError
+from fctd.mechanics import state
 from fctd.model import layouts
 from fctd.model.operations import steady_rates
 from fctd.results.buckling import NOT_BUCKLED
@@ -23,7 +24,7 @@ from fctd.steady.carried_shape import shape_of
 from fctd.steady.continuation import CONVERGED
 from fctd.steady.equilibrium import Solver
 from fctd.steady.feed import ARRIVING, End, FedString, Start
-from fctd.steady.ladder import TOO_FINE, TOO_MUCH
+from fctd.steady.ladder import TOO_MUCH
 from fctd.steady.problem import Share
 from fctd.steady.torque_drag import with_friction
 from validation.cases.wells import real_well
@@ -128,7 +129,10 @@ class Row(NamedTuple):
     @property
     def lacks_segments(self) -> bool:
         """Whether its waves take more segments than a string may have."""
-        return self.point is not None and TOO_FINE in self.point.message
+        if self.point is None:
+            return False
+        buckling = self.point._shape.buckling
+        return (buckling.to_md - buckling.from_md) / buckling.segment_length > state.MAX_SEGMENTS
 
     @property
     def lacks_work(self) -> bool:
