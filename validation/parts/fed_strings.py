@@ -25,7 +25,7 @@ from fctd.steady.continuation import CONVERGED
 from fctd.steady.equilibrium import Solver
 from fctd.steady.feed import ARRIVING, End, FedString, Start
 from fctd.steady.ladder import TOO_MUCH
-from fctd.steady.problem import Share
+from fctd.steady.problem import Allowance, Share
 from fctd.steady.torque_drag import with_friction
 from validation.cases.wells import real_well
 from validation.harness.study import Context
@@ -36,7 +36,7 @@ SEED = 34
 WELLS = "horizontal", "random", "K05-ENC-05-S1"
 KINDS = "drill_sliding", "trip_in"
 FRICTION, WEIGHT = (0.1, 0.5), (20e3, 300e3)  # ranges of the factor, and of the weight on bit [N]
-MORE_FRICTION, SHORT = (0.4, 0.6), 3000.0  # of trips in that are to lock up, with the bit at most so deep [m]
+MORE_FRICTION, SHORT = (0.4, 0.8), 1600.0  # of trips in that are to lock up, with the bit at most so deep [m]
 LEAST_DEPTH = 0.4  # of the depths that a string can reach
 SEGMENT = 20.0  # of the horizontal well [m]
 MESHES = (1.0, 0.7, 0.5)  # shares of the segments of the case
@@ -97,9 +97,7 @@ def meshed(case: Case, share: float) -> Case:
 
 def as_found(case: Case, point: Equilibrium) -> Case:
     """The case with the segments that the solver has chosen for a row."""
-    md = point.profile["md_m"].to_numpy()
-    lengths = np.diff(md, prepend=2 * md[0] - md[1])
-    return layouts.with_components(case, layouts.resolved(case, point.bit_depth, md, lengths))
+    return layouts.with_components(case, point._shape.laid.case.string.components)
 
 
 def scaled(case: Case, share: float) -> Case:
@@ -223,8 +221,9 @@ class Feeding:
         problem.bit_torque = torque
 
     def at(self, share: float, arriving: float = ARRIVING) -> End:
-        """How feeding ends at a share of the friction, off bottom and then onto it."""
+        """How feeding ends at a share of the friction, off bottom and then onto it, with the work of a row."""
         problem = self.problem
+        problem.allowance = Allowance(problem.case.solver.resolve_work)
         string = FedString(problem, share, arriving)
         if self.start is None or not string.begin(self.start):
             return End.LOST

@@ -23,7 +23,7 @@ from validation.cases.wells import real_well
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts import random_wells
 from validation.parts.buckled_pipe import OPERATION
-from validation.parts.fed_strings import as_found, scaled
+from validation.parts.fed_strings import scaled
 from validation.parts.resolved_rows import DEPTH, WEIGHT, horizontal_well
 from validation.parts.slid_strings import slide
 
@@ -166,11 +166,13 @@ def slid(context: Context, locked: list[Locked]) -> Rows:
     """
     tripped = [row for row in locked if row.point.operation == "trip_in"]
     for case, point, at in context.progress(sorted(tripped, key=lambda row: len(row.point.profile))[:SLID], "stepper"):
-        cut = as_found(case, point)
+        md = point.profile["md_m"].to_numpy()
+        lengths = np.diff(md, prepend=2 * md[0] - md[1])
+        cut = layouts.with_components(case, layouts.resolved(case, point.bit_depth, md, lengths))
         for share in (BELOW, ABOVE):
             found = slide(scaled(cut, share * at), point.operation, point.bit_depth)
             yield {
-                "well": case.name, "bit_depth_m": point.bit_depth, "segments": len(point.profile) - 1,
+                "well": case.name, "bit_depth_m": point.bit_depth, "segments": len(md) - 1,
                 "share_of_limit_percent": 100 * share, "status": found.status,
                 "bit_follows_percent": 100 * found.share, "push_weights": found.push,
                 "ends": "slides" if found.slides else "stalls",

@@ -44,7 +44,7 @@ from validation.parts.resolved_rows import CASED, DEPTH, horizontal_well
 from validation.parts.slid_strings import LONGEST, slide
 
 # Strings of each part, and those that were asked for: a row that is resolved takes ten seconds.
-STRINGS, LIMITS, STEPPED, VARIED = 15, 6, 2, 8
+STRINGS, LIMITS, STEPPED, VARIED = 15, 2, 1, 7
 ASKED = 120, 30, 30, 20
 QUICK = 9  # index of the one string of the quick run, which takes a second on each mesh
 BELOW, ABOVE = 0.95, 1.05  # of the friction at lock-up, on the same mesh
@@ -181,7 +181,7 @@ def run(context: Context) -> Outcome:
     tables = {"rows": rows, "alike": alike, "counts": counts}
     display = {"counts": "Rows by status"}
     if not context.quick:
-        tripped = list(islice(locked_of(trips(context)), max(STEPPED, LIMITS // 2)))
+        tripped = list(islice(locked_of(trips(context)), STEPPED))
         locked = [*islice(locked_of(kept), LIMITS - len(tripped)), *tripped]
         tables |= {
             "chart": chart(), "limits": limits(context, locked), "thresholds": thresholds(context, kept),
