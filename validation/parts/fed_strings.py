@@ -25,7 +25,7 @@ from fctd.steady.continuation import CONVERGED
 from fctd.steady.equilibrium import Solver
 from fctd.steady.feed import ARRIVING, End, FedString, Start
 from fctd.steady.ladder import TOO_MUCH
-from fctd.steady.problem import Allowance, Share
+from fctd.steady.problem import Allowance, Problem, Share
 from fctd.steady.torque_drag import with_friction
 from validation.cases.wells import real_well
 from validation.harness.study import Context
@@ -208,17 +208,24 @@ def compare(rows: Sequence[Row], weight: float) -> Compared:
 
 
 class Feeding:
-    """A string that is fed from rest on the segments of its case, at shares of its friction."""
+    """A row's string that is fed from rest on the segments of the row, at shares of its friction.
 
-    def __init__(self, case: Case, operation: str, bit_depth: float) -> None:
-        solver = Solver(case)
-        rates, laid = steady_rates(case, operation), solver.lay_out(bit_depth)
-        self.problem = problem = solver.problem(operation, rates, laid)
-        problem.at_axis = 1
+    It begins in the shape at rest that it has with the segments of the case.
+    """
+
+    def __init__(self, case: Case, point: Equilibrium) -> None:
+        problem = self._problem(case, point)
         torque, problem.bit_torque = problem.bit_torque, 0.0
         code, _, _ = balance(problem, ATTEMPTS, AT_REST)
         self.start = Start(shape_of(problem, AT_REST), False) if code == CONVERGED else None
         problem.bit_torque = torque
+        self.problem = self._problem(as_found(case, point), point)
+        self.problem.at_axis = 1
+
+    @staticmethod
+    def _problem(case: Case, point: Equilibrium) -> Problem:
+        solver = Solver(case)
+        return solver.problem(point.operation, steady_rates(case, point.operation), solver.lay_out(point.bit_depth))
 
     def at(self, share: float, arriving: float = ARRIVING) -> End:
         """How feeding ends at a share of the friction, off bottom and then onto it, with the work of a row."""

@@ -118,7 +118,7 @@ def limits(context: Context, locked: list[Locked]) -> Rows:
             solve(scaled(on, share * at), kind, depth)
             for on, share in ((same, BELOW), (same, ABOVE), (other, OTHER_BELOW), (other, OTHER_ABOVE))
         )
-        low, high = Feeding(same, kind, depth).limit(at)
+        low, high = Feeding(case, point).limit(at)
         yield {
             "well": string.well, "operation": kind, "bit_depth_m": depth, "friction": friction,
             "locked_up_friction": friction * at, "fed_arrives_at": friction * low, "fed_locks_up_at": friction * high,
@@ -140,7 +140,7 @@ def stepped(context: Context, locked: list[Locked]) -> Rows:
     """
     for string, point in context.progress(sorted(locked, key=lambda of: len(of[1].profile))[:STEPPED], "stepper"):
         kind, depth, cut = string.operation, string.bit_depth, as_found(string.case, point)
-        feeding = Feeding(cut, kind, depth)
+        feeding = Feeding(string.case, point)
         for share in (BELOW, ABOVE):
             at = share * point.locked_up_at
             slow, fast = (slide(scaled(cut, at), kind, depth, speed, settles=True) for speed in SPEEDS)
@@ -160,7 +160,7 @@ def thresholds(context: Context, kept: list[Found]) -> Rows:
     """Strings that are fed at all of their friction, with several thresholds of lock-up."""
     fed = [(string, row.point) for string, row in kept if row.point is not None and len(row.point.fed)]
     for string, point in context.progress(fed[:VARIED], "thresholds of lock-up"):
-        feeding = Feeding(as_found(string.case, point), string.operation, string.bit_depth)
+        feeding = Feeding(string.case, point)
         less, own, more = (str(feeding.at(1.0, share * ARRIVING)) for share in (1 / FACTOR, 1.0, FACTOR))
         yield {
             "well": string.well, "operation": string.operation, "bit_depth_m": string.bit_depth,
