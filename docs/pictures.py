@@ -55,7 +55,7 @@ def chart() -> Figure:
 
 def feeding() -> Figure:
     """A string of the horizontal example that locks up, fed from rest."""
-    changes = {"friction": 0.45, "bit.weight_on_bit": "120 kN", "solver.buckling": "resolve"}
+    changes = {"friction": 0.45, "bit.weight_on_bit": "120 kN", "solver.buckling": "feed"}
     case = fctd.load_case(ROOT / "examples" / "horizontal_well.toml", changes)
     return plots.feeding_figure(fctd.equilibrium(case, operation="drill_sliding", bit_depth=1900))
 

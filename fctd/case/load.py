@@ -27,7 +27,7 @@ from fctd.case.raw_case import (
     without_stations,
 )
 from fctd.case.rig import MudSpec, RigSpec
-from fctd.case.solver import RecordSpec, SolverSpec
+from fctd.case.solver import RESOLVING, RecordSpec, SolverSpec
 from fctd.case.string import StringSpec
 from fctd.case.wall import ContactSpec, check_friction
 
@@ -97,10 +97,10 @@ class Case(Table):
             of = f"string.components[{densities.index(lightest)}].density"
             raise InputError(f"a density below the string's, {lightest:g} kg/m^3 ({of})", key="mud.density")
         check_friction(self.contact, self.wellbore.intervals, self.mud.cake)
-        if self.contact.helical_force == "analytic" and self.solver.buckling == "resolve":
+        if self.contact.helical_force == "analytic" and self.solver.buckling in RESOLVING:
             raise InputError(
-                '"none" with solver.buckling = "resolve", whose segments bend into the helix (or solver.buckling = '
-                '"detect")',
+                f'"none" with solver.buckling = "{self.solver.buckling}", whose segments bend into the helix (or '
+                'solver.buckling = "detect")',
                 key="contact.helical_force",
                 value="analytic",
             )

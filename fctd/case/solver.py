@@ -7,6 +7,9 @@ from pydantic import Field, field_validator
 from fctd.case import units
 from fctd.case.errors import InputError, Table
 
+# Values of `buckling` with which a buckled string is laid out in segments that can bend as it does.
+RESOLVING = ("resolve", "feed")
+
 
 class SolverSpec(Table):
     """The time step [s], and dampings of the joints as multiples of their stiffness [s].
@@ -19,8 +22,9 @@ class SolverSpec(Table):
     largest step smaller.
 
     Where a steady string is buckled, "detect" says whether its segments can bend that way, and "resolve" lays it out
-    in segments that can. `resolve_work` is the work that a row may take for it, iterations times segments: the default
-    is some twenty seconds. Kilometres of helix that slides with friction take three to ten times as much.
+    in segments that can. "feed" does so too, and feeds a string that slides down from rest. `resolve_work` is the work
+    that a row may take for it, iterations times segments: the default is some twenty seconds. Kilometres of helix that
+    slides with friction take three to ten times as much.
     """
 
     step: float | Literal["auto", "largest"] = Field(
@@ -29,7 +33,7 @@ class SolverSpec(Table):
     joint_damping: units.Time = 1e-5
     shape_damping: units.Time = 3e-3
     loss_factor: units.LossFactor = 0.0
-    buckling: Literal["detect", "resolve"] = "detect"
+    buckling: Literal["detect", "resolve", "feed"] = "detect"
     resolve_work: units.Work = 8e6
 
     @field_validator("step", mode="before", json_schema_input_type=float | str)

@@ -40,8 +40,8 @@ def check_feeding(path: Path | None, case: Case, rates: SteadyRates) -> None:
         lacking = "a string without rotation: one that turns is not fed from rest (--rpm 0)"
     elif not case.contact.enabled or not any(pair.along or pair.around for pair in pairs_of(case.wellbore.intervals)):
         lacking = "a hole with friction: a string that slides without it is not fed from rest"
-    elif case.solver.buckling != "resolve":
-        lacking = 'solver.buckling = "resolve" (--resolve-buckling): else no string is fed from rest'
+    elif case.solver.buckling != "feed":
+        lacking = 'solver.buckling = "feed" (--set solver.buckling=feed): else no string is fed from rest'
     if lacking:
         raise InputError(lacking, key=OPTION, value=path)
 

@@ -64,7 +64,7 @@ class Buckling:
 
     def shortfall(self, resolving: str = "detect") -> str:
         """Where segments are too long, and the length that would do; resolving : ``solver.buckling`` of the case."""
-        other = "" if resolving == "resolve" else ', or solver.buckling = "resolve" (--resolve-buckling)'
+        other = "" if resolving != "detect" else ', or solver.buckling = "resolve" (--resolve-buckling)'
         return (
             f"buckling is {self}, where segments of {self.longest:.3g} m cannot bend that way: "
             f"use segments of at most {self.segment_length:g} m there{other}"

@@ -60,7 +60,7 @@ def of_lower_energy(resolved: Resolved, so_far: Findings) -> Equilibrium:
     problem, snaking, helix = resolved
     point = so_far.end_of(problem, snaking)
     if helix is None:
-        is_helix = problem.slides_down and point.answered and Helix(problem).is_wound()
+        is_helix = so_far.is_to_be_fed and point.answered and Helix(problem).is_wound()
         chosen = replace(point, shape="helix" if is_helix else "snaking")
     else:
         wound = point if helix is snaking else so_far.end_of(problem, helix)
@@ -68,7 +68,7 @@ def of_lower_energy(resolved: Resolved, so_far: Findings) -> Equilibrium:
         loads = [p.hookload for p in (point, wound) if p.answered]
         if len(loads) == 2 and abs(loads[1] - loads[0]) > APART * problem.weight:
             chosen = replace(chosen, hookload_low=min(loads), hookload_high=max(loads))
-    is_begun = chosen.status == SteadyStatus.CONVERGED and not problem.slides_down
+    is_begun = chosen.status == SteadyStatus.CONVERGED and not so_far.is_to_be_fed
     shapes = carry(resolved) if is_begun else None
     return replace(chosen, iterations=chosen.iterations + so_far.first.iterations, carried=shapes)
 

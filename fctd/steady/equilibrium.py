@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from fctd.case.load import Case, check_bit_depth, naming_file
+from fctd.case.solver import RESOLVING
 from fctd.case.units import LENGTH, argument
 from fctd.mechanics import state
 from fctd.model.drillstring import lay_out
@@ -77,7 +78,7 @@ class Solver:
         if not answer.numbers[SOLVED]:
             return None
         point = steady_string(self.case, self.hole, operation, rates, laid, answer, CONVERGED, 0, NEWTON)
-        as_cut = self.case.solver.buckling != "resolve" and self.case.contact.helical_force != "analytic"
+        as_cut = self.case.solver.buckling not in RESOLVING and self.case.contact.helical_force != "analytic"
         return point if as_cut or point.buckling.mode == NOT_BUCKLED.mode else None
 
     @cached_property

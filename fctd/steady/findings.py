@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from fctd.case.load import Case
+from fctd.case.solver import RESOLVING
 from fctd.model.drillstring import lay_out
 from fctd.model.operations import SteadyRates
 from fctd.results.buckling import NOT_BUCKLED
@@ -60,12 +61,17 @@ class Findings:
     def is_to_be_resolved(self) -> bool:
         """Whether the string needs segments that can bend as it does, and the case asks for them."""
         is_as_cut = self.is_stable and self.first.buckling.mode == NOT_BUCKLED.mode
-        return self.case.solver.buckling == "resolve" and not is_as_cut
+        return self.case.solver.buckling in RESOLVING and not is_as_cut
 
     @property
     def is_to_be_carried(self) -> bool:
         """Whether the row begins with the shapes of the row above; a string that is fed begins at rest."""
-        return self.is_to_be_resolved and self.above is not None and not self.problem.slides_down
+        return self.is_to_be_resolved and self.above is not None and not self.is_to_be_fed
+
+    @property
+    def is_to_be_fed(self) -> bool:
+        """Whether the string is fed from rest: it slides down, and the case asks for it."""
+        return self.is_to_be_resolved and self.case.solver.buckling == "feed" and self.problem.slides_down
 
     @property
     def lacks_segments(self) -> bool:

@@ -44,7 +44,7 @@ LADDER = (
     Rung(NEWTON, lambda _: True, attempts.newton),
     # The case asks for segments on which a buckled string can bend.
     Rung("carried", lambda so_far: so_far.is_to_be_carried, attempts.carried),
-    Rung("fed", lambda so_far: so_far.is_to_be_resolved and so_far.problem.slides_down, fed),
+    Rung("fed", lambda so_far: so_far.is_to_be_fed, fed),
     Rung("resolved", lambda so_far: so_far.is_to_be_resolved and so_far.resolved is None, attempts.resolved),
     Rung("resolved in part", lambda so_far: so_far.lacks_segments, attempts.as_resolved, f"{TOO_FINE}; {{}}"),
     Rung("as cut", lambda so_far: so_far.is_to_be_resolved, attempts.as_cut,

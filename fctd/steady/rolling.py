@@ -20,6 +20,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fctd.arrays import Array
+from fctd.case.solver import RESOLVING
 from fctd.mechanics import state
 from fctd.results.status import SteadyStatus
 from fctd.steady.block_thomas import SIZE, eliminate
@@ -75,7 +76,7 @@ def rolled(_: Problem, so_far: Findings) -> Equilibrium | None:
     """The string as it rolls round the hole; where it was found with less friction only, the message says so."""
     unstable, problem = so_far.found, so_far.lay_anew()
     found = roll(problem)
-    if found.friction > 0 and so_far.case.solver.buckling == "resolve":
+    if found.friction > 0 and so_far.case.solver.buckling in RESOLVING:
         problem, found = _on_finer_segments(problem, found, so_far)
     if found.friction < 1:
         if found.friction > 0:

@@ -7,7 +7,7 @@ import pytest
 from tests.cli.tiny import LEVEL, settings
 from tests.commands import Command
 
-RESOLVED = ("--operation", "drill_sliding", "--resolve-buckling")
+RESOLVED = ("--operation", "drill_sliding", "--set", "solver.buckling=feed")
 LOCKED = ("--bit-depth", "80", "--friction", "4", *settings("rig.block_weight=350 kN"))
 
 
@@ -23,11 +23,11 @@ def level(tmp_path: Path) -> Path:
     ("options", "expected"),
     [
         (
-            ("--operation", "trip_out", "--resolve-buckling"),
+            ("--operation", "trip_out", "--set", "solver.buckling=feed"),
             "a string that slides down without rotation (trip_in or drill_sliding), which the block feeds",
         ),
         (
-            ("--operation", "trip_in", "--rpm", "60", "--resolve-buckling"),
+            ("--operation", "trip_in", "--rpm", "60", "--set", "solver.buckling=feed"),
             "a string without rotation: one that turns is not fed from rest (--rpm 0)",
         ),
         (
@@ -36,7 +36,7 @@ def level(tmp_path: Path) -> Path:
         ),
         (
             ("--operation", "drill_sliding"),
-            'solver.buckling = "resolve" (--resolve-buckling): else no string is fed from rest',
+            'solver.buckling = "feed" (--set solver.buckling=feed): else no string is fed from rest',
         ),
     ],
 )

@@ -13,7 +13,7 @@ from tests.steady.buckled import level_case, with_tables
 
 
 def resolved(case: Case, length: float = 150.0, **tables: dict[str, object]) -> Equilibrium:
-    return fctd.equilibrium(with_tables(case, solver={"buckling": "resolve"}, **tables), "drill_sliding", length)
+    return fctd.equilibrium(with_tables(case, solver={"buckling": "feed"}, **tables), "drill_sliding", length)
 
 
 @pytest.mark.parametrize("times_onset", [1.3, 2.5])
@@ -68,7 +68,7 @@ def test_the_friction_of_the_case_is_the_limit_of_a_fed_string() -> None:
 
 def test_a_string_that_turns_or_meets_no_friction_is_not_fed() -> None:
     assert resolved(level_case(1.6, 120.0, 6.0, 0.0), 120.0).feeding.empty
-    case = with_tables(level_case(1.3, 120.0, 6.0, 0.1), solver={"buckling": "resolve"})
+    case = with_tables(level_case(1.3, 120.0, 6.0, 0.1), solver={"buckling": "feed"})
     assert fctd.equilibrium(case, "drill_rotating", 120.0).feeding.empty
 
 

@@ -34,7 +34,7 @@ def test_coarse_segments_are_cut_until_they_follow_the_shape(segment: float, len
 
 
 def test_a_helix_is_the_answer_where_it_has_the_lower_energy() -> None:
-    """Its transmitted force follows 1/F₀ − 1/F = μ r x/4EI."""
+    """Its transmitted force follows 1/F₀ − 1/F = μ r x/4EI; snaking has less friction, and both are in the answer."""
     mu, length = 0.4, 150.0
     point = fctd.equilibrium(with_resolution(level_case(2.0, length, 3.0, friction=mu)), "drill_sliding", length)
     assert point.status == SteadyStatus.LOCKED_UP
@@ -43,6 +43,7 @@ def test_a_helix_is_the_answer_where_it_has_the_lower_energy() -> None:
     EI, r, F = section_of(case.string.components[0], 1200.0).EI, 0.5 * (HOLE - 0.127), 2 * onset(case)
     law = 1 / (1 / F - mu * r * length / (4 * EI))
     assert -point.hookload == pytest.approx(law, rel=0.03)
+    assert point.hookload_low == point.hookload < point.hookload_high < -F
     assert np.isnan(point.slack_off_spent_at)
     assert point.message.startswith("slack-off is spent below 10 %")
 

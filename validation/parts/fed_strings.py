@@ -66,7 +66,7 @@ def drawn(context: Context, index: int, factors: tuple[float, float] = FRICTION)
     friction, weight = round(rng.uniform(*factors), 3), round(rng.uniform(*WEIGHT), -3)
     kind, deep = rng.choice(KINDS), rng.random()
     if well == "horizontal":
-        case = horizontal_well(SEGMENT, "resolve")
+        case = horizontal_well(SEGMENT, "feed")
         top, bottom = CASED, DEPTH
     elif well == "random":
         case = Case.model_validate(random_wells.well(rng))
@@ -80,7 +80,7 @@ def drawn(context: Context, index: int, factors: tuple[float, float] = FRICTION)
     case = with_friction(case, friction).model_copy(
         update={
             "bit": case.bit.model_copy(update={"weight_on_bit": weight}),
-            "solver": case.solver.model_copy(update={"buckling": "resolve"}),
+            "solver": case.solver.model_copy(update={"buckling": "feed"}),
         }
     )
     return Drawn(well, case, kind, round(top + deep * (bottom - top), 2), friction)

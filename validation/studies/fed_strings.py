@@ -96,7 +96,7 @@ def meshes(context: Context) -> tuple[pd.DataFrame, pd.DataFrame, list[Found]]:
 @table_of_rows
 def chart() -> Rows:
     """The time of a chart of the horizontal well, over its rows."""
-    case = horizontal_well(SEGMENT, "resolve", CHART_FRICTION)
+    case = horizontal_well(SEGMENT, "feed", CHART_FRICTION)
     depths = np.linspace(CASED, DEPTH, CHART).round(1)
     began = time.process_time()
     table = torque_drag(case, "drill_sliding", depths.tolist(), threads=1)
