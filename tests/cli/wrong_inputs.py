@@ -146,7 +146,7 @@ REFUSED: Final[list[tuple[str, Any, str]]] = [
     ("contact.friction_law", "stick", "'coulomb', 'paper', 'karnopp' or 'stribeck'"),
     ("contact.enabled", "yes", "true or false"),
     ("solver.step", "2", "\"auto\", \"largest\" or a time such as '10 s' or '2 min' (units: s, ms, min, h)"),
-    ("solver.buckling", "yes", "'detect' or 'resolve'"),
+    ("solver.buckling", "yes", "'detect', 'resolve' or 'feed'"),
     ("wellbore.stiffness", "1e7 N/m/m", "a stiffness such as '1e7 N/m' (units: N/m, kN/m, MN/m, lbf/in, lbf/ft)"),
     ("--operation", "tripin", "the kind trip_in"),
     ("--depths", "1000-1500", "FROM:TO:STEP, such as 1750:2450:10, '5000 ft:8000 ft:30 ft' or shoe:td:50"),
