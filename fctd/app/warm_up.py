@@ -6,6 +6,7 @@ import pandas as pd
 
 from fctd.app import charts, scenes
 from fctd.case.load import Case
+from fctd.case.solver import RESOLVING
 from fctd.results.unit_systems import in_field_units
 from fctd.steady.equilibrium import equilibrium
 from fctd.steady.torque_drag import chart_rows
@@ -29,7 +30,8 @@ def warm_up() -> None:
     case = Case.model_validate(SMALL)
     rows = chart_rows(case, ["trip_out", "rotate_off_bottom"], DEPTHS)
     point = equilibrium(case, "trip_out", 90.0)
-    for table in ({"solver": {"buckling": "resolve"}}, {"contact": {"helical_force": "analytic"}}):
+    tables = *({"solver": {"buckling": way}} for way in RESOLVING), {"contact": {"helical_force": "analytic"}}
+    for table in tables:
         buckled = Case.model_validate(SMALL | {"bit": {"weight_on_bit": 1e5}} | table)
         equilibrium(buckled, "drill_sliding", 90.0)
     strings = of_points([point])

@@ -11,6 +11,7 @@ from numba.core import event
 from rich.console import Console
 
 from fctd.case.load import Case
+from fctd.case.solver import RESOLVING
 from fctd.case.text import counted
 from fctd.cli.options import FAILED, Quiet, messages, screen
 from fctd.mechanics.compile_cache import STORE, WAITING, CompileCacheWarning, KeptCode, Store
@@ -83,7 +84,8 @@ def compile_all() -> None:
     for more in (IN_STANDS, DRILLING):
         simulate(Case.model_validate(SMALL | more))
     equilibrium(case, operation="trip_out", bit_depth=90.0)
-    for table in ({"solver": {"buckling": "resolve"}}, {"contact": {"helical_force": "analytic"}}):
+    tables = *({"solver": {"buckling": way}} for way in RESOLVING), {"contact": {"helical_force": "analytic"}}
+    for table in tables:
         buckled = Case.model_validate(SMALL | {"bit": {"weight_on_bit": 1e5}} | table)
         equilibrium(buckled, operation="drill_sliding", bit_depth=90.0)
 

@@ -248,10 +248,8 @@ class Problem:
 
     def bare_tangent(self, share: Share, tau: float) -> None:
         """Fill the tangent without friction, with the pseudo-mass of a pseudo-time [s]."""
-        w = self.work
-        frictionless_tangent(
-            w.S, self.n, w.P, self.kinks, self.hole.pieces, w.owner, self.laws(share), w.R, w.D, w.A, w.U
-        )
+        w, laws = self.work, self.laws(share)._replace(held=None)
+        frictionless_tangent(w.S, self.n, w.P, self.kinks, self.hole.pieces, w.owner, laws, w.R, w.D, w.A, w.U)
         add_pseudo_mass(w.S, self.n, tau, w.D)
 
     def unstable_modes(self, share: Share = FULL, tau: float = SLOWEST) -> int:

@@ -78,7 +78,7 @@ def test_a_resolved_string_shows_its_shapes_and_its_limits(tmp_path: Path, cli: 
     printed = cli(*point, *stuck, code=1)  # the file that was asked for is not there
     assert not out.exists()
     printed = printed
-    assert "Nothing is written" in printed.err
+    assert "No profile is written" in printed.err
     screen = " ".join(printed.out.split())
     for label, words in (
         ("slack-off spent at", "slack-off is spent at"),
