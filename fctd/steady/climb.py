@@ -83,7 +83,8 @@ class Climb:
     spent_at : share of the loads at which the hook load is −block weight; locked_at : at which no push suffices; NaN
     where the path does not get there.  fails_at : least share of the friction beyond all balances at which no shape was
     found, else NaN.  ends_at : share at which a path ends before the loads, else NaN; rolls : whether the string then
-    goes round the hole; is_cut : whether the row's allowance of work ended the path.
+    goes round the hole; is_cut : whether the row's allowance of work ended the path;
+    begins_at : the least share of the friction that was tried.
     """
 
     balances: list[Balance] = field(default_factory=list)
@@ -100,11 +101,12 @@ class Climb:
     ends_at: float = float("nan")
     rolls: bool = False
     is_cut: bool = False
+    begins_at: float = LOW_FRICTION
 
     @property
     def least(self) -> float:
         """The share of the loads at which its last part begins."""
-        return 0.0 if self.of_weight else LOW_FRICTION
+        return 0.0 if self.of_weight else self.begins_at
 
     def none_beyond(self) -> list[Share]:
         """Loads of its last part, from less to more, that are beyond its last balance and at which it found none."""

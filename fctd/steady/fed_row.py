@@ -235,4 +235,5 @@ def _add_less(problem: Problem, starts: dict[Share, Start | None], path: Climb, 
         if end == End.ARRIVED and _settles(problem, string, less, share):
             path.steps, path.balances = less.steps + path.steps, less.balances + path.balances
     problem.put_pose(pose)
+    path.begins_at = path.steps[0].share
     close(problem, path)

@@ -85,14 +85,14 @@ class Helix:
         self.turns = self._turns()
 
     def is_wound(self) -> bool:
-        """Whether the string in its pose is a helix where that has the lower energy; its sense may change on the way.
+        """Whether a part of the string in its pose is a helix where that has the lower energy, in whatever sense.
 
         A string that snakes stays on its side of the hole, and each turn of a helix passes the other one.
         """
         self.beyond, _, due = self._due(FULL, self.problem.reactions())
         angle = self._angle()
         passed = np.abs(np.diff(np.floor((angle + np.pi) / (2 * np.pi))))
-        return due >= LEAST_TURNS and float(passed[self.beyond[1:] & self.beyond[:-1]].sum()) > STILL * due
+        return due >= LEAST_TURNS and float(passed[self.beyond[1:] & self.beyond[:-1]].sum()) > LEAST_TURNS
 
     def stands(self) -> bool:
         """Whether the string in its pose still has most of the turns that were laid."""
