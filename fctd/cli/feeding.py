@@ -21,10 +21,7 @@ SLIDING: Final = " or ".join(kind for kind, of in KINDS.items() if of.direction 
 
 PlotFeeding = Annotated[
     Path | None,
-    file_option(
-        OPTION,
-        "Hook load and weight on bit against feed, of a string fed from rest (solver.buckling=feed), .png, .svg or .pdf.",
-    ),
+    file_option(OPTION, "Loads against feed, of a string fed from rest (solver.buckling=feed), .png, .svg or .pdf."),
 ]
 
 
