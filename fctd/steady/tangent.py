@@ -14,6 +14,7 @@ from fctd.mechanics.jit import entry, inlined, kernel
 from fctd.mechanics.joints import cross, gap, joint_loads
 from fctd.mechanics.rotations import rotation_columns, twist_angle
 from fctd.mechanics.state import (
+    ARCS,
     ARM_BOTTOM,
     ARM_CONTACT,
     ARM_TOP,
@@ -32,7 +33,7 @@ from fctd.steady.block_thomas import SIZE
 from fctd.steady.held_friction import Held, add_held_wall, press_rock
 from fctd.steady.joint_tangent import LOADS, UNKNOWNS, add_joint
 from fctd.steady.pose import SPIN, in_frame, quaternion, times
-from fctd.steady.wall_tangent import DIRECTIONS, add_wall, read_wall
+from fctd.steady.wall_tangent import DIRECTIONS, add_wall, leave_out_change_along, read_wall
 
 # Columns of the imbalance: force [N], global; moment [N m] in the frame of the body, the last about its axis.
 FORCE, AXIAL_MOMENT = slice(0, 3), 5
@@ -152,13 +153,17 @@ def frictionless_tangent(S, n, P, kinks, C, owner, laws, R, D, A, U):
     A bent housing keeps its toolface: the spin of its body does not turn the bend.  So the moment about the body's axis
     is more than the derivative of the energy by the spin: it contains what holds the toolface against the bending
     moment.  That does no work, and in the row of the spin the derivative of the torque alone takes its place.  Given
-    loads turn with their bodies and have no energy: they are left out.
+    loads turn with their bodies and have no energy: they are left out.  So is what a shoe between arcs
+    changes along the hole.
     """
     bare = Steady(
         laws.geometry, laws.friction, 0.0, 0.0, 0.0, laws.bit_x, laws.bit_y, laws.bit_z, laws.bit_torque,
         laws.at_axis, laws.wall_exponent, laws.wall_reference, 0.0, laws.orthotropic, None,
     )  # fmt: skip
     assemble(S, n, P, kinks, C, owner, bare, R, D, A, U)
+    if laws.geometry == ARCS:
+        for j in range(1, n + 1):
+            leave_out_change_along(S, j, P, C, owner[j], laws, D)
     for j in range(2, n + 1):
         if kinks[j, 1] == 0 and kinks[j, 2] == 0:
             continue

@@ -140,6 +140,36 @@ def add_wall(S, j, P, C, owner, laws, R, D, K):
 
 
 @inlined
+def leave_out_change_along(S, j, P, C, i, laws, D):
+    """Take out of the tangent how the normal force on body j from arc i changes along the hole.
+
+    At a shoe between arcs the wall closes in along the hole but presses square to it: a move along the hole changes the
+    force across it, and not the other way round.  The half of it in a symmetric part is no stiffness of the string.
+    Between cylinders the wall leans (contact.lean_wall), and its force has an energy.
+    """
+    x, y, z = contact_place(S, j, P)
+    wall = wall_beside(C, i, laws.geometry, x, y, z, S[RADIUS + j])
+    penetration = wall.beyond[0] + S[RADIUS + j]
+    if penetration < 0:
+        return
+    tx, ty, tz = wall.tx[0], wall.ty[0], wall.tz[0]
+    closes = moved(wall.beyond, tx, ty, tz).imag
+    depth = depth_of(laws, complex(penetration, STEP * closes))
+    change = S[TRIBUTARY + j] * (
+        wall.stiffness[0] * depth.imag * UNIT + moved(wall.stiffness, tx, ty, tz).imag * depth.real
+    )
+    w, qx, qy, qz = quaternion(P, j)
+    xx, xy, xz, yx, yy, yz, ax, ay, az = rotation_columns(w, qx, qy, qz)
+    arm = S[ARM_CONTACT + j]
+    nx, ny, nz = unit_of(wall.x[0], wall.y[0], wall.z[0])
+    ma, mb, mc = in_frame(w, qx, qy, qz, *cross(arm * ax, arm * ay, arm * az, nx, ny, nz))
+    about_x, about_y = -arm * (yx * tx + yy * ty + yz * tz), arm * (xx * tx + xy * ty + xz * tz)
+    for i, load in ((0, nx), (1, ny), (2, nz), (3, ma), (4, mb), (5, mc)):
+        for k, shift in ((0, tx), (1, ty), (2, tz), (3, about_x), (4, about_y)):
+            D[j, i, k] -= change * load * shift
+
+
+@inlined
 def read_wall(S, j, P, C, i, laws):
     """Normal force on body j from piece i [N], friction torque r F_t about its axis [N m] and r μ F_n [N m]."""
     x, y, z = contact_place(S, j, P)

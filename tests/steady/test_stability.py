@@ -3,16 +3,19 @@
 import numpy as np
 import pytest
 
-from fctd import equilibrium
+from fctd import equilibrium, load_case
 from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.mechanics import dynamics, state
 from fctd.mechanics.energy import energy_of
 from fctd.mechanics.rotations import turned
 from fctd.mechanics.state import LANES
+from fctd.model.operations import steady_rates
+from fctd.results.status import SteadyStatus
 from fctd.steady.balance import ATTEMPTS, balance
 from fctd.steady.block_thomas import negative_pivots
 from fctd.steady.continuation import CONVERGED
+from fctd.steady.equilibrium import Solver
 from fctd.steady.pose import QUATERNION, SPIN
 from fctd.steady.problem import FULL, Problem
 from fctd.steady.stability import fastest_mode, push_aside
@@ -106,6 +109,30 @@ def test_a_bent_housing_between_supports_is_stable(bend: float) -> None:
     assert np.abs(lower - upper).max() < 1e-9 * np.abs(lower).max()
     twisted = w.D[1 : n + 1] - w.D[1 : n + 1].transpose(0, 2, 1)
     assert np.abs(twisted).max() < 1e-9 * np.abs(w.D[1 : n + 1]).max()
+
+
+@pytest.mark.parametrize(("friction", "bit_depth"), [(0.1, 1100.0), (0.25, 1000.0), (0.2, 1100.0)])
+def test_a_joint_on_a_shoe_is_stable(friction: float, bit_depth: float) -> None:
+    """The wall at a shoe presses harder on a joint farther down, but not along the hole: half of that in the symmetric
+    part counted a mode of a string in tension, which the tangent itself does not have.  Depths around meet the shoe."""
+    case = load_case("examples/horizontal_well.toml", {"friction": friction})
+    solver, rates = Solver(case), steady_rates(case, "trip_out")
+    for depth in bit_depth + np.linspace(-1.0, 1.0, 41):
+        assert solver.solve("trip_out", rates, float(depth)).status == SteadyStatus.CONVERGED
+
+
+def test_a_shoe_leaves_the_tangent_of_its_stability_symmetric() -> None:
+    """A joint on a shoe of arcs: the tangent as it is has a one-sided term there, that of its stability has none."""
+    case = load_case("examples/horizontal_well.toml", {"friction": 0.25})
+    solver = Solver(case)
+    problem = solver.problem("trip_out", steady_rates(case, "trip_out"), solver.lay_out(1000.0))
+    assert balance(problem, ATTEMPTS)[0] == CONVERGED
+    w, n = problem.work, problem.n
+    problem.reactions()
+    at_shoe = np.abs(w.D[1 : n + 1] - w.D[1 : n + 1].transpose(0, 2, 1)).max(axis=(1, 2))
+    problem.bare_tangent(FULL, 1e9)
+    left = np.abs(w.D[1 : n + 1] - w.D[1 : n + 1].transpose(0, 2, 1)).max(axis=(1, 2))
+    assert left.max() < 1e-2 * at_shoe.max()
 
 
 def test_a_string_below_its_onset_has_no_unstable_mode() -> None:
