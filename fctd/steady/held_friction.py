@@ -69,6 +69,22 @@ def returned(laws, normal, factor, around, along_trial, around_trial):
 
 
 @inlined
+def friction_now(
+    laws, memory, j, radius, stiff, stiff_around, normal, factor, around, sx, sy, sz, turned, nx, ny, nz, tx, ty, tz
+):  # fmt: skip
+    """Friction on body j along and around [N], and the direction around (3), where it was shifted by s and turned since
+    it remembered."""
+    ox, oy, oz = cross(tx, ty, tz, nx, ny, nz)
+    ahead = sx * tx + sy * ty + sz * tz
+    aside = sx * ox + sy * oy + sz * oz + radius * turned
+    along, turning = returned(
+        laws, normal, factor, around,
+        memory[j, ALONG_THEN] - stiff * ahead, memory[j, AROUND_THEN] - stiff_around * aside,
+    )  # fmt: skip
+    return along, turning, ox, oy, oz
+
+
+@inlined
 def add_held_wall(S, j, P, C, owner, laws, R, D, K):
     """The same as ``wall_tangent.add_wall``, with friction that remembers."""
     memory = laws.held.memory
@@ -96,13 +112,11 @@ def add_held_wall(S, j, P, C, owner, laws, R, D, K):
         nx, ny, nz = unit_of(moved(wall.x, dx, dy, dz), moved(wall.y, dx, dy, dz), moved(wall.z, dx, dy, dz))
         normal = moved(wall.stiffness, dx, dy, dz) * complex(pressed, slope * moved(wall.beyond, dx, dy, dz).imag)
         tx, ty, tz = moved(wall.tx, dx, dy, dz), moved(wall.ty, dx, dy, dz), moved(wall.tz, dx, dy, dz)
-        ox, oy, oz = cross(tx, ty, tz, nx, ny, nz)
-        sx, sy, sz = complex(ux, dx), complex(uy, dy), complex(uz, dz)
-        ahead = sx * tx + sy * ty + sz * tz
-        aside = sx * ox + sy * oy + sz * oz + radius * complex(turned, ONE_BY_ONE[5, k])
-        along, around = returned(
-            laws, normal, moved(wall.factor, dx, dy, dz), moved(wall.around, dx, dy, dz),
-            memory[j, ALONG_THEN] - stiff * ahead, memory[j, AROUND_THEN] - stiff_around * aside,
+        along, around, ox, oy, oz = friction_now(
+            laws, memory, j, radius, stiff, stiff_around,
+            normal, moved(wall.factor, dx, dy, dz), moved(wall.around, dx, dy, dz),
+            complex(ux, dx), complex(uy, dy), complex(uz, dz), complex(turned, ONE_BY_ONE[5, k]),
+            nx, ny, nz, tx, ty, tz,
         )  # fmt: skip
         _, _, _, _, _, _, ax, ay, az = rotation_columns(cw, cx, cy, cz)
         fx, fy, fz = along * tx + around * ox, along * ty + around * oy, along * tz + around * oz
@@ -141,14 +155,10 @@ def remember(S, n, P, C, owner, laws):
                 stiff_around = stiff * turning_stiffness(laws.orthotropic, wall.factor[0], wall.around[0])
                 normal = wall.stiffness[0] * S[TRIBUTARY + j] * depth_of(laws, penetration)
                 nx, ny, nz = unit_of(wall.x[0], wall.y[0], wall.z[0])
-                tx, ty, tz = wall.tx[0], wall.ty[0], wall.tz[0]
-                ox, oy, oz = cross(tx, ty, tz, nx, ny, nz)
-                ux, uy, uz = x - memory[j, 0], y - memory[j, 1], z - memory[j, 2]
-                ahead = ux * tx + uy * ty + uz * tz
-                aside = ux * ox + uy * oy + uz * oz + radius * (P[j, SPIN] - memory[j, SPIN_THEN])
-                along, around = returned(
-                    laws, normal, wall.factor[0], wall.around[0],
-                    memory[j, ALONG_THEN] - stiff * ahead, memory[j, AROUND_THEN] - stiff_around * aside,
+                along, around, _, _, _ = friction_now(
+                    laws, memory, j, radius, stiff, stiff_around, normal, wall.factor[0], wall.around[0],
+                    x - memory[j, 0], y - memory[j, 1], z - memory[j, 2], P[j, SPIN] - memory[j, SPIN_THEN],
+                    nx, ny, nz, wall.tx[0], wall.ty[0], wall.tz[0],
                 )  # fmt: skip
         memory[j, 0], memory[j, 1], memory[j, 2], memory[j, SPIN_THEN] = x, y, z, P[j, SPIN]
         memory[j, ALONG_THEN], memory[j, AROUND_THEN] = along, around
