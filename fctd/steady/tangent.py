@@ -153,8 +153,8 @@ def frictionless_tangent(S, n, P, kinks, C, owner, laws, R, D, A, U):
     A bent housing keeps its toolface: the spin of its body does not turn the bend.  So the moment about the body's axis
     is more than the derivative of the energy by the spin: it contains what holds the toolface against the bending
     moment.  That does no work, and in the row of the spin the derivative of the torque alone takes its place.  Given
-    loads turn with their bodies and have no energy: they are left out.  So is what a shoe between arcs
-    changes along the hole.
+    loads turn with their bodies and have no energy: they are left out.  So is how the wall
+    presses harder or less along a shoe between arcs (wall_tangent.leave_out_change_along).
     """
     bare = Steady(
         laws.geometry, laws.friction, 0.0, 0.0, 0.0, laws.bit_x, laws.bit_y, laws.bit_z, laws.bit_torque,

@@ -164,9 +164,9 @@ def leave_out_change_along(S, j, P, C, i, laws, D):
     nx, ny, nz = unit_of(wall.x[0], wall.y[0], wall.z[0])
     ma, mb, mc = in_frame(w, qx, qy, qz, *cross(arm * ax, arm * ay, arm * az, nx, ny, nz))
     about_x, about_y = -arm * (yx * tx + yy * ty + yz * tz), arm * (xx * tx + xy * ty + xz * tz)
-    for i, load in ((0, nx), (1, ny), (2, nz), (3, ma), (4, mb), (5, mc)):
+    for row, load in ((0, nx), (1, ny), (2, nz), (3, ma), (4, mb), (5, mc)):
         for k, shift in ((0, tx), (1, ty), (2, tz), (3, about_x), (4, about_y)):
-            D[j, i, k] -= change * load * shift
+            D[j, row, k] -= change * load * shift
 
 
 @inlined

@@ -1,5 +1,7 @@
 """Modes in which a string would leave its balance, and what becomes of strings that have them."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -21,6 +23,8 @@ from fctd.steady.problem import FULL, Problem
 from fctd.steady.stability import fastest_mode, push_aside
 from tests.cases import make_case, pipe
 from tests.steady.buckled import level_case, problem_of
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "horizontal_well.toml"
 
 
 def hanging_case(weight_on_bit: float, **more: object) -> Case:
@@ -115,24 +119,24 @@ def test_a_bent_housing_between_supports_is_stable(bend: float) -> None:
 def test_a_joint_on_a_shoe_is_stable(friction: float, bit_depth: float) -> None:
     """The wall at a shoe presses harder on a joint farther down, but not along the hole: half of that in the symmetric
     part counted a mode of a string in tension, which the tangent itself does not have.  Depths around meet the shoe."""
-    case = load_case("examples/horizontal_well.toml", {"friction": friction})
+    case = load_case(EXAMPLE, {"friction": friction})
     solver, rates = Solver(case), steady_rates(case, "trip_out")
     for depth in bit_depth + np.linspace(-1.0, 1.0, 41):
         assert solver.solve("trip_out", rates, float(depth)).status == SteadyStatus.CONVERGED
 
 
 def test_a_shoe_leaves_the_tangent_of_its_stability_symmetric() -> None:
-    """A joint on a shoe of arcs: the tangent as it is has a one-sided term there, that of its stability has none."""
-    case = load_case("examples/horizontal_well.toml", {"friction": 0.25})
+    """A joint on a shoe of arcs, off its middle: what the wall changes along the hole is left out to rounding."""
+    case = load_case(EXAMPLE, {"friction": 0.25})
     solver = Solver(case)
     problem = solver.problem("trip_out", steady_rates(case, "trip_out"), solver.lay_out(1000.0))
     assert balance(problem, ATTEMPTS)[0] == CONVERGED
-    w, n = problem.work, problem.n
-    problem.reactions()
-    at_shoe = np.abs(w.D[1 : n + 1] - w.D[1 : n + 1].transpose(0, 2, 1)).max(axis=(1, 2))
+    places = problem.reactions().contacts
+    md = problem.walls(places).md
+    assert ((md > 900.01) & (md < 900.99)).any()
     problem.bare_tangent(FULL, 1e9)
-    left = np.abs(w.D[1 : n + 1] - w.D[1 : n + 1].transpose(0, 2, 1)).max(axis=(1, 2))
-    assert left.max() < 1e-2 * at_shoe.max()
+    D = problem.work.D[1 : problem.n + 1]
+    assert np.abs(D - D.transpose(0, 2, 1)).max() < 20.0  # N/m, where the wall presses with 2e7
 
 
 def test_a_string_below_its_onset_has_no_unstable_mode() -> None:
