@@ -126,7 +126,7 @@ def _opening(app: Dash, backend: PageBackend) -> None:
         session = backend.session(pathname)
         if ctx.triggered_id == "reset":
             session.keep(values={})
-        of = well_of(session)
+        of = session.well
         found, asked = backend.ask(session, "open"), backend.asked(session)
         values, depth = asked["values"], found["depth"]
         sliders = [page.slider(one, _at(one, values)) for one in found["sliders"]]
@@ -152,11 +152,6 @@ def _opening(app: Dash, backend: PageBackend) -> None:
         source, note = source_of(files, session.source, backend.pool, backend.units)
         session.put(source)
         return note, time.time(), None
-
-
-def well_of(session: Session) -> str:
-    """A name for the well of a session: another page at the same address may have put another one in its place."""
-    return session.source.digest if session.source is not None else ""
 
 
 def _at(one: Mapping[str, Any], values: Mapping[str, Any]) -> float:
@@ -199,12 +194,12 @@ def _moving(app: Dash, backend: PageBackend) -> None:
         try:
             session = backend.session(pathname)
             asked = {name: wish[name] for name in SHOWN_SETTINGS}
-            if wish["of"] != well_of(session):
+            if wish["of"] != session.well:  # another page may have put another one in its place
                 return "", {"n": wish["n"]}, *same[1:], time.time()
             given = {"coarse": bool(wish["coarse"]), "hole": bool(wish["hole"])}
             found = backend.ask(session, "solve", measured=session.measured, **asked, **given)
             if not wish["coarse"] and any(session.settings.get(name) != asked[name] for name in SHOWN_SETTINGS):
-                session.keep(**asked)
+                session.keep(wish["of"], **asked)
         except KeyError as error:
             return f"expected {error} in what the page asks", {"n": 0}, *same
         except InputError as error:
@@ -261,7 +256,7 @@ def _running(app: Dash, backend: PageBackend) -> None:
         return (
             note, f"{state['share']:.3f}", going, not going, no_update if kept == before else kept, told,
             page.TICK * (5 if quiet else 1),
-            time.time() if opened and opened["of"] != well_of(session) else no_update,
+            time.time() if opened and opened["of"] != session.well else no_update,
         )  # fmt: skip
 
     @app.callback(

@@ -36,7 +36,8 @@ class Source:
 class Session:
     """A folder with the case, the measured rows, and the settings of the page.
 
-    settings : of the page, plain JSON; the page writes them with ``keep``.
+    settings : of the page, plain JSON; the page writes them with ``keep``.  Two belong to the case itself: the name of
+    its survey and ``well``, another word each time that a case is taken, the same one taken again among them.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -66,17 +67,23 @@ class Session:
             write_whole(self.folder / "survey", source.survey, mode=PRIVATE)
             write_whole(self.folder / "case.toml", source.text.encode("utf-8", "backslashreplace"), mode=PRIVATE)
             self._source = source
-            self._write({"survey": source.survey_name})
+            self._write({"survey": source.survey_name, "well": secrets.token_urlsafe(6)})
+
+    @property
+    def well(self) -> str:
+        """A name for the case since it was taken, empty before there is one."""
+        return str(self.settings.get("well", ""))
 
     @property
     def measured(self) -> str:
         """The text of the measured rows, empty without any."""
         return str(self.settings.get("measured", ""))
 
-    def keep(self, **settings: Any) -> None:
-        """Change some settings."""
+    def keep(self, of: str | None = None, **settings: Any) -> None:
+        """Change some settings; of : the ``well`` that they belong to, in place of which another may have come."""
         with self._lock:
-            self._write({**self.settings, **settings})
+            if of in (None, self.well):
+                self._write({**self.settings, **settings})
 
     def _write(self, settings: dict[str, Any]) -> None:
         self.settings = settings

@@ -14,7 +14,6 @@ from typing import Any, NamedTuple
 import pytest
 from waitress import wasyncore
 
-from fctd.app.callbacks import well_of
 from fctd.app.downloads import FILES
 from fctd.app.home import Home
 from fctd.app.page import GRAPHS
@@ -192,7 +191,7 @@ def opened(server: AppServer, key: str) -> Any:
 def wish(of: Session | None, **given: Any) -> dict[str, Any]:
     """What a page asks whose session it has opened."""
     usual = {
-        "of": "" if of is None else well_of(of),
+        "of": "" if of is None else of.well,
         "values": {"mud": 1300}, "operations": ["trip_out"], "operation": "trip_out", "depth": 800, "coarse": False,
         "colour": "tension", "hole": False, "n": 7,
     }  # fmt: skip
@@ -241,7 +240,7 @@ def test_what_the_page_never_asks_is_answered_in_words(server: AppServer) -> Non
         found = call(server, session.key, "answered.data", [("wish", "data", wrong)], [])
         assert found["fault"]["children"], wrong
         assert found["answered"]["data"].keys() == {"n"}
-    assert session.settings == {"survey": "survey.csv"}
+    assert set(session.settings) == {"survey", "well"}
     found = call(server, "x" * 12, "answered.data", [("wish", "data", wish(None))], [])
     assert "open the page anew" in found["fault"]["children"]
 
@@ -258,10 +257,30 @@ def test_a_page_follows_another_one_at_its_address(server: AppServer) -> None:
     assert found["changed"]["data"]
     assert found["answered"]["data"].keys() == {"n"}
     assert "words" not in found
-    assert session.settings == {"survey": "survey.csv"}
+    assert set(session.settings) == {"survey", "well"}
     assert call(server, session.key, "run-kept.data", *seen)["changed"]["data"]
     page = opened(server, session.key)
     assert (page["name"]["children"], page["words"]["children"]) == ("another", "")
+
+
+def test_a_case_that_is_taken_again_begins_anew(server: AppServer, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same files come while a move of the page before is being solved, which must not move the new one."""
+    session, ask_pool = server.sessions.new(), server.pool.ask
+    session.put(source())
+
+    def solved_late(do: str, *given: Any, **named: Any) -> Any:
+        found = ask_pool(do, *given, **named)
+        if do == "solve":
+            session.put(source())
+        return found
+
+    monkeypatch.setattr(server.pool, "ask", solved_late)
+    moved = wish(session)
+    call(server, session.key, "answered.data", [("wish", "data", moved)], [])
+    assert opened(server, session.key)["opened"]["data"]["values"] == {}
+    found = call(server, session.key, "answered.data", [("wish", "data", moved)], [])  # one that came later still
+    assert found["changed"]["data"]
+    assert opened(server, session.key)["opened"]["data"]["values"] == {}
 
 
 def test_a_run_begins_where_the_sliders_stand(server: AppServer, monkeypatch: pytest.MonkeyPatch) -> None:

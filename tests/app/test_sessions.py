@@ -21,8 +21,12 @@ def test_a_session_is_what_it_was_after_a_restart(tmp_path: Path) -> None:
     assert again.source.digest == source().digest != Source("x").digest
     assert again.settings["values"] == {"mud": 1300}
     assert again.measured == "rows"
+    well = again.well
+    assert well == session.well != ""
     again.put(Source("name = 1"))  # another case has neither sliders nor rows of the one before
-    assert (again.settings, again.measured) == ({"survey": ""}, "")
+    assert (again.settings, again.measured) == ({"survey": "", "well": again.well}, "")
+    again.keep(well, values={"mud": 1300})
+    assert "values" not in again.settings
     assert {path.stat().st_mode & 0o777 for path in (tmp_path / session.key).iterdir()} == {0o600}
     assert (tmp_path / session.key).stat().st_mode & 0o777 == 0o700
 
