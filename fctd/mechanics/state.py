@@ -107,8 +107,10 @@ GIVEN_FORCE, GIVEN_TORQUE = 97 * STRIDE, 98 * STRIDE
 # Friction that differs along and around the string (laws.orthotropic), of the wall beside the contact point: the factor
 # around it, and what mud cake adds to the limit there [N s].
 FRICTION_AROUND, CAKE_AROUND = 99 * STRIDE, 100 * STRIDE
+# Share of the wall's friction that a steady string has among its given loads in place of the wall's own.
+GIVEN_FRICTION = 101 * STRIDE
 
-ROWS = 101
+ROWS = 102
 
 
 class Laws(NamedTuple):

@@ -97,6 +97,12 @@ def resolved(case: Case, bit_depth: float, md: Array, needed: Array) -> Componen
     return tuple(pieces)
 
 
+def by_default(case: Case) -> Components:
+    """Segments as a case has them that gives no lengths; a long segment stays."""
+    none = {"segments": None, "segment_length": None}
+    return tuple(part if is_long(part) else part.model_copy(update=none) for part in case.string.components)
+
+
 LAYOUTS: dict[str, Layout] = {"uniform": uniform, "graded": graded}
 
 

@@ -108,7 +108,7 @@ def fill_segment(S, length, component, sections, long_segment, damping, pressure
     S[state.MUD_AXIAL + at] = damping[j, 0] * h
     S[state.MUD_LATERAL + at] = damping[j, 1] * h
     S[state.MUD_SPIN + at] = damping[j, 2] * h
-    S[state.GIVEN_FORCE + at] = S[state.GIVEN_TORQUE + at] = 0.0
+    S[state.GIVEN_FORCE + at] = S[state.GIVEN_TORQUE + at] = S[state.GIVEN_FRICTION + at] = 0.0
     S[state.K_AXIAL + at] = joint_stiffness(length, component, sections, long_segment, EA, j)
     S[state.K_SHEAR + at] = joint_stiffness(length, component, sections, long_segment, SHEAR, j)
     S[state.K_BEND + at] = joint_stiffness(length, component, sections, long_segment, EI, j)

@@ -29,6 +29,10 @@ MEANINGS: Final = {
     "buckling": Meaning(
         "the string is buckled, and its segments are too long to bend that way", "use shorter segments there"
     ),
+    "homogenised": Meaning(
+        "the waves of the buckled string are homogenised: mean wall force and friction of the closed forms",
+        "raise solver.resolve_work where the shape itself matters, or use smaller loads",
+    ),
     "tortuosity": Meaning("the segments are too long to follow the hole's tortuosity", "use shorter segments"),
     "wall": Meaning(
         "the string was pressed deeper into the wall than the time step is stable for",
@@ -149,6 +153,15 @@ def limit_notes(worst: Array, string: String, walls: Walls) -> tuple[Note, ...]:
             text = limit.text(share, Place(*at), string.sections[section], where)
             found.append(note_of(limit.code, text, share, place))
     return tuple(found)
+
+
+def homogenised(buckling: Buckling) -> Note:
+    """A note on a string whose waves have the wall force of the closed forms."""
+    text = (
+        f"buckling is {buckling}, and resolving takes more work or segments than a row may have: the waves there are "
+        "homogenised"
+    )
+    return note_of("homogenised", text, 1.0, buckling.from_md)
 
 
 def under_resolved(buckling: Buckling) -> Note | None:

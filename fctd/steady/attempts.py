@@ -3,20 +3,29 @@ next."""
 
 from dataclasses import replace
 
+import numpy as np
+
+from fctd.mechanics import state
+from fctd.model import layouts
 from fctd.results.status import SteadyStatus
 from fctd.steady import post_buckling
-from fctd.steady.balance import ATTEMPTS, IN_THE_OPEN, LARGEST_TURN, PATIENT, balance
+from fctd.steady.balance import ATTEMPTS, IN_THE_OPEN, PATIENT, balance
 from fctd.steady.bisection import bisect
 from fctd.steady.carried_shape import begin, carry
 from fctd.steady.climb import LARGEST_PUSH, SOUND_PUSH, climb, lock_up
-from fctd.steady.continuation import CONVERGED, Pace
+from fctd.steady.continuation import CONVERGED
 from fctd.steady.findings import Findings
-from fctd.steady.helical_force import add_helical_force
 from fctd.steady.helix import Helix
 from fctd.steady.post_buckling import Resolved, is_resolved
-from fctd.steady.problem import Problem
+from fctd.steady.problem import Allowance, Problem
 from fctd.steady.steady_string import Equilibrium
+from fctd.steady.wave_force import WaveForce
 
+# Work with which a homogenised string is followed, iterations times segments: two to four seconds.
+WORK_OF_WAVES = 2e6
+TOO_FINE = f"resolving takes more than the {state.MAX_SEGMENTS} segments that a string may have: use smaller loads"
+TOO_MUCH = "resolving takes more work than solver.resolve_work allows a row"
+HOMOGENISED = "so the wall force of its waves is that of the closed forms"
 # Shapes of a buckled string whose hook loads differ by more than this share of its weight are both stated.
 APART = 0.01
 
@@ -71,6 +80,32 @@ def of_lower_energy(resolved: Resolved, so_far: Findings) -> Equilibrium:
     is_begun = chosen.status == SteadyStatus.CONVERGED and not so_far.is_to_be_fed
     shapes = carry(resolved) if is_begun else None
     return replace(chosen, iterations=chosen.iterations + so_far.first.iterations, carried=shapes)
+
+
+def homogenised(problem: Problem, so_far: Findings) -> Equilibrium | None:
+    """A string that takes too many segments or too much work, on segments that do not bend into its waves: these press
+    on the wall and rub as the closed forms say.
+
+    It is followed from small loads as one that is resolved.  None where it has no balance for another reason than
+    lock-up.
+    """
+    coarse = layouts.with_components(so_far.case, layouts.by_default(so_far.case))
+    if layouts.segments_in_hole(coarse, problem.string.bit_depth) > state.MAX_SEGMENTS:
+        return None
+    problem = so_far.lay_finer(coarse)
+    problem.at_axis, problem.wave, problem.allowance = 1, WaveForce(problem), Allowance(WORK_OF_WAVES)
+    path = climb(problem)
+    lock_up(problem, path)
+    if np.isnan(path.locked_at):
+        path.locked_at = problem.wave.endless_from
+    path.iterations += so_far.first.iterations
+    point = so_far.end_of(problem, path)
+    if point.status not in (SteadyStatus.CONVERGED, SteadyStatus.LOCKED_UP):
+        return None
+    shape = "helix" if problem.wave.wound.any() else "snaking"
+    why = TOO_FINE if so_far.lacks_segments else TOO_MUCH
+    message = f"{point.message}; {why}, {HOMOGENISED}" if point.message else ""
+    return replace(point, message=message, shape=shape)
 
 
 def as_resolved(_: Problem, so_far: Findings) -> Equilibrium | None:
@@ -144,10 +179,9 @@ def as_ended(_: Problem, so_far: Findings) -> Equilibrium | None:
 
 def with_helix(problem: Problem, so_far: Findings) -> Equilibrium | None:
     """The string that was found, with the wall force of a helix where its segments cannot bend into one."""
-    point, allowed = so_far.found, problem.allowed
-    added = add_helical_force(problem, Pace(*ATTEMPTS[0], LARGEST_TURN, allowed, allowed))
+    point, added = so_far.found, WaveForce(problem).settle()
     wound = so_far.answer(problem, CONVERGED, point.iterations + added.iterations, problem.unstable_modes())
-    if added.settled and not problem.added.any():
+    if added.settled and not problem.given_wall.any():
         so_far.found = replace(wound, method=point.method)
         return None
     if added.settled:

@@ -130,6 +130,18 @@ def creep_of(problem: Problem, iterations: int, tightly: float = 1.0) -> Creep:
 
 
 def come_to_rest(problem: Problem, iterations: int, share: Share) -> tuple[int, int]:
+    """Relax the string to a balance in which it stays, with the wall force of its homogenised waves where it has any.
+
+    Returns code and iterations.
+    """
+    code, done = _come_to_rest(problem, iterations, share)
+    if code != CONVERGED or problem.wave is None:
+        return code, done
+    added = problem.wave.settle(share, RESTART_ITERATIONS)
+    return CONVERGED if added.settled else MAX_ITERATIONS, done + added.iterations
+
+
+def _come_to_rest(problem: Problem, iterations: int, share: Share) -> tuple[int, int]:
     """Relax the string, and push it aside where it rests in a balance that it would leave; returns code and iterations.
 
     A straight string stays straight above its buckling limit until something moves it aside.

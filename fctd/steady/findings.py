@@ -132,9 +132,9 @@ class Findings:
         """The problem on the segments of another case, which shares the allowance."""
         own = self.problem
         laid = LaidString(case, own.hole, lay_out(case, own.string.bit_depth))
-        finer = self.lay(own.operation, own.rates, laid, case)
-        finer.at_axis, finer.allowance = 1, own.allowance
-        return finer
+        other = self.lay(own.operation, own.rates, laid, case)
+        other.at_axis, other.allowance = 1, own.allowance
+        return other
 
     def end_of(self, problem: Problem, path: Climb) -> Equilibrium:
         """The string at the end of a path: with loads where the path reaches them, and with what ends the path."""

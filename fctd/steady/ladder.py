@@ -8,20 +8,18 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
 
-from fctd.mechanics import state
 from fctd.steady import attempts
+from fctd.steady.attempts import TOO_FINE, TOO_MUCH
 from fctd.steady.continuation import CONVERGED
 from fctd.steady.fed_row import fed
 from fctd.steady.findings import Findings
 from fctd.steady.problem import Problem
 from fctd.steady.rolling import rolled
-from fctd.steady.steady_string import Equilibrium
+from fctd.steady.steady_string import HOMOGENISED, Equilibrium
 
 NEWTON = "newton"  # also of the strings that a batch finds (batch.py)
 # Sentences: {} is what the status or the path of the string says.
 AS_FOUND = "{}"
-TOO_FINE = f"resolving takes more than the {state.MAX_SEGMENTS} segments that a string may have: use smaller loads"
-TOO_MUCH = "resolving takes more work than solver.resolve_work allows a row"
 ANALYTIC = "the wall force of the helix is the analytic one, r F²/4EI"
 
 
@@ -46,6 +44,7 @@ LADDER = (
     Rung("carried", lambda so_far: so_far.is_to_be_carried, attempts.carried),
     Rung("fed", lambda so_far: so_far.is_to_be_fed, fed),
     Rung("resolved", lambda so_far: so_far.is_to_be_resolved and so_far.resolved is None, attempts.resolved),
+    Rung(HOMOGENISED, lambda so_far: so_far.is_to_be_resolved, attempts.homogenised),
     Rung("resolved in part", lambda so_far: so_far.lacks_segments, attempts.as_resolved, f"{TOO_FINE}; {{}}"),
     Rung("as cut", lambda so_far: so_far.is_to_be_resolved, attempts.as_cut,
          f"{TOO_MUCH}; with the segments of the case: {{}}"),

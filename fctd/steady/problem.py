@@ -1,7 +1,9 @@
 """A string at one depth under the loads of one operation: arrays of the solver, and what its methods start from."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
-from typing import NamedTuple, Self
+from typing import TYPE_CHECKING, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +25,7 @@ from fctd.steady.held_friction import Held
 from fctd.steady.laid_string import LaidString
 from fctd.steady.laws import hole_of, steady_laws
 from fctd.steady.pose import PLACE, POSE, QUATERNION
-from fctd.steady.reading import ANSWER, SHAPE, STEPS, TOP, Answer, read_shape, read_top
+from fctd.steady.reading import ANSWER, LONGEST, SHAPE, STEPS, TOP, Answer, read_shape, read_top
 from fctd.steady.relaxation import Creep, relax
 from fctd.steady.tangent import (
     CONTACT_COLUMNS,
@@ -34,6 +36,9 @@ from fctd.steady.tangent import (
     assemble,
     frictionless_tangent,
 )
+
+if TYPE_CHECKING:
+    from fctd.steady.wave_force import Given, WaveForce
 
 # Lateral imperfection of the first guess, so that a straight string may buckle [m].
 SEED = 1e-4
@@ -82,7 +87,7 @@ class Workspace(Arrays):
         """The number of segments for which there is room."""
         return len(self.owner) - 2
 
-    def for_segments(self, segments: int) -> "Workspace":
+    def for_segments(self, segments: int) -> Workspace:
         """This, or a larger one where it is too small; the depths of a chart rise."""
         return self if self.segments >= segments else Workspace(min(segments * 3 // 2, state.MAX_SEGMENTS))
 
@@ -98,10 +103,11 @@ FULL = Share()
 
 
 class Pose(NamedTuple):
-    """A copy of the string's pose and of the pieces of hole beside it."""
+    """A copy of the string's pose, of the pieces of hole beside it, and of the loads of its homogenised waves."""
 
     P: Array
     owner: NDArray[np.int64]
+    given: Given | None = None
 
 
 class Reactions(NamedTuple):
@@ -137,9 +143,9 @@ class Problem:
     """What the solver's iterations work on; the pose is in the workspace and changes in place.
 
     string, hole; weight : of the string and on the bit [N]; allowed : largest imbalance of a body when converged [N];
-    at_axis : see ``tangent.Steady``; added (n, 3) : wall force beside that of the wall's springs, in the columns of
-    contact loads (helical_force.py); held : of a string that is fed (feed.py); allowance : what relaxations may still
-    take.
+    at_axis : see ``tangent.Steady``; given_wall (n, 3) : contact loads of points whose friction is given
+    (wave_force.py); held : of a string that is fed (feed.py); wave : of one with
+    homogenised waves (wave_force.py); allowance : what relaxations may still take.
     """
 
     def __init__(
@@ -160,8 +166,9 @@ class Problem:
         self.kinks = np.zeros((self.n + 2, 4))
         self.kinks[:, 0] = 1.0
         self.at_axis = 0
-        self.added = np.zeros((self.n, 3))
+        self.given_wall = np.zeros((self.n, 3))
         self.held: Held | None = None
+        self.wave: WaveForce | None = None
         self.allowance = allowance
 
     @property
@@ -267,7 +274,8 @@ class Problem:
         hookload, torque, imbalance = read_top(
             *args, w.R, self.fed, self._top_length, self.laid.top_axis, joints, contacts
         )
-        contacts[1:, NORMAL_FORCE:] += self.added
+        given = state.row(w.S, state.GIVEN_FRICTION, n) > 0
+        contacts[1:, NORMAL_FORCE:][given] = self.given_wall[given]
         return Reactions(hookload, torque, imbalance, joints[1:], contacts[1:])
 
     def answer(self, iterations: int) -> Answer:
@@ -279,6 +287,8 @@ class Problem:
             string.table, string.component, self.bit_tension(), self.bit_torque, found.hookload,
             self.work.owner[1 : n + 1], found.joints, found.contacts, walls, numbers[SHAPE:],
         )  # fmt: skip
+        if self.wave is not None:
+            numbers[SHAPE + LONGEST] = 0.0  # its segments need not bend
         numbers[STEPS:TOP] = iterations, found.hookload, found.torque, found.imbalance, self.allowed
         numbers[TOP:SHAPE] = self.work.P[0, PLACE]
         return Answer(numbers, found.joints, found.contacts, walls)
@@ -302,11 +312,14 @@ class Problem:
 
     def copy_pose(self) -> Pose:
         """A copy of the pose."""
-        return Pose(self.work.P[: self.n + 1].copy(), self.work.owner[: self.n + 1].copy())
+        given = None if self.wave is None else self.wave.loads
+        return Pose(self.work.P[: self.n + 1].copy(), self.work.owner[: self.n + 1].copy(), given)
 
     def put_pose(self, pose: Pose) -> None:
         """Put a copied pose back."""
-        self.work.P[: self.n + 1], self.work.owner[: self.n + 1] = pose
+        self.work.P[: self.n + 1], self.work.owner[: self.n + 1], given = pose
+        if self.wave is not None and given is not None:
+            self.wave.loads = given
 
     def _find_owners(self) -> None:
         find_owners(self.hole.pieces, self.n, self.work.G, self.work.owner)

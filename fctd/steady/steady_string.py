@@ -21,7 +21,7 @@ from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling
 from fctd.results.columns import IN_CHART, Column
 from fctd.results.display import MAIN, html_table, load_rows
 from fctd.results.limits import WORST
-from fctd.results.notes import Note, limit_notes
+from fctd.results.notes import Note, homogenised, limit_notes
 from fctd.results.profile import profile_table
 from fctd.results.status import SteadyStatus
 from fctd.steady.continuation import CONVERGED, NOT_FINITE
@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from fctd.steady.feed import Fed
 
 
+HOMOGENISED = "homogenised"  # the rung of strings whose waves have the wall force of the closed forms
 AT_FULL = "solved at its full friction alone, from which share of it on is not known"
 
 
@@ -141,10 +142,13 @@ class Equilibrium:
     @cached_property
     def notes(self) -> tuple[Note, ...]:
         """Warnings about the loads; empty where there are no loads."""
-        if not self.answered or not self._shape.numbers[NOTED]:
+        if not self.answered:
             return ()
         shape = self._shape
-        return limit_notes(shape.numbers[SHARES:].reshape(-1, WORST), shape.laid.string, shape.walls)
+        of_waves = (homogenised(shape.buckling),) if self.method == HOMOGENISED else ()
+        if not shape.numbers[NOTED]:
+            return of_waves
+        return limit_notes(shape.numbers[SHARES:].reshape(-1, WORST), shape.laid.string, shape.walls) + of_waves
 
 
 def steady_string(

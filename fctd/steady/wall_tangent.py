@@ -17,7 +17,7 @@ from fctd.mechanics.jit import inlined
 from fctd.mechanics.joints import cross
 from fctd.mechanics.laws import LAWS, dispatch, steady_load
 from fctd.mechanics.rotations import rotation_columns
-from fctd.mechanics.state import ARCS, ARM_CONTACT, RADIUS, TINY, TRIBUTARY
+from fctd.mechanics.state import ARCS, ARM_CONTACT, GIVEN_FRICTION, RADIUS, TINY, TRIBUTARY
 from fctd.steady.block_thomas import SIZE
 from fctd.steady.pose import in_frame, place, quaternion, stepped
 from fctd.steady.wall_gradient import wall_beside
@@ -46,17 +46,17 @@ def depth_of(laws, penetration):
 
 
 @inlined
-def loads_of_wall(steady_load, laws, nx, ny, nz, normal, factor, around, tx, ty, tz, w, qx, qy, qz, arm, radius):
+def loads_of_wall(steady_load, laws, scale, nx, ny, nz, normal, factor, around, tx, ty, tz, w, qx, qy, qz, arm, radius):
     """Loads of the wall on a body with its frame q, given the normal force on it [N] and the wall beside it.
 
-    steady_load : of a law of friction; factor, around : friction factors along and around the string.  Returns force
-    [N], global; moment about the centre [N m], in the body's frame: six scalars.
+    steady_load : of a law of friction; scale : share of the friction; factor, around : friction factors along and
+    around the string.  Returns force [N], global; moment about the centre [N m], in the body's frame: six scalars.
     """
     _, _, _, _, _, _, ax, ay, az = rotation_columns(w, qx, qy, qz)
-    limit = laws.friction_scale * factor * normal
+    limit = scale * factor * normal
     fx, fy, fz, mx, my, mz, _ = steady_load(
-        laws.speed, laws.spin, limit, limit_around(laws.orthotropic, laws.friction_scale, around, normal), radius,
-        ax, ay, az, nx, ny, nz, tx, ty, tz,
+        laws.speed, laws.spin, limit, limit_around(laws.orthotropic, scale, around, normal), radius, ax, ay, az,
+        nx, ny, nz, tx, ty, tz,
     )  # fmt: skip
     if laws.at_axis:
         about = mx * ax + my * ay + mz * az
@@ -65,6 +65,12 @@ def loads_of_wall(steady_load, laws, nx, ny, nz, normal, factor, around, tx, ty,
     ox, oy, oz = cross(arm * ax, arm * ay, arm * az, fx, fy, fz)
     ma, mb, mc = in_frame(w, qx, qy, qz, mx + ox, my + oy, mz + oz)
     return fx, fy, fz, ma, mb, mc
+
+
+@inlined
+def share_of_friction(S, j, laws):
+    """Share of its friction with which the wall itself acts on body j."""
+    return laws.friction_scale * (1.0 - S[GIVEN_FRICTION + j])
 
 
 @inlined
@@ -87,7 +93,7 @@ def differentiate_with(steady_load: Any) -> Any:
     """A function that fills the loads of the wall on a body and their derivatives, by the steady load of a law."""
 
     @inlined
-    def differentiate(laws, w, qx, qy, qz, arm, radius, tributary, wall, K):
+    def differentiate(laws, scale, w, qx, qy, qz, arm, radius, tributary, wall, K):
         """Fill K (12 × DIRECTIONS, flat) with derivatives of force and moment, and in its lower half with both."""
         xx, xy, xz, yx, yy, yz, _, _, _ = rotation_columns(w, qx, qy, qz)
         depth = depth_of(laws, complex(wall.beyond[0] + radius, STEP))
@@ -101,7 +107,7 @@ def differentiate_with(steady_load: Any) -> Any:
             nx, ny, nz = unit_of(moved(wall.x, dx, dy, dz), moved(wall.y, dx, dy, dz), moved(wall.z, dx, dy, dz))
             normal = moved(wall.stiffness, dx, dy, dz) * complex(pressed, slope * moved(wall.beyond, dx, dy, dz).imag)
             fx, fy, fz, ma, mb, mc = loads_of_wall(
-                steady_load, laws, nx, ny, nz, normal,
+                steady_load, laws, scale, nx, ny, nz, normal,
                 moved(wall.factor, dx, dy, dz), moved(wall.around, dx, dy, dz),
                 moved(wall.tx, dx, dy, dz), moved(wall.ty, dx, dy, dz), moved(wall.tz, dx, dy, dz),
                 cw, cx, cy, cz, arm, radius,
@@ -131,8 +137,9 @@ def add_wall(S, j, P, C, owner, laws, R, D, K):
         return
     w, qx, qy, qz = quaternion(P, j)
     differentiate_by_law(
-        laws.friction, laws, w, qx, qy, qz, S[ARM_CONTACT + j], S[RADIUS + j], S[TRIBUTARY + j], wall, K
-    )
+        laws.friction, laws, share_of_friction(S, j, laws), w, qx, qy, qz, S[ARM_CONTACT + j], S[RADIUS + j],
+        S[TRIBUTARY + j], wall, K,
+    )  # fmt: skip
     for i in range(SIZE):
         R[j, i] += K[DIRECTIONS * (SIZE + i)]
         for k in range(UNKNOWNS):
@@ -178,8 +185,9 @@ def read_wall(S, j, P, C, i, laws):
     if penetration < 0:
         return 0.0, 0.0, 0.0
     normal = wall.stiffness[0] * S[TRIBUTARY + j] * depth_of(laws, penetration)
-    limit = laws.friction_scale * wall.factor[0] * normal
-    around = limit_around(laws.orthotropic, laws.friction_scale, wall.around[0], normal)
+    scale = share_of_friction(S, j, laws)
+    limit = scale * wall.factor[0] * normal
+    around = limit_around(laws.orthotropic, scale, wall.around[0], normal)
     nx, ny, nz = unit_of(wall.x[0], wall.y[0], wall.z[0])
     _, _, _, _, _, _, ax, ay, az = rotation_columns(*quaternion(P, j))
     _, _, _, _, _, _, torque = steady_load(

@@ -7,7 +7,7 @@ import fctd
 from fctd.case.load import Case
 from fctd.mechanics import state
 from fctd.steady import feed
-from fctd.steady.ladder import TOO_FINE
+from fctd.steady.attempts import TOO_FINE
 from fctd.steady.steady_string import Equilibrium
 from tests.steady.buckled import level_case, with_tables
 
@@ -73,7 +73,7 @@ def test_a_string_that_turns_or_meets_no_friction_is_not_fed() -> None:
 
 
 def test_a_string_of_too_many_segments_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(state, "MAX_SEGMENTS", 20)
+    monkeypatch.setattr(state, "MAX_SEGMENTS", 10)
     point = resolved(level_case(1.6, 120.0, 12.0, 0.1), 120.0, rig={"block_weight": 1e6})
     assert point.status == "under_resolved"
     assert point.message.startswith(TOO_FINE)

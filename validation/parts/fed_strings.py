@@ -19,12 +19,12 @@ from fctd.model import layouts
 from fctd.model.operations import steady_rates
 from fctd.results.buckling import NOT_BUCKLED
 from fctd.results.status import SteadyStatus
+from fctd.steady.attempts import TOO_MUCH
 from fctd.steady.balance import ATTEMPTS, balance
 from fctd.steady.carried_shape import shape_of
 from fctd.steady.continuation import CONVERGED
 from fctd.steady.equilibrium import Solver
 from fctd.steady.feed import ARRIVING, End, FedString, Start
-from fctd.steady.ladder import TOO_MUCH
 from fctd.steady.problem import Allowance, Problem, Share
 from fctd.steady.torque_drag import with_friction
 from validation.cases.wells import real_well

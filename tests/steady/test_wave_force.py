@@ -1,7 +1,9 @@
-"""The wall force of a helix on coarse strings: the force it transmits, what includes it, and where it ends."""
+"""The wall force of waves on coarse strings: the force it transmits, what includes it, and where it ends."""
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 import fctd
 from fctd.case.load import Case
@@ -9,12 +11,14 @@ from fctd.mechanics import state
 from fctd.model.operations import steady_rates
 from fctd.model.section import Section, section_of
 from fctd.results.status import SteadyStatus
+from fctd.steady.attempts import HOMOGENISED, TOO_MUCH
 from fctd.steady.balance import ATTEMPTS, balance
 from fctd.steady.equilibrium import Solver
-from fctd.steady.helical_force import Helical
 from fctd.steady.problem import Problem
+from fctd.steady.wave_force import WaveForce, press, snaking_over_helix
+from references.buckling.mitchell import UNIT, snaking
 from references.soft_string.directions import associated
-from tests.steady.buckled import HOLE, level_case
+from tests.steady.buckled import HOLE, level_case, with_tables
 
 FRICTION, PUSHED = 0.3, 1.5  # times the onset, above the helical limit of 1.41
 
@@ -90,7 +94,7 @@ def test_friction_acts_against_the_sliding_of_the_surface(law: str, operation: s
     """One force against the resultant speed; the law of the paper has drag and torque in full."""
     case = analytic(level_case(PUSHED, 300.0, 20.0, friction=FRICTION), friction_law=law)
     problem, speed = pressed(case, operation)
-    limit = FRICTION * problem.added[:, 0]
+    limit = FRICTION * problem.given_wall[:, 0]
     n, S, rates = problem.n, problem.work.S, problem.rates
     drag, torque = -state.row(S, state.GIVEN_FORCE, n), -state.row(S, state.GIVEN_TORQUE, n)
     radius = section(case).contact_radius
@@ -99,8 +103,8 @@ def test_friction_acts_against_the_sliding_of_the_surface(law: str, operation: s
     assert limit.max() > 0
     np.testing.assert_allclose(drag, along[0] * limit, rtol=1e-9)
     np.testing.assert_allclose(torque, along[1] * radius * limit, rtol=1e-9)
-    np.testing.assert_allclose(problem.added[:, 1], torque, rtol=1e-9)
-    np.testing.assert_allclose(problem.added[:, 2], radius * limit, rtol=1e-9)
+    np.testing.assert_allclose(problem.given_wall[:, 1], torque, rtol=1e-9)
+    np.testing.assert_allclose(problem.given_wall[:, 2], radius * limit, rtol=1e-9)
 
 
 @pytest.mark.parametrize("law", ["coulomb", "paper"])
@@ -110,7 +114,7 @@ def test_friction_along_and_around_have_their_own_factors(law: str) -> None:
     pair = hole.model_copy(update={"rotational_friction": around})
     case = case.model_copy(update={"wellbore": case.wellbore.model_copy(update={"intervals": (pair,)})})
     problem, _ = pressed(case, "back_ream")
-    n, S, rates, missing = problem.n, problem.work.S, problem.rates, problem.added[:, 0]
+    n, S, rates, missing = problem.n, problem.work.S, problem.rates, problem.given_wall[:, 0]
     drag, torque = -state.row(S, state.GIVEN_FORCE, n), -state.row(S, state.GIVEN_TORQUE, n)
     radius = section(case).contact_radius
     down, about = -FRICTION, around
@@ -120,7 +124,7 @@ def test_friction_along_and_around_have_their_own_factors(law: str) -> None:
     assert missing.max() > 0
     np.testing.assert_allclose(drag, down * missing, rtol=1e-9)
     np.testing.assert_allclose(torque, about * radius * missing, rtol=1e-9)
-    np.testing.assert_allclose(problem.added[:, 2], radius * around * missing, rtol=1e-9)
+    np.testing.assert_allclose(problem.given_wall[:, 2], radius * around * missing, rtol=1e-9)
 
 
 def pressed(case: Case, operation: str) -> tuple[Problem, float]:
@@ -130,7 +134,7 @@ def pressed(case: Case, operation: str) -> tuple[Problem, float]:
     problem = solver.problem(operation, rates, solver.lay_out(case.wellbore.intervals[-1].to_md))
     problem.weight_on_bit = case.bit.weight_on_bit
     balance(problem, ATTEMPTS)
-    Helical(problem).add()
+    WaveForce(problem).add()
     return problem, rates.speed
 
 
@@ -154,3 +158,77 @@ def test_nothing_is_added_to_snaking_nor_to_segments_that_can_bend(times_onset: 
 def test_a_refinement_refuses_it() -> None:
     with pytest.raises(fctd.InputError, match=r'contact.helical_force = "analytic": expected "none" in a refinement'):
         fctd.refine(analytic(level_case(PUSHED)), operation="drill_sliding", bit_depth=150.0)
+
+
+@pytest.mark.parametrize("ratio", [1.02, 1.1, 1.25, 1.4])
+def test_the_mean_wall_force_of_snaking_is_that_of_its_equation(ratio: float) -> None:
+    whole = snaking(UNIT, ratio * UNIT.onset).mean_wall_force
+    helix_of_it = ratio**2  # over the weight, as is the other
+    assert float(snaking_over_helix(np.array([ratio]))[0]) * helix_of_it == pytest.approx(whole, rel=0.01)
+
+
+@given(st.floats(0.05, 0.9), st.integers(20, 200))
+def test_a_helix_presses_by_the_reciprocal_law_or_without_end(share: float, n: int) -> None:
+    """From the lower end upwards 1/F falls by a share of it: shares beyond 1 have no end."""
+    wave, drag = np.full(n, share / n), np.ones(n)
+    none, pushed, force = np.zeros(n), np.ones(n), np.empty(n)
+    assert press(wave, drag, none, pushed, 1e6, force)
+    assert 1 + force.sum() == pytest.approx(1 / (1 - share), rel=6 / n / (1 - share) ** 2)
+    assert not press(3 * wave / share, drag, none, pushed, 1e3, force)
+
+
+def spent(case: Case, **tables: dict[str, object]) -> Case:
+    """The case resolved with so little work that its waves are homogenised, and a rig that can push."""
+    return with_tables(case, solver={"buckling": "resolve", "resolve_work": 50.0}, rig={"block_weight": 1e7}, **tables)
+
+
+@pytest.mark.parametrize("times_onset", [1.25, 2.0])
+@pytest.mark.parametrize("operation", ["drill_sliding", "drill_rotating", "trip_in"])
+def test_homogenised_waves_have_the_loads_of_resolved_ones(times_onset: float, operation: str) -> None:
+    case = level_case(times_onset, 150.0, 3.0, friction=0.2)
+    point = fctd.equilibrium(spent(case), operation, 150.0)
+    resolved_case = with_tables(spent(case), solver={"buckling": "resolve"})
+    whole = fctd.equilibrium(resolved_case, operation, 150.0)
+    assert point.hookload == pytest.approx(whole.hookload, abs=0.02 * case.bit.weight_on_bit, nan_ok=True)
+    if operation == "drill_sliding":
+        assert (point.method, point.status, point.message) == ("homogenised", SteadyStatus.CONVERGED, "")
+        assert point.notes[-1].code == "homogenised"
+        assert point.shape == ("snaking" if times_onset < 1.4 else "helix")
+    if operation == "trip_in":  # nothing is compressed
+        assert "homogenised" not in (point.method, *(note.code for note in point.notes))
+
+
+def test_homogenised_waves_are_the_same_whatever_the_segments_of_the_case() -> None:
+    cases = [spent(level_case(2.0, 300.0, segment, friction=0.2)) for segment in (5.0, 12.0, 25.0)]
+    loads = {fctd.equilibrium(case, "drill_sliding", 300.0).hookload for case in cases}
+    assert len(loads) == 1
+
+
+def test_the_profile_of_homogenised_waves_has_their_wall_force() -> None:
+    case = level_case(2.0, 300.0, 5.0, friction=0.2)
+    point = fctd.equilibrium(spent(case), "drill_sliding", 300.0)
+    drag = -point.hookload - case.bit.weight_on_bit
+    assert drag == pytest.approx(0.2 * point.profile["contact_force_N"].sum(), rel=1e-3)
+    assert point.buckling.resolved
+
+
+def test_a_homogenised_helix_that_no_push_moves_is_locked_up() -> None:
+    length = 1.2 * lock_up_length()
+    point = fctd.equilibrium(spent(level_case(PUSHED, length, 20.0, friction=FRICTION)), "drill_sliding", length)
+    assert (point.status, point.answered) == (SteadyStatus.LOCKED_UP, False)
+    assert point.locked_up_at == pytest.approx(1 / 1.2, rel=0.05)
+    assert point.message.endswith(f"{TOO_MUCH}, {HOMOGENISED}")
+
+
+def test_a_pose_has_the_loads_of_its_waves() -> None:
+    """A pose that is put back is in balance again."""
+    problem, _ = pressed(level_case(PUSHED, 300.0, 20.0, friction=FRICTION), "drill_sliding")
+    problem.wave = WaveForce(problem)
+    assert problem.wave.settle().settled
+    kept, before = problem.copy_pose(), problem.reactions()
+    problem.weight_on_bit *= 1.3
+    assert problem.wave.settle().settled
+    assert problem.reactions().hookload < 1.2 * before.hookload
+    problem.weight_on_bit /= 1.3
+    problem.put_pose(kept)
+    assert problem.reactions().hookload == before.hookload
