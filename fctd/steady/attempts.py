@@ -93,16 +93,17 @@ def homogenised(problem: Problem, so_far: Findings) -> Equilibrium | None:
     if layouts.segments_in_hole(coarse, problem.string.bit_depth) > state.MAX_SEGMENTS:
         return None
     problem = so_far.lay_finer(coarse)
-    problem.at_axis, problem.wave, problem.allowance = 1, WaveForce(problem), Allowance(WORK_OF_WAVES)
+    waves = WaveForce(problem)
+    problem.at_axis, problem.settle, problem.allowance = 1, waves.settle, Allowance(WORK_OF_WAVES)
     path = climb(problem)
     lock_up(problem, path)
     if np.isnan(path.locked_at):
-        path.locked_at = problem.wave.endless_from
+        path.locked_at = waves.endless_from
     path.iterations += so_far.first.iterations
     point = so_far.end_of(problem, path)
     if point.status not in (SteadyStatus.CONVERGED, SteadyStatus.LOCKED_UP):
         return None
-    shape = "helix" if problem.wave.wound.any() else "snaking"
+    shape = "helix" if waves.wound.any() else "snaking"
     why = TOO_FINE if so_far.lacks_segments else TOO_MUCH
     message = f"{point.message}; {why}, {HOMOGENISED}" if point.message else ""
     return replace(point, message=message, shape=shape)
@@ -179,17 +180,18 @@ def as_ended(_: Problem, so_far: Findings) -> Equilibrium | None:
 
 def with_helix(problem: Problem, so_far: Findings) -> Equilibrium | None:
     """The string that was found, with the wall force of a helix where its segments cannot bend into one."""
-    point, added = so_far.found, WaveForce(problem).settle()
-    wound = so_far.answer(problem, CONVERGED, point.iterations + added.iterations, problem.unstable_modes())
-    if added.settled and not problem.given_wall.any():
+    point, waves = so_far.found, WaveForce(problem)
+    code, iterations = waves.settle()
+    wound = so_far.answer(problem, CONVERGED, point.iterations + iterations, problem.unstable_modes())
+    is_added = bool(problem.given.share.any())
+    if code == CONVERGED and not is_added:
         so_far.found = replace(wound, method=point.method)
         return None
-    if added.settled:
+    if code == CONVERGED:
         return wound
+    is_endless = np.isfinite(waves.endless_from)
     pushed = -wound.hookload > so_far.case.rig.push
-    status = SteadyStatus.LOCKED_UP if pushed or added.endless else SteadyStatus.UNSTABLE
-    end = (
-        f"the push exceeds {LARGEST_PUSH:g} times the string's weight" if added.endless else "no steady shape was found"
-    )
+    status = SteadyStatus.LOCKED_UP if pushed or is_endless else SteadyStatus.UNSTABLE
+    end = f"the push exceeds {LARGEST_PUSH:g} times the string's weight" if is_endless else "no steady shape was found"
     spent = "slack-off is spent, and " if pushed else ""
     return replace(wound.without_loads(), status=status, message=f"{spent}{end}")

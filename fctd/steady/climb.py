@@ -135,10 +135,10 @@ def come_to_rest(problem: Problem, iterations: int, share: Share) -> tuple[int, 
     Returns code and iterations.
     """
     code, done = _come_to_rest(problem, iterations, share)
-    if code != CONVERGED or problem.wave is None:
+    if code != CONVERGED or problem.settle is None:
         return code, done
-    added = problem.wave.settle(share, RESTART_ITERATIONS)
-    return CONVERGED if added.settled else MAX_ITERATIONS, done + added.iterations
+    code, more = problem.settle(share, RESTART_ITERATIONS)
+    return code, done + more
 
 
 def _come_to_rest(problem: Problem, iterations: int, share: Share) -> tuple[int, int]:

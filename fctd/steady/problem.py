@@ -1,9 +1,8 @@
 """A string at one depth under the loads of one operation: arrays of the solver, and what its methods start from."""
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple, Self
+from typing import NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,9 +35,6 @@ from fctd.steady.tangent import (
     assemble,
     frictionless_tangent,
 )
-
-if TYPE_CHECKING:
-    from fctd.steady.wave_force import Given, WaveForce
 
 # Lateral imperfection of the first guess, so that a straight string may buckle [m].
 SEED = 1e-4
@@ -87,7 +83,7 @@ class Workspace(Arrays):
         """The number of segments for which there is room."""
         return len(self.owner) - 2
 
-    def for_segments(self, segments: int) -> Workspace:
+    def for_segments(self, segments: int) -> "Workspace":
         """This, or a larger one where it is too small; the depths of a chart rise."""
         return self if self.segments >= segments else Workspace(min(segments * 3 // 2, state.MAX_SEGMENTS))
 
@@ -102,8 +98,22 @@ class Share(NamedTuple):
 FULL = Share()
 
 
+# Brings given loads into balance with a string at a share of its loads, within iterations; returns code and iterations.
+Settle = Callable[[Share, int], tuple[int, int]]
+
+
+class Given(NamedTuple):
+    """Loads that are given to the contact points: a force along the axis (n,) [N], a torque about it (n,) [N m], the
+    share of the wall's friction in them (n,), and of points with such a share the contact loads (n, 3)."""
+
+    force: Array
+    torque: Array
+    share: Array
+    wall: Array
+
+
 class Pose(NamedTuple):
-    """A copy of the string's pose, of the pieces of hole beside it, and of the loads of its homogenised waves."""
+    """A copy of the string's pose, of the pieces of hole beside it, and of its given loads where they depend on it."""
 
     P: Array
     owner: NDArray[np.int64]
@@ -143,9 +153,9 @@ class Problem:
     """What the solver's iterations work on; the pose is in the workspace and changes in place.
 
     string, hole; weight : of the string and on the bit [N]; allowed : largest imbalance of a body when converged [N];
-    at_axis : see ``tangent.Steady``; given_wall (n, 3) : contact loads of points whose friction is given
-    (wave_force.py); held : of a string that is fed (feed.py); wave : of one with
-    homogenised waves (wave_force.py); allowance : what relaxations may still take.
+    at_axis : see ``tangent.Steady``; given : loads of contact points (wave_force.py), and settle : of a string with
+    homogenised waves, brings them into balance with it; held : of one that is fed (feed.py); allowance : what
+    relaxations may still take.
     """
 
     def __init__(
@@ -166,9 +176,11 @@ class Problem:
         self.kinks = np.zeros((self.n + 2, 4))
         self.kinks[:, 0] = 1.0
         self.at_axis = 0
-        self.given_wall = np.zeros((self.n, 3))
+        rows = state.GIVEN_FORCE, state.GIVEN_TORQUE, state.GIVEN_FRICTION
+        force, torque, share = (state.row(work.S, row, self.n) for row in rows)
+        self.given = Given(force, torque, share, np.zeros((self.n, 3)))
+        self.settle: Settle | None = None
         self.held: Held | None = None
-        self.wave: WaveForce | None = None
         self.allowance = allowance
 
     @property
@@ -274,8 +286,8 @@ class Problem:
         hookload, torque, imbalance = read_top(
             *args, w.R, self.fed, self._top_length, self.laid.top_axis, joints, contacts
         )
-        given = state.row(w.S, state.GIVEN_FRICTION, n) > 0
-        contacts[1:, NORMAL_FORCE:][given] = self.given_wall[given]
+        given = self.given.share > 0
+        contacts[1:, NORMAL_FORCE:][given] = self.given.wall[given]
         return Reactions(hookload, torque, imbalance, joints[1:], contacts[1:])
 
     def answer(self, iterations: int) -> Answer:
@@ -287,7 +299,7 @@ class Problem:
             string.table, string.component, self.bit_tension(), self.bit_torque, found.hookload,
             self.work.owner[1 : n + 1], found.joints, found.contacts, walls, numbers[SHAPE:],
         )  # fmt: skip
-        if self.wave is not None:
+        if self.settle is not None:
             numbers[SHAPE + LONGEST] = 0.0  # its segments need not bend
         numbers[STEPS:TOP] = iterations, found.hookload, found.torque, found.imbalance, self.allowed
         numbers[TOP:SHAPE] = self.work.P[0, PLACE]
@@ -312,14 +324,14 @@ class Problem:
 
     def copy_pose(self) -> Pose:
         """A copy of the pose."""
-        given = None if self.wave is None else self.wave.loads
+        given = None if self.settle is None else Given(*(row.copy() for row in self.given))
         return Pose(self.work.P[: self.n + 1].copy(), self.work.owner[: self.n + 1].copy(), given)
 
     def put_pose(self, pose: Pose) -> None:
         """Put a copied pose back."""
         self.work.P[: self.n + 1], self.work.owner[: self.n + 1], given = pose
-        if self.wave is not None and given is not None:
-            self.wave.loads = given
+        for row, copied in zip(self.given, given or (), strict=False):
+            row[:] = copied
 
     def _find_owners(self) -> None:
         find_owners(self.hole.pieces, self.n, self.work.G, self.work.owner)

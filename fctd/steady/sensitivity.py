@@ -43,7 +43,7 @@ def solve_with_changes(
     point = solver.solve_problem(problem)
     if not changes or not point.answered:
         return point, np.full((len(changes), 2), np.nan)
-    elsewhere = problem.given_wall.any() or point.shape != "none"
+    elsewhere = problem.given.share.any() or point.shape != "none"
     if elsewhere or not abs(_loads_after_step(problem)[0] - point.hookload) <= _SAME * problem.weight:
         answers = [c.solver.solve_string(operation, rates, c.laid) for c in changes]
         found = [[p.hookload, p.surface_torque] if p.answered else [np.nan, np.nan] for p in answers]

@@ -9,13 +9,11 @@ to rest with it.
 """
 
 from functools import cache
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fctd.arrays import Array
-from fctd.mechanics import state
 from fctd.mechanics.friction import limit_around
 from fctd.mechanics.jit import entry
 from fctd.mechanics.law_names import CODES
@@ -25,29 +23,17 @@ from fctd.mechanics.state import TINY
 from fctd.results.buckling import HANGING_SINUSOIDAL, HELICAL, MODE, NEEDED, NEITHER, SINUSOIDAL_LIMIT
 from fctd.steady.balance import ATTEMPTS, LARGEST_TURN
 from fctd.steady.climb import LARGEST_PUSH, START_ITERATIONS, creep_of
-from fctd.steady.continuation import CONVERGED, Pace
-from fctd.steady.problem import FULL, Problem, Share
+from fctd.steady.continuation import CONVERGED, MAX_ITERATIONS, Pace
+from fctd.steady.problem import FULL, Given, Problem, Share
 from fctd.steady.tangent import NORMAL_FORCE
 
 # The force is found when the hook load changes by less than this share of the string's weight.
 SETTLED = 1e-4
-ROUNDS = 200
+ROUNDS = 100
 # Turns of a helix: the stiffness of a string bridges shorter stretches beyond the helical limit, and it snakes there.
 LEAST_TURNS = 2.0
 # Of snaking [rad]; at half of that a string becomes a helix.
 LARGEST_AMPLITUDE = 1.8
-
-
-class Added(NamedTuple):
-    """How the search for the force ended; the string is in its last balance.
-
-    settled : whether the force was found; endless : whether the push grew beyond any rig's (climb.py); iterations :
-    all.
-    """
-
-    settled: bool
-    endless: bool
-    iterations: int
 
 
 @entry
@@ -110,34 +96,23 @@ def snaking_over_helix(ratio: Array) -> Array:
     return np.asarray(np.interp(onset, *_snaking()) / onset**2)
 
 
-class Given(NamedTuple):
-    """Loads of waves on the contact points: friction along the hole [N] and about the axis [N m] with the other given
-    loads there, the share of the wall's friction in them, and ``Problem.given_wall``."""
-
-    force: Array
-    torque: Array
-    share: Array
-    wall: Array
-
-
 class WaveForce:
     """The wall force of the waves of a string, and its friction.
 
     wound (n,) : contact points with the wall force of a helix.  A helix stays when the compression falls somewhat below
     its limit, and so do these.
-    endless_from : least share of the friction at which the force was found to have no end, else NaN.
+    endless_from : least share of the friction at which the force was found to have no end: the push grew beyond any
+    rig's (climb.py); else NaN.
     """
 
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
-        n, rates, S = problem.n, problem.rates, problem.work.S
+        n, rates = problem.n, problem.rates
         self.radius = problem.string.contact_radius()
         self.law = CODES[problem.case.contact.friction_law]
         self.speed, self.spin = float(rates.speed), float(rates.spin)
         self.wound, self.endless_from = np.zeros(n, np.bool_), float("nan")
-        rows = state.GIVEN_FORCE, state.GIVEN_TORQUE, state.GIVEN_FRICTION
-        self.force, self.torque, self.share = (state.row(S, row, n) for row in rows)
-        self.other_force, self.other_torque = self.force.copy(), self.torque.copy()
+        self.other_force, self.other_torque = problem.given.force.copy(), problem.given.torque.copy()
 
     def add(self, share: Share = FULL) -> bool:
         """Give the string the wall force of its waves at its compression; returns whether it has an end.
@@ -160,10 +135,10 @@ class WaveForce:
         force = np.where(is_given, force, 0.0)
         limit = factor * force
         turning = self.radius * limit * around
-        self.force[:], self.torque[:] = self.other_force - limit * along, self.other_torque - turning
-        self.share[:] = is_given
-        of_turning = self.radius * share.friction * walls.around * force
-        problem.given_wall = np.column_stack([force, turning, of_turning])
+        given = problem.given
+        given.force[:], given.torque[:] = self.other_force - limit * along, self.other_torque - turning
+        given.share[:] = is_given
+        given.wall[:] = np.column_stack([force, turning, self.radius * share.friction * walls.around * force])
         return True
 
     def _over_helix(self, rows: Array, compression: Array) -> Array:
@@ -202,42 +177,30 @@ class WaveForce:
         )  # fmt: skip
         return along, around
 
-    @property
-    def loads(self) -> Given:
-        """A copy of the loads."""
-        return Given(self.force.copy(), self.torque.copy(), self.share.copy(), self.problem.given_wall)
+    def settle(self, share: Share = FULL, iterations: int = START_ITERATIONS) -> tuple[int, int]:
+        """Give a string in balance the force until it no longer changes; the string is in its last balance.
 
-    @loads.setter
-    def loads(self, of: Given) -> None:
-        self.force[:], self.torque[:], self.share[:], self.problem.given_wall = of
-
-    def settle(self, share: Share = FULL, iterations: int = START_ITERATIONS) -> Added:
-        """Give a string in balance the force until it no longer changes.
-
-        share : of the loads; iterations : with which the string may come to rest with a force.
+        share : of the loads; iterations : with which the string may come to rest with a force.  Returns the code, which
+        is that of convergence where the force was found, and all iterations.
         """
         problem, total = self.problem, 0
         hookload = problem.reactions(share).hookload
         for _ in range(ROUNDS):
-            kept = problem.copy_pose(), self.loads
+            kept, given = problem.copy_pose(), [row.copy() for row in problem.given]
             if not self.add(share):
-                return self._endless(share, total)
+                break
             code, done = self._rest(share, iterations)
             total += done
             if code != CONVERGED:
-                problem.put_pose(kept[0])
-                self.loads = kept[1]
-                break
+                problem.put_pose(kept._replace(given=Given(*given)))
+                return code, total
             before, hookload = hookload, problem.reactions(share).hookload
             if abs(hookload - before) < SETTLED * problem.weight:
-                return Added(True, False, total)
+                return CONVERGED, total
             if -hookload > LARGEST_PUSH * problem.weight:
-                return self._endless(share, total)
-        return Added(False, False, total)
-
-    def _endless(self, share: Share, iterations: int) -> Added:
+                break
         self.endless_from = float(np.fmin(self.endless_from, share.friction))
-        return Added(False, True, iterations)
+        return MAX_ITERATIONS, total
 
     def _rest(self, share: Share, iterations: int) -> tuple[int, int]:
         """Follow the string to its balance with the force; returns code and iterations."""

@@ -84,5 +84,5 @@ def test_the_helix_of_segments_that_can_bend_needs_no_force() -> None:
     so_far = after_newton(case)
     so_far.found = so_far.first
     assert attempts.with_helix(so_far.problem, so_far) is None
-    assert not so_far.problem.given_wall.any()
+    assert not so_far.problem.given.wall.any()
     assert np.isclose(so_far.found.hookload, so_far.first.hookload)

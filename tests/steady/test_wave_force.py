@@ -13,6 +13,7 @@ from fctd.model.section import Section, section_of
 from fctd.results.status import SteadyStatus
 from fctd.steady.attempts import HOMOGENISED, TOO_MUCH
 from fctd.steady.balance import ATTEMPTS, balance
+from fctd.steady.continuation import CONVERGED
 from fctd.steady.equilibrium import Solver
 from fctd.steady.problem import Problem
 from fctd.steady.wave_force import WaveForce, press, snaking_over_helix
@@ -94,7 +95,7 @@ def test_friction_acts_against_the_sliding_of_the_surface(law: str, operation: s
     """One force against the resultant speed; the law of the paper has drag and torque in full."""
     case = analytic(level_case(PUSHED, 300.0, 20.0, friction=FRICTION), friction_law=law)
     problem, speed = pressed(case, operation)
-    limit = FRICTION * problem.given_wall[:, 0]
+    limit = FRICTION * problem.given.wall[:, 0]
     n, S, rates = problem.n, problem.work.S, problem.rates
     drag, torque = -state.row(S, state.GIVEN_FORCE, n), -state.row(S, state.GIVEN_TORQUE, n)
     radius = section(case).contact_radius
@@ -103,8 +104,8 @@ def test_friction_acts_against_the_sliding_of_the_surface(law: str, operation: s
     assert limit.max() > 0
     np.testing.assert_allclose(drag, along[0] * limit, rtol=1e-9)
     np.testing.assert_allclose(torque, along[1] * radius * limit, rtol=1e-9)
-    np.testing.assert_allclose(problem.given_wall[:, 1], torque, rtol=1e-9)
-    np.testing.assert_allclose(problem.given_wall[:, 2], radius * limit, rtol=1e-9)
+    np.testing.assert_allclose(problem.given.wall[:, 1], torque, rtol=1e-9)
+    np.testing.assert_allclose(problem.given.wall[:, 2], radius * limit, rtol=1e-9)
 
 
 @pytest.mark.parametrize("law", ["coulomb", "paper"])
@@ -114,7 +115,7 @@ def test_friction_along_and_around_have_their_own_factors(law: str) -> None:
     pair = hole.model_copy(update={"rotational_friction": around})
     case = case.model_copy(update={"wellbore": case.wellbore.model_copy(update={"intervals": (pair,)})})
     problem, _ = pressed(case, "back_ream")
-    n, S, rates, missing = problem.n, problem.work.S, problem.rates, problem.given_wall[:, 0]
+    n, S, rates, missing = problem.n, problem.work.S, problem.rates, problem.given.wall[:, 0]
     drag, torque = -state.row(S, state.GIVEN_FORCE, n), -state.row(S, state.GIVEN_TORQUE, n)
     radius = section(case).contact_radius
     down, about = -FRICTION, around
@@ -124,7 +125,7 @@ def test_friction_along_and_around_have_their_own_factors(law: str) -> None:
     assert missing.max() > 0
     np.testing.assert_allclose(drag, down * missing, rtol=1e-9)
     np.testing.assert_allclose(torque, about * radius * missing, rtol=1e-9)
-    np.testing.assert_allclose(problem.given_wall[:, 2], radius * around * missing, rtol=1e-9)
+    np.testing.assert_allclose(problem.given.wall[:, 2], radius * around * missing, rtol=1e-9)
 
 
 def pressed(case: Case, operation: str) -> tuple[Problem, float]:
@@ -223,11 +224,12 @@ def test_a_homogenised_helix_that_no_push_moves_is_locked_up() -> None:
 def test_a_pose_has_the_loads_of_its_waves() -> None:
     """A pose that is put back is in balance again."""
     problem, _ = pressed(level_case(PUSHED, 300.0, 20.0, friction=FRICTION), "drill_sliding")
-    problem.wave = WaveForce(problem)
-    assert problem.wave.settle().settled
+    waves = WaveForce(problem)
+    problem.settle = waves.settle
+    assert waves.settle()[0] == CONVERGED
     kept, before = problem.copy_pose(), problem.reactions()
     problem.weight_on_bit *= 1.3
-    assert problem.wave.settle().settled
+    assert waves.settle()[0] == CONVERGED
     assert problem.reactions().hookload < 1.2 * before.hookload
     problem.weight_on_bit /= 1.3
     problem.put_pose(kept)
