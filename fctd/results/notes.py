@@ -158,8 +158,8 @@ def limit_notes(worst: Array, string: String, walls: Walls) -> tuple[Note, ...]:
 def homogenised(buckling: Buckling) -> Note:
     """A note on a string whose waves have the wall force of the closed forms."""
     text = (
-        f"buckling is {buckling}, and resolving takes more work or segments than a row may have: the waves there are "
-        "homogenised"
+        f"buckling is {buckling}, where the waves are homogenised: resolving takes more work or segments than a row "
+        "may have, or finds no shape that slides"
     )
     return note_of("homogenised", text, 1.0, buckling.from_md)
 

@@ -2,8 +2,10 @@
 next."""
 
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fctd.mechanics import state
 from fctd.model import layouts
@@ -12,7 +14,7 @@ from fctd.steady import post_buckling
 from fctd.steady.balance import ATTEMPTS, IN_THE_OPEN, PATIENT, balance
 from fctd.steady.bisection import bisect
 from fctd.steady.carried_shape import begin, carry
-from fctd.steady.climb import LARGEST_PUSH, SOUND_PUSH, climb, lock_up
+from fctd.steady.climb import LARGEST_PUSH, SOUND_PUSH, Climb, climb, lock_up
 from fctd.steady.continuation import CONVERGED
 from fctd.steady.findings import Findings
 from fctd.steady.helix import Helix
@@ -82,12 +84,19 @@ def of_lower_energy(resolved: Resolved, so_far: Findings) -> Equilibrium:
     return replace(chosen, iterations=chosen.iterations + so_far.first.iterations, carried=shapes)
 
 
-def homogenised(problem: Problem, so_far: Findings) -> Equilibrium | None:
-    """A string that takes too many segments or too much work, on segments that do not bend into its waves: these press
-    on the wall and rub as the closed forms say.
+class Followed(NamedTuple):
+    """A string with homogenised waves, which of them are helices (n,), and its path from small loads."""
 
-    It is followed from small loads as one that is resolved.  None where it has no balance for another reason than
-    lock-up.
+    problem: Problem
+    wound: NDArray[np.bool_]
+    path: Climb
+
+
+def follow_waves(problem: Problem, so_far: Findings) -> Followed | None:
+    """A buckled string on segments that do not bend into its waves, which press on the wall and rub as the closed forms
+    say, followed from small loads to lock-up; None where such segments are too many.
+
+    problem : of the same string, on whatever segments.
     """
     coarse = layouts.with_components(so_far.case, layouts.by_default(so_far.case))
     if layouts.segments_in_hole(coarse, problem.string.bit_depth) > state.MAX_SEGMENTS:
@@ -99,14 +108,24 @@ def homogenised(problem: Problem, so_far: Findings) -> Equilibrium | None:
     lock_up(problem, path)
     if np.isnan(path.locked_at):
         path.locked_at = waves.endless_from
-    path.iterations += so_far.first.iterations
-    point = so_far.end_of(problem, path)
+    return Followed(problem, waves.wound, path)
+
+
+def homogenised(problem: Problem, so_far: Findings) -> Equilibrium | None:
+    """A string that takes too many segments or too much work, or was not found to slide on, with homogenised waves.
+
+    None where it has no balance for another reason than lock-up.
+    """
+    found = follow_waves(problem, so_far)
+    if found is None:
+        return None
+    found.path.iterations += so_far.first.iterations
+    point = so_far.end_of(found.problem, found.path)
     if point.status not in (SteadyStatus.CONVERGED, SteadyStatus.LOCKED_UP):
         return None
-    shape = "helix" if waves.wound.any() else "snaking"
-    why = TOO_FINE if so_far.lacks_segments else TOO_MUCH
+    why = so_far.why_homogenised or (TOO_FINE if so_far.lacks_segments else TOO_MUCH)
     message = f"{point.message}; {why}, {HOMOGENISED}" if point.message else ""
-    return replace(point, message=message, shape=shape)
+    return replace(point, message=message, shape="helix" if found.wound.any() else "snaking")
 
 
 def as_resolved(_: Problem, so_far: Findings) -> Equilibrium | None:

@@ -12,10 +12,10 @@ from fctd.mechanics import state
 from fctd.model import layouts
 from fctd.results.buckling import MODE, NEITHER, buckling_along
 from fctd.results.status import SteadyStatus
-from fctd.steady.attempts import APART, of_lower_energy
+from fctd.steady.attempts import APART, Followed, follow_waves, of_lower_energy
 from fctd.steady.balance import ATTEMPTS, LARGEST_TURN
 from fctd.steady.carried_shape import shape_of
-from fctd.steady.climb import LOW_FRICTION, START_ITERATIONS, Climb, climb, close, come_to_rest, keep, lock_up
+from fctd.steady.climb import START_ITERATIONS, Climb, come_to_rest, end_of, keep
 from fctd.steady.continuation import CONVERGED, Pace
 from fctd.steady.feed import End, FedString, Start
 from fctd.steady.findings import Findings
@@ -25,15 +25,13 @@ from fctd.steady.post_buckling import LAYOUTS, Resolved, are_short, lay_helix, p
 from fctd.steady.problem import FULL, Compressed, Problem, Share
 from fctd.steady.steady_string import Equilibrium
 
-# Shares of the friction at which a string is fed that has no balance at all of it.
-SHARES = (0.7, 0.45, 0.25, LOW_FRICTION)
-# Work with which a helix is laid, and lock-up looked for beyond the friction of the case, iterations times segments.
-WORK_BESIDE = 1e6
+# Work with which a helix is laid into a fed string, iterations times segments.
+WORK_OF_HELIX = 1e6
 OFF_BOTTOM, AT_REST = Share(1.0, 0.0), Share(0.0, 0.0)
 
 
 class FedRow(NamedTuple):
-    """A string that was fed at all of its friction, how that ended, and its path in friction."""
+    """A string that was fed, how that ended, and its balance in which it slides on, if any."""
 
     problem: Problem
     string: FedString
@@ -43,21 +41,45 @@ class FedRow(NamedTuple):
 
 def fed(problem: Problem, so_far: Findings) -> Equilibrium | None:
     """A buckled string on fine segments that is fed from rest, off bottom and then onto it."""
-    row = feed_row(so_far.case, problem, so_far.lay_finer)
+    waves = follow_waves(problem, so_far)
+    here = None if waves is None else _compressed_by(waves)
+    row = feed_row(so_far.case, so_far.lay_anew(), so_far.lay_finer, here)
     if row is None:
         so_far.lay_anew()
         return None
     point = of_lower_energy(Resolved(row.problem, row.path, None), so_far)
     low, high = _both(row, point)
     so_far.resolved = point = replace(point, fed=tuple(row.string.path), hookload_low=low, hookload_high=high)
-    if row.path.pose is None:
-        status = SteadyStatus.LOCKED_UP if row.end == End.LOCKED else point.status
-        message = (
-            f"{_end_in_words(row)}; {point.message}" if point.message != point.status.message else _end_in_words(row)
-        )
-        so_far.resolved = point = replace(point, status=status, message=message)
-    lacking = SteadyStatus.UNDER_RESOLVED, SteadyStatus.MAX_ITERATIONS
-    return None if point.status in lacking else point
+    if point.status in (SteadyStatus.UNDER_RESOLVED, SteadyStatus.MAX_ITERATIONS):
+        return None
+    if row.path.pose is None and row.end != End.LOCKED and waves is not None and waves.path.pose is not None:
+        so_far.why_homogenised = _end_in_words(row)
+        return None
+    return _with_shares(row, point, waves)
+
+
+def _with_shares(row: FedRow, point: Equilibrium, waves: Followed | None) -> Equilibrium:
+    """The answer with the shares of the friction at which slack-off is spent and the string locks up.
+
+    They are those of the string with homogenised waves, whose path in friction is smooth and takes a second.  A lock-up
+    on the other side of the friction of the case than feeding found it is none.
+    """
+    arrives, is_found = row.end == End.ARRIVED, row.path.pose is not None
+    spent = locked = float("nan")
+    words = ""
+    if waves is not None:
+        path = waves.path
+        if (path.locked_at > 1) != arrives:
+            path.locked_at = float("nan")
+        path.ends_at = float("nan")
+        spent, locked = path.spent_at if path.spent_at > path.least else float("nan"), path.locked_at
+        words = end_of(waves.problem, path)
+        if not is_found and (not arrives or path.spent_at < 1):
+            point = replace(point, status=SteadyStatus.LOCKED_UP)
+    if not is_found:
+        words = "; ".join(filter(None, (_end_in_words(row), words)))
+    message = words if words and point.status != SteadyStatus.CONVERGED else point.message
+    return replace(point, message=message, slack_off_spent_at=spent, locked_up_at=locked)
 
 
 def _both(row: FedRow, point: Equilibrium) -> tuple[float, float]:
@@ -67,7 +89,7 @@ def _both(row: FedRow, point: Equilibrium) -> tuple[float, float]:
         return none
     problem.put_pose(path.pose)
     helix, wound = Helix(problem), Climb()
-    with _limited(problem, WORK_BESIDE):
+    with _limited(problem, WORK_OF_HELIX):
         stands = helix.is_due(FULL) and lay_helix(problem, helix, wound, FULL)
     if not stands or not wound.steps:
         return none
@@ -98,20 +120,23 @@ def _end_in_words(row: FedRow) -> str:
     return f"fed from rest, {what} {reached}"
 
 
-def feed_row(case: Case, problem: Problem, lay: Callable[[Case], Problem]) -> FedRow | None:
+def feed_row(
+    case: Case, problem: Problem, lay: Callable[[Case], Problem], here: Compressed | None = None
+) -> FedRow | None:
     """The path of a string that is fed from rest, None where it is not found at rest.
 
-    problem : the string on the case's own segments; lay : makes a problem of a case with others.
+    problem : the string on the case's own segments; lay : makes a problem of a case with others; here : compression for
+    which the first segments are planned, by default that of a soft string.
     """
     starts = {share: _start(problem, share) for share in (OFF_BOTTOM, AT_REST)}
     bit_depth, row, iterations = problem.string.bit_depth, None, 0
-    needed = planned_lengths(_soft(problem), problem.weight)
+    needed = planned_lengths(_soft(problem) if here is None else here, problem.weight)
     for _ in range(LAYOUTS):
         finer = layouts.with_components(case, layouts.resolved(case, bit_depth, *needed))
         if layouts.segments_in_hole(finer, bit_depth) > state.MAX_SEGMENTS:
             break
         problem = lay(finer)
-        string, end = _feed(problem, starts, 1.0)
+        string, end = _feed(problem, starts)
         if string.sound is None:
             return None
         iterations += string.iterations
@@ -122,7 +147,7 @@ def feed_row(case: Case, problem: Problem, lay: Callable[[Case], Problem]) -> Fe
             return row._replace(problem=problem)
         row = FedRow(problem, string, end, Climb(iterations=iterations))
         here = _compressed(problem, string)
-        if are_short(problem, here) and end == End.ARRIVED and _settles(problem, string, row.path, 1.0):
+        if are_short(problem, here) and end == End.ARRIVED and _settles(problem, string, row.path):
             row.path.pose = row.path.balances[-1].pose
             here = problem.compressed()
         iterations = row.path.iterations
@@ -131,39 +156,15 @@ def feed_row(case: Case, problem: Problem, lay: Callable[[Case], Problem]) -> Fe
         needed = shorter(needed, planned_lengths(here, problem.weight, pushed=end != End.ARRIVED))
     if row is None:
         return None
-    problem, path = row.problem, row.path
-    if path.pose is not None:
-        _look_beyond(problem, path)
-        _add_less(problem, starts, path, 1.0)
-        return row
-    path.none_at.append(FULL)
-    for share in SHARES:
-        less, arrived = _feed(problem, starts, share)
-        path.iterations += less.iterations
-        if arrived == End.ARRIVED and _settles(problem, less, path, share):
-            _add_less(problem, starts, path, share)
-            break
-        path.none_at.append(Share(share, 1.0))
-        if problem.is_spent:
-            break
-    path.is_cut = problem.is_spent
-    if path.balances:
-        climb(problem, path=path)
+    row.path.is_cut = row.problem.is_spent and row.path.pose is None and row.end != End.LOCKED
     return row
 
 
-def _look_beyond(problem: Problem, path: Climb) -> None:
-    """Follow a string that is pushed to the friction that no push overcomes, with a part of the allowance."""
-    with _limited(problem, WORK_BESIDE):
-        lock_up(problem, path)
-
-
-def _feed(problem: Problem, starts: dict[Share, Start | None], share: float) -> tuple[FedString, End]:
-    """Feed the string from rest at a share of its friction, onto bottom where it has weight on bit."""
-    string, slides, rests = FedString(problem, share), starts[OFF_BOTTOM], starts[AT_REST]
-    begun = share == 1 and slides is not None and string.begin(slides)
-    follows = begun
-    if not begun and (rests is None or not string.begin(rests)):
+def _feed(problem: Problem, starts: dict[Share, Start | None]) -> tuple[FedString, End]:
+    """Feed the string from rest, onto bottom where it has weight on bit."""
+    string, slides, rests = FedString(problem), starts[OFF_BOTTOM], starts[AT_REST]
+    follows = slides is not None and string.begin(slides)
+    if not follows and (rests is None or not string.begin(rests)):
         return string, End.LOST
     end = End.ARRIVED if follows else string.trip()
     if end == End.ARRIVED and problem.weight_on_bit > 0:
@@ -185,6 +186,18 @@ def _start(problem: Problem, share: Share) -> Start | None:
             break
     problem.bit_torque = torque
     return start
+
+
+def _compressed_by(waves: Followed) -> Compressed | None:
+    """Compression of a string with homogenised waves that slides, or of one that is hardly pushed where none does."""
+    problem, path = waves.problem, waves.path
+    if path.pose is not None:
+        problem.put_pose(path.pose)
+        return problem.compressed()
+    if path.sound is None:
+        return None
+    problem.put_pose(path.sound.pose)
+    return problem.compressed(path.sound.share)
 
 
 def _soft(problem: Problem) -> Compressed:
@@ -211,29 +224,11 @@ def _compressed(problem: Problem, string: FedString) -> Compressed:
     return here
 
 
-def _settles(problem: Problem, string: FedString, path: Climb, share: float) -> bool:
+def _settles(problem: Problem, string: FedString, path: Climb) -> bool:
     """Whether the string that has arrived slides on at its rates; its balance is added to the path."""
     string.let_go()
-    code, done = come_to_rest(problem, START_ITERATIONS, Share(share, 1.0))
+    code, done = come_to_rest(problem, START_ITERATIONS, FULL)
     path.iterations += done
     if code == CONVERGED:
-        keep(problem, path, Share(share, 1.0))
+        keep(problem, path, FULL)
     return code == CONVERGED
-
-
-def _add_less(problem: Problem, starts: dict[Share, Start | None], path: Climb, first: float) -> None:
-    """Add balances below the first one of a path, down to one at which slack-off is not spent; the pose stays."""
-    pose, push = problem.copy_pose(), problem.case.rig.push
-    for share in SHARES:
-        if share >= first:
-            continue
-        if path.steps[0].hookload + push > 0 or problem.is_spent:
-            break
-        less = Climb()
-        string, end = _feed(problem, starts, share)
-        path.iterations += string.iterations
-        if end == End.ARRIVED and _settles(problem, string, less, share):
-            path.steps, path.balances = less.steps + path.steps, less.balances + path.balances
-    problem.put_pose(pose)
-    path.begins_at = path.steps[0].share
-    close(problem, path)

@@ -32,7 +32,8 @@ class Findings:
     problem : with the segments of the case, in the pose that the last rung has left; above : the shapes of the row
     above, if any; rung : name of the one at work, which every string that it finds carries.
     first : Newton's string from the guess; code : of the iteration; is_stable : whether that string is a balance in
-    which it would stay.  resolved : the string on finer segments.  path : balances at less than the loads, if any, and
+    which it would stay.  resolved : the string on finer segments; why_homogenised : why it is none that
+    slides, beside too many segments and too much work.  path : balances at less than the loads, if any, and
     those at the loads; ended : the string at the path's end; is_coarse : whether the segments are too long for more
     steps of it.  found : the string whose loads the row has, before any are added.
     """
@@ -46,6 +47,7 @@ class Findings:
     code: int = CONVERGED
     is_stable: bool = False
     resolved: Equilibrium | None = None
+    why_homogenised: str = ""
     path: Climb = field(default_factory=Climb)
     ended: Equilibrium | None = None
     is_coarse: bool = False

@@ -145,10 +145,13 @@ class Equilibrium:
         if not self.answered:
             return ()
         shape = self._shape
-        of_waves = (homogenised(shape.buckling),) if self.method == HOMOGENISED else ()
-        if not shape.numbers[NOTED]:
-            return of_waves
-        return limit_notes(shape.numbers[SHARES:].reshape(-1, WORST), shape.laid.string, shape.walls) + of_waves
+        found: tuple[Note, ...] = ()
+        if shape.numbers[NOTED]:
+            found = limit_notes(shape.numbers[SHARES:].reshape(-1, WORST), shape.laid.string, shape.walls)
+        if self.method != HOMOGENISED:
+            return found
+        # How deep its long segments lie in the wall says nothing of the string's waves.
+        return (*(note for note in found if note.code != "penetration"), homogenised(shape.buckling))
 
 
 def steady_string(

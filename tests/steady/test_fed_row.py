@@ -26,11 +26,11 @@ def test_every_mesh_has_the_same_answer(times_onset: float) -> None:
     assert np.ptp(loads) < 0.01 * max(np.abs(loads))
 
 
-@pytest.mark.parametrize("times_onset", [1.3, 2.5])
+@pytest.mark.parametrize("times_onset", [1.3, 1.6])
 def test_damping_does_not_decide_the_row(times_onset: float, monkeypatch: pytest.MonkeyPatch) -> None:
     """The pseudo-time with which a string comes to rest, three values.
 
-    At two times the onset it does: there the string comes to snaking or to a helix, whose loads differ by 4 %.
+    From two times the onset on it does, by up to 3 %: there the string comes to one of several shapes.
     """
     loads = []
     for time in (0.1, 0.2, 0.8):
