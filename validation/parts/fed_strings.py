@@ -106,6 +106,12 @@ def scaled(case: Case, share: float) -> Case:
     return case.model_copy(update={"wellbore": case.wellbore.model_copy(update={"intervals": intervals})})
 
 
+def weight_of(case: Case, depth: float) -> float:
+    """Weight of a string in mud [N]."""
+    string = Solver(case).lay_out(depth).string
+    return float(string.of("weight") @ string.length)
+
+
 class Row(NamedTuple):
     """A row as it was found, None where it raised, then why; processor time [s]."""
 

@@ -12,9 +12,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from fctd import Case, torque_drag
+from fctd import torque_drag
 from fctd.results.status import SteadyStatus
-from fctd.steady.equilibrium import Solver
 from fctd.steady.feed import ARRIVING, End
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts.fed_strings import (
@@ -39,6 +38,7 @@ from validation.parts.fed_strings import (
     solve,
     solved,
     trips,
+    weight_of,
 )
 from validation.parts.resolved_rows import CASED, DEPTH, horizontal_well
 from validation.parts.slid_strings import LONGEST, slide
@@ -166,12 +166,6 @@ def thresholds(context: Context, kept: list[Found]) -> Rows:
             "well": string.well, "operation": string.operation, "bit_depth_m": string.bit_depth,
             "friction": string.friction, "half": less, "own": own, "twice": more, "changes": len({less, own, more}) > 1,
         }  # fmt: skip
-
-
-def weight_of(case: Case, depth: float) -> float:
-    """Weight of a string in mud [N]."""
-    string = Solver(case).lay_out(depth).string
-    return float(string.of("weight") @ string.length)
 
 
 def run(context: Context) -> Outcome:
