@@ -23,6 +23,8 @@ from fctd.steady.problem import Allowance, Problem
 from fctd.steady.steady_string import Equilibrium
 from fctd.steady.wave_force import WaveForce
 
+# Segments so many times as long as advised still follow the shape: 8 in a half wave are advised, for a larger load.
+NEARLY = 1.5
 # Work with which a homogenised string is followed, iterations times segments: two to four seconds.
 WORK_OF_WAVES = 2e6
 TOO_FINE = f"resolving takes more than the {state.MAX_SEGMENTS} segments that a string may have: use smaller loads"
@@ -62,8 +64,13 @@ def resolved(problem: Problem, so_far: Findings) -> Equilibrium | None:
     coarse = climb(problem, most=SOUND_PUSH)
     found = post_buckling.resolve(so_far.case, coarse, problem, so_far.lay_finer)
     so_far.resolved = of_lower_energy(found, so_far)
-    lacking = SteadyStatus.UNDER_RESOLVED, SteadyStatus.MAX_ITERATIONS
-    return None if so_far.resolved.status in lacking else so_far.resolved
+    return None if is_lacking(so_far.resolved) else so_far.resolved
+
+
+def is_lacking(point: Equilibrium) -> bool:
+    """Whether a string that was resolved lacks work, or segments: not those that its last, largest load asks for."""
+    lacks = point.buckling.longest > NEARLY * point.buckling.segment_length
+    return point.status == SteadyStatus.MAX_ITERATIONS or (point.status == SteadyStatus.UNDER_RESOLVED and lacks)
 
 
 def of_lower_energy(resolved: Resolved, so_far: Findings) -> Equilibrium:

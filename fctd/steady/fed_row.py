@@ -12,7 +12,7 @@ from fctd.mechanics import state
 from fctd.model import layouts
 from fctd.results.buckling import MODE, NEITHER, buckling_along
 from fctd.results.status import SteadyStatus
-from fctd.steady.attempts import APART, Followed, follow_waves, of_lower_energy
+from fctd.steady.attempts import APART, Followed, follow_waves, is_lacking, of_lower_energy
 from fctd.steady.balance import ATTEMPTS, LARGEST_TURN
 from fctd.steady.carried_shape import shape_of
 from fctd.steady.climb import START_ITERATIONS, Climb, come_to_rest, end_of, keep
@@ -50,7 +50,7 @@ def fed(problem: Problem, so_far: Findings) -> Equilibrium | None:
     point = of_lower_energy(Resolved(row.problem, row.path, None), so_far)
     low, high = _both(row, point)
     so_far.resolved = point = replace(point, fed=tuple(row.string.path), hookload_low=low, hookload_high=high)
-    if point.status in (SteadyStatus.UNDER_RESOLVED, SteadyStatus.MAX_ITERATIONS):
+    if is_lacking(point):
         return None
     if row.path.pose is None and row.end != End.LOCKED and waves is not None and waves.path.pose is not None:
         so_far.why_homogenised = _end_in_words(row)

@@ -130,14 +130,27 @@ class FedString:
 
     def trip(self) -> End:
         """Feed the string off bottom until its bit follows the block."""
-        return self._feed_until(None)
+        return self.feed_on(None)
 
     def press(self, weight: float) -> End:
         """Feed the string onto the rock under its bit until that has the weight on bit [N]."""
         stiffness = float(self.problem.string.of("EA")[-1]) / ROCK_LENGTH
         self._hold(stiffness, self._bit(), 0.0)
         self._keep(False)
-        return self._feed_until(weight)
+        return self.feed_on(weight)
+
+    def ease(self, friction: float) -> bool:
+        """Let the friction fall to a share while the block stands still; returns whether the string comes to rest.
+
+        Where it is fed on then, it has come from more friction: what it carries is another than of one fed from rest.
+        """
+        self.friction, self._share = friction, Share(friction, 0.0)
+        is_at_rest = self._rest(ITERATIONS, False)[0] == CONVERGED
+        if not is_at_rest and not self._snaps():
+            return False
+        self._remember()
+        self._keep(not is_at_rest)
+        return True
 
     def let_go(self) -> None:
         """Take rock and memory away: the problem's string then slides at its rates."""
@@ -153,7 +166,8 @@ class FedString:
         """Number of snaps on the path."""
         return sum(of.snapped for of in self.path)
 
-    def _feed_until(self, weight: float | None) -> End:
+    def feed_on(self, weight: float | None) -> End:
+        """Feed the string on: off bottom (None) until its bit follows, on the rock until it has a weight on it [N]."""
         step, start, self._stalls = FIRST, self._feed, 0
         first = len(self.path) - 1
         while self._feed - start < MOST_FEED:

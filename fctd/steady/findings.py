@@ -142,7 +142,9 @@ class Findings:
         """The string at the end of a path: with loads where the path reaches them, and with what ends the path."""
         if path.pose is not None:
             problem.put_pose(path.pose)
-        negative = problem.unstable_modes() if path.pose is not None else 0
+        # Whether the long segments of homogenised waves would stay where they lie says nothing of the string.
+        is_judged = path.pose is not None and problem.settle is None
+        negative = problem.unstable_modes() if is_judged else 0
         point = self.answer(problem, CONVERGED, path.iterations, negative)
         spent = path.spent_at if path.spent_at > path.least else float("nan")  # the message gives the bound
         point = replace(point, slack_off_spent_at=spent, locked_up_at=path.locked_at)

@@ -44,6 +44,7 @@ MESHES = (1.0, 0.7, 0.5)  # shares of the segments of the case
 SAME_LOAD, SAME_FRICTION = 0.01, 0.02
 # The limit of feeding is looked for between these shares of ``locked_up_at``, in so many halvings.
 LEAST_LIMIT, LARGEST_LIMIT, HALVINGS = 0.7, 1.3, 4
+EASED = 0.97  # share of the friction from one step to the next of a string that is locked up
 AT_REST = Share(0.0, 0.0)
 ARRIVES, NOT = "arrives", "not"
 RAISED = "raised"  # the status of a row that ends in an exception
@@ -235,16 +236,40 @@ class Feeding:
 
     def at(self, share: float, arriving: float = ARRIVING) -> End:
         """How feeding ends at a share of the friction, off bottom and then onto it, with the work of a row."""
+        string, end = self._fed(share, arriving)
+        string.let_go()
+        return end
+
+    def _fed(self, share: float, arriving: float = ARRIVING) -> tuple[FedString, End]:
+        """A string that was fed, and how that ended."""
         problem = self.problem
         problem.allowance = Allowance(problem.case.solver.resolve_work)
         string = FedString(problem, share, arriving)
         if self.start is None or not string.begin(self.start):
-            return End.LOST
+            return string, End.LOST
         end = string.trip()
         if end == End.ARRIVED and problem.weight_on_bit > 0:
             end = string.press(problem.weight_on_bit)
+        return string, end
+
+    def unloading_limit(self, locked: float) -> float:
+        """Share of the friction at which a string that is locked up arrives as its friction falls, NaN where none does.
+
+        locked : a share at which feeding from rest locks up.
+        """
+        string, end = self._fed(locked)
+        weight, share, found = self.problem.weight_on_bit, locked, float("nan")
+        while end == End.LOCKED and share > LEAST_LIMIT * locked:
+            share *= EASED
+            if not string.ease(share):
+                break
+            if (pressed := string.path[-1].weight) > 0:
+                end = End.ARRIVED if pressed >= weight else string.feed_on(weight)
+            elif (end := string.trip()) == End.ARRIVED and weight > 0:
+                end = string.press(weight)
+            found = share if end == End.ARRIVED else found
         string.let_go()
-        return end
+        return found
 
     def limit(self, about: float) -> tuple[float, float]:
         """Shares of the friction between which feeding locks up, near a share ``about``.

@@ -118,10 +118,13 @@ def limits(context: Context, locked: list[Locked]) -> Rows:
             solve(scaled(on, share * at), kind, depth)
             for on, share in ((same, BELOW), (same, ABOVE), (other, OTHER_BELOW), (other, OTHER_ABOVE))
         )
-        low, high = Feeding(case, point).limit(at)
+        feeding = Feeding(case, point)
+        low, high = feeding.limit(at)
+        unloads = feeding.unloading_limit(high) if np.isfinite(high) else np.nan
         yield {
             "well": string.well, "operation": kind, "bit_depth_m": depth, "friction": friction,
             "locked_up_friction": friction * at, "fed_arrives_at": friction * low, "fed_locks_up_at": friction * high,
+            "unloads_at": friction * unloads,
             "below": below.arrival, "above": above.arrival, "other_below": other_below.arrival,
             "other_above": other_above.arrival, "reason": point.message, "reason_below": _reason(below),
             "reason_above": _reason(above),
@@ -199,8 +202,8 @@ def _notes(tables: dict[str, pd.DataFrame]) -> list[str]:
         f"within {100 * SAME_FRICTION:g} % where all meshes have it.",
         "A string arrives at a share of its friction where the row is converged, or locked up with loads since "
         "slack-off is spent; it does not where the row is locked up without loads. Its limit of feeding lies between "
-        f"fed_arrives_at and fed_locks_up_at, and is looked for from {100 * LEAST_LIMIT:g} % of the friction at "
-        "lock-up on.",
+        "fed_arrives_at and fed_locks_up_at; one that is locked up there arrives again when its friction has fallen to "
+        f"unloads_at. Limits are looked for from {100 * LEAST_LIMIT:g} % of the friction at lock-up on.",
         f"Rows take some ten seconds each, so that fewer strings are run than the {ASKED[0]}, {ASKED[1]}, {ASKED[2]} "
         f"and {ASKED[3]} that were asked for: {STRINGS} on three meshes, {LIMITS} at their limit, {STEPPED} by the "
         f"stepper, {VARIED} with other thresholds. The stepper feeds a string by at most "
