@@ -5,7 +5,6 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fctd.mechanics import state
 from fctd.model import layouts
@@ -92,10 +91,10 @@ def of_lower_energy(resolved: Resolved, so_far: Findings) -> Equilibrium:
 
 
 class Followed(NamedTuple):
-    """A string with homogenised waves, which of them are helices (n,), and its path from small loads."""
+    """A string with homogenised waves, whether one of them is a helix at its loads, and its path from small loads."""
 
     problem: Problem
-    wound: NDArray[np.bool_]
+    is_wound: bool
     path: Climb
 
 
@@ -112,10 +111,11 @@ def follow_waves(problem: Problem, so_far: Findings) -> Followed | None:
     waves = WaveForce(problem)
     problem.at_axis, problem.settle, problem.allowance = 1, waves.settle, Allowance(WORK_OF_WAVES)
     path = climb(problem)
+    is_wound = bool(waves.wound.any())
     lock_up(problem, path)
     if np.isnan(path.locked_at):
         path.locked_at = waves.endless_from
-    return Followed(problem, waves.wound, path)
+    return Followed(problem, is_wound, path)
 
 
 def homogenised(problem: Problem, so_far: Findings) -> Equilibrium | None:
@@ -132,7 +132,7 @@ def homogenised(problem: Problem, so_far: Findings) -> Equilibrium | None:
         return None
     why = so_far.why_homogenised or (TOO_FINE if so_far.lacks_segments else TOO_MUCH)
     message = f"{point.message}; {why}, {HOMOGENISED}" if point.message else ""
-    return replace(point, message=message, shape="helix" if found.wound.any() else "snaking")
+    return replace(point, message=message, shape="helix" if found.is_wound else "snaking")
 
 
 def as_resolved(_: Problem, so_far: Findings) -> Equilibrium | None:

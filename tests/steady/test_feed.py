@@ -94,3 +94,18 @@ def test_a_level_string_that_winds_itself_up_locks(friction: float, end: End) ->
         then = next(of for of in reversed(string.path) if last.push - of.push >= feed.OVER * string.problem.weight)
         is_out = last.push > feed.LARGEST_PUSH * string.problem.weight
         assert is_out or last.weight - then.weight < feed.ARRIVING * (last.push - then.push)
+
+
+def test_friction_that_falls_lets_more_of_the_push_arrive() -> None:
+    """With the block at rest; fed on, a string that was locked up then arrives."""
+    case = level_case(3.0, 300.0, 1.5, friction=3.0)
+    weight = 3.0 * onset(case)
+    string = begun(case, 300.0, "drill_sliding")
+    assert string.trip() == End.ARRIVED
+    assert string.press(weight) == End.LOCKED
+    locked = string.path[-1]
+    assert string.ease(0.1)
+    eased = string.path[-1]
+    assert (eased.feed, string.friction) == (locked.feed, 0.1)
+    assert (eased.weight, -eased.push) > (locked.weight, -locked.push)
+    assert eased.weight >= weight or string.feed_on(weight) == End.ARRIVED
