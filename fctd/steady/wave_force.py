@@ -99,8 +99,8 @@ def snaking_over_helix(ratio: Array) -> Array:
 class WaveForce:
     """The wall force of the waves of a string, and its friction.
 
-    wound (n,) : contact points with the wall force of a helix.  A helix stays when the compression falls somewhat below
-    its limit, and so do these.
+    wound (n,) : contact points with the wall force of a helix.  A helix stays when the compression falls below its
+    limit but not below that of snaking, and so do these.
     endless_from : least share of the friction at which the force was found to have no end: the push grew beyond any
     rig's (climb.py); else NaN.
     """
@@ -148,8 +148,9 @@ class WaveForce:
         """
         string = self.problem.string
         coarse = string.length > rows[:, NEEDED]
-        self.wound |= coarse & self._are_long(rows[:, MODE] == HELICAL, compression)
-        snakes = coarse & ~self.wound & (rows[:, MODE] != NEITHER)
+        buckled = rows[:, MODE] != NEITHER
+        self.wound = buckled & (self.wound | (coarse & self._are_long(rows[:, MODE] == HELICAL, compression)))
+        snakes = coarse & ~self.wound & buckled
         # Between its two limits a hanging string hardly presses on the wall.
         hanging = HANGING_SINUSOIDAL * np.cbrt(string.of("EI") * string.of("weight") ** 2)
         snakes &= rows[:, SINUSOIDAL_LIMIT] > hanging
@@ -183,23 +184,22 @@ class WaveForce:
         share : of the loads; iterations : with which the string may come to rest with a force.  Returns the code, which
         is that of convergence where the force was found, and all iterations.
         """
-        problem, total = self.problem, 0
+        problem, total, wound = self.problem, 0, self.wound.copy()
         hookload = problem.reactions(share).hookload
         for _ in range(ROUNDS):
             kept, given = problem.copy_pose(), [row.copy() for row in problem.given]
-            if not self.add(share):
+            if not self.add(share) or -hookload > LARGEST_PUSH * problem.weight:
+                self.endless_from = float(np.fmin(self.endless_from, share.friction))
                 break
             code, done = self._rest(share, iterations)
             total += done
             if code != CONVERGED:
                 problem.put_pose(kept._replace(given=Given(*given)))
-                return code, total
+                break
             before, hookload = hookload, problem.reactions(share).hookload
             if abs(hookload - before) < SETTLED * problem.weight:
                 return CONVERGED, total
-            if -hookload > LARGEST_PUSH * problem.weight:
-                break
-        self.endless_from = float(np.fmin(self.endless_from, share.friction))
+        self.wound = wound
         return MAX_ITERATIONS, total
 
     def _rest(self, share: Share, iterations: int) -> tuple[int, int]:
