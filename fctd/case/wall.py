@@ -109,8 +109,8 @@ class ContactSpec(Table):
     is stable up to a penetration of `largest_penetration` [m].
 
     Where a steady string is beyond the helical limit, on segments too long for a helix, `helical_force` "analytic"
-    brings its wall force to that of the helix, r F²/4EI a metre, and the friction with it; snaking beside it has
-    the mean of Mitchell's equation.
+    brings its wall force to that of the helix, r F²/4EI a metre, and the friction with it. Snaking beside it has the
+    mean of Mitchell's equation.
     """
 
     enabled: StrictBool = True
