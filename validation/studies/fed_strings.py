@@ -44,7 +44,7 @@ from validation.parts.resolved_rows import CASED, DEPTH, horizontal_well
 from validation.parts.slid_strings import LONGEST, slide
 
 # Strings of each part, and those that were asked for: a row that is resolved takes ten seconds.
-STRINGS, LIMITS, STEPPED, VARIED = 20, 3, 1, 5
+STRINGS, LIMITS, STEPPED, VARIED = 25, 3, 1, 5
 ASKED = 120, 30, 30, 20
 QUICK = 9  # index of the one string of the quick run, which takes a second on each mesh
 BELOW, ABOVE = 0.95, 1.05  # of the friction at lock-up, on the same mesh
