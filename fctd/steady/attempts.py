@@ -22,7 +22,7 @@ from fctd.steady.problem import Allowance, Problem
 from fctd.steady.steady_string import Equilibrium
 from fctd.steady.wave_force import WaveForce
 
-# Segments so many times as long as advised still follow the shape: 8 in a half wave are advised, for a larger load.
+# Segments up to so many times as long as advised still follow the shape: 6.7 in a half wave, where 8 are asked for.
 NEARLY = 1.5
 # Work with which a homogenised string is followed, iterations times segments: two to four seconds.
 WORK_OF_WAVES = 2e6
@@ -67,7 +67,7 @@ def resolved(problem: Problem, so_far: Findings) -> Equilibrium | None:
 
 
 def is_lacking(point: Equilibrium) -> bool:
-    """Whether a string that was resolved lacks work, or segments: not those that its last, largest load asks for."""
+    """Whether a string that was resolved has run out of work, or has segments that are far too long for its waves."""
     lacks = point.buckling.longest > NEARLY * point.buckling.segment_length
     return point.status == SteadyStatus.MAX_ITERATIONS or (point.status == SteadyStatus.UNDER_RESOLVED and lacks)
 

@@ -128,7 +128,7 @@ class WaveForce:
         # The compression jumps at a contact point by the friction there: its mean is that of the pipe beside the point.
         compression, force = 0.5 * drag * before + here.compression[1:], np.empty(problem.n)
         over_helix = self._over_helix(here.rows[1:], compression)
-        helix = (walls.radius - self.radius) / (4 * string.of("EI")) * string.tributary()
+        helix = (walls.radius - self.radius) / (4 * string.of("EI")) * self._presses_along()
         if not press(over_helix * helix, drag, before, compression, LARGEST_PUSH * problem.weight, force):
             return False
         is_given = over_helix > 0
@@ -140,6 +140,18 @@ class WaveForce:
         given.share[:] = is_given
         given.wall[:] = np.column_stack([force, turning, self.radius * share.friction * walls.around * force])
         return True
+
+    def _presses_along(self) -> Array:
+        """The length of string (n,) [m] whose waves press at each contact point; the first has all of it up to the top.
+
+        Above the uppermost contact point half a segment touches nowhere: of 30 m in a pushed string that is some of the
+        drag.  The paper's long segment keeps its own.
+        """
+        string = self.problem.string
+        length = np.array(string.tributary())
+        if not string.long_segment:
+            length[0] += string.length.sum() - length.sum()
+        return length
 
     def _over_helix(self, rows: Array, compression: Array) -> Array:
         """Wall force of the waves (n,) over that of a helix of the same compression (n,) [N], 0 where there is none.
