@@ -1,7 +1,7 @@
-"""Strings at their limit, fed from rest: one answer from every mesh, and the same from the stepper.
+"""Strings at their limit, fed from rest: one answer from every mesh.
 
-Rows of strings that buckle as they slide down, drawn at random, on three meshes each; those that lock up on both sides
-of their limit; trips in by the stepper; and the threshold of what counts as locked up.
+Rows of strings that buckle as they slide down, drawn at random, on three meshes each, and the threshold of what counts
+as locked up.  ``fed_limits`` looks at both sides of their limit.
 """
 
 import time
@@ -14,42 +14,28 @@ import pandas as pd
 
 from fctd import torque_drag
 from fctd.results.status import SteadyStatus
-from fctd.steady.feed import ARRIVING, End
+from fctd.steady.feed import ARRIVING
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts.fed_strings import (
-    ARRIVES,
-    LEAST_LIMIT,
     MESHES,
-    NOT,
     RAISED,
     SAME_FRICTION,
     SAME_LOAD,
     SEGMENT,
     Drawn,
     Feeding,
-    Locked,
     Row,
-    as_found,
     compare,
     drawn,
-    locked_of,
     meshed,
-    scaled,
     solve,
     solved,
-    trips,
     weight_of,
 )
 from validation.parts.resolved_rows import CASED, DEPTH, horizontal_well
-from validation.parts.slid_strings import LONGEST, slide
 
-# Strings of each part, and those that were asked for: a row that is resolved takes ten seconds.
-STRINGS, LIMITS, STEPPED, VARIED = 25, 3, 1, 5
-ASKED = 120, 30, 30, 20
+STRINGS, VARIED = 120, 20  # on three meshes, and with other thresholds
 QUICK = 9  # index of the one string of the quick run, which takes a second on each mesh
-BELOW, ABOVE = 0.95, 1.05  # of the friction at lock-up, on the same mesh
-OTHER, OTHER_BELOW, OTHER_ABOVE = 0.7, 0.92, 1.08  # share of the segments, and of the friction on that mesh
-SPEEDS = 0.2, 0.4  # of the stepper [m/s]
 FACTOR = 2.0  # by which the threshold of lock-up is varied either way
 CHART, CHART_FRICTION = 10, 0.25  # depths of a chart, and its friction factor
 Found = tuple[Drawn, Row]
@@ -109,56 +95,6 @@ def chart() -> Rows:
 
 
 @table_of_rows
-def limits(context: Context, locked: list[Locked]) -> Rows:
-    """Locked strings at shares of their friction at lock-up, and the two limits of each."""
-    for string, point in context.progress(locked, "locked strings at their limit"):
-        _, case, kind, depth, friction = string
-        at, same, other = point.locked_up_at, as_found(case, point), meshed(case, OTHER)
-        below, above, other_below, other_above = (
-            solve(scaled(on, share * at), kind, depth)
-            for on, share in ((same, BELOW), (same, ABOVE), (other, OTHER_BELOW), (other, OTHER_ABOVE))
-        )
-        feeding = Feeding(case, point)
-        low, high = feeding.limit(at)
-        unloads = feeding.unloading_limit(high) if np.isfinite(high) else np.nan
-        yield {
-            "well": string.well, "operation": kind, "bit_depth_m": depth, "friction": friction,
-            "locked_up_friction": friction * at, "fed_arrives_at": friction * low, "fed_locks_up_at": friction * high,
-            "unloads_at": friction * unloads,
-            "below": below.arrival, "above": above.arrival, "other_below": other_below.arrival,
-            "other_above": other_above.arrival, "reason": point.message, "reason_below": _reason(below),
-            "reason_above": _reason(above),
-        }  # fmt: skip
-
-
-def _reason(row: Row) -> str:
-    return row.raised if row.point is None else row.point.message
-
-
-@table_of_rows
-def stepped(context: Context, locked: list[Locked]) -> Rows:
-    """Locked trips in, by the stepper at two speeds on both sides of their limit, and by feed.
-
-    Those with the fewest segments.
-    """
-    for string, point in context.progress(sorted(locked, key=lambda of: len(of[1].profile))[:STEPPED], "stepper"):
-        kind, depth, cut = string.operation, string.bit_depth, as_found(string.case, point)
-        feeding = Feeding(string.case, point)
-        for share in (BELOW, ABOVE):
-            at = share * point.locked_up_at
-            slow, fast = (slide(scaled(cut, at), kind, depth, speed, settles=True) for speed in SPEEDS)
-            feed = feeding.at(at)
-            yield {
-                "well": string.well, "bit_depth_m": depth, "segments": len(point.profile) - 1,
-                "share_of_limit_percent": 100 * share, "status": slow.status, "fed_m": slow.fed,
-                "bit_follows_percent": 100 * slow.share, "push_weights": slow.push,
-                "apart_percent": 100 * abs(fast.push - slow.push) / max(abs(slow.push), 1.0),
-                "stepper": ARRIVES if slow.slides else NOT, "fast": ARRIVES if fast.slides else NOT,
-                "feed": ARRIVES if feed == End.ARRIVED else NOT, "feed_ends": str(feed),
-            }  # fmt: skip
-
-
-@table_of_rows
 def thresholds(context: Context, kept: list[Found]) -> Rows:
     """Strings that are fed at all of their friction, with several thresholds of lock-up."""
     fed = [(string, row.point) for string, row in kept if row.point is not None and len(row.point.fed)]
@@ -178,16 +114,10 @@ def run(context: Context) -> Outcome:
     tables = {"rows": rows, "alike": alike, "counts": counts}
     display = {"counts": "Rows by status"}
     if not context.quick:
-        tripped = list(islice(locked_of(trips(context)), STEPPED))
-        locked = [*islice(locked_of(kept), LIMITS - len(tripped)), *tripped]
-        tables |= {
-            "chart": chart(), "limits": limits(context, locked), "thresholds": thresholds(context, kept),
-            "stepped": stepped(context, tripped),
-        }  # fmt: skip
+        tables |= {"chart": chart(), "thresholds": thresholds(context, kept)}
         tables["differ"] = alike[~alike["is_same"]]
         display |= {
-            "differ": "Strings whose meshes differ", "limits": "Locked strings at shares of their limit",
-            "stepped": "Locked trips in, by the stepper and by feed",
+            "differ": "Strings whose meshes differ",
             "thresholds": "Strings fed with half and twice the threshold of lock-up",
         }  # fmt: skip
     return Outcome(tables=tables, checks=_checks(tables), notes=_notes(tables), display=display)
@@ -200,14 +130,6 @@ def _notes(tables: dict[str, pd.DataFrame]) -> list[str]:
         "wells and a real survey; friction 0.1 to 0.5, 20 to 300 kN on bit or trips in. Rows of a string are the same "
         f"where statuses are, hook loads agree within {100 * SAME_LOAD:g} % of the weight, and the friction at lock-up "
         f"within {100 * SAME_FRICTION:g} % where all meshes have it.",
-        "A string arrives at a share of its friction where the row is converged, or locked up with loads since "
-        "slack-off is spent; it does not where the row is locked up without loads. Its limit of feeding lies between "
-        "fed_arrives_at and fed_locks_up_at; one that is locked up there arrives again when its friction has fallen to "
-        f"unloads_at. Limits are looked for from {100 * LEAST_LIMIT:g} % of the friction at lock-up on.",
-        f"Rows take some ten seconds each, so that fewer strings are run than the {ASKED[0]}, {ASKED[1]}, {ASKED[2]} "
-        f"and {ASKED[3]} that were asked for: {STRINGS} on three meshes, {LIMITS} at their limit, {STEPPED} by the "
-        f"stepper, {VARIED} with other thresholds. The stepper feeds a string by at most "
-        f"{LONGEST:g} m at {SPEEDS[0]:g} and {SPEEDS[1]:g} m/s.",
     ]
 
 
@@ -230,23 +152,6 @@ def _checks(tables: dict[str, pd.DataFrame]) -> list[Check]:
     if "chart" in tables:
         checks.append(Check("row of a chart", float(tables["chart"]["seconds_a_row"].iloc[0]), 1.0, "at_most", "s",
                             f"processor time over the rows of {CHART} depths"))  # fmt: skip
-    if len(of := tables.get("limits", pd.DataFrame())):
-        own = (of["below"] == ARRIVES) & (of["above"] == NOT)
-        other = (of["other_below"] == ARRIVES) & (of["other_above"] == NOT)
-        checks += [
-            Check(f"locked strings that arrive at {100 * BELOW:g} % of their limit and not at {100 * ABOVE:g} %",
-                  100 * float(own.mean()), 100 * 28 / 30, "at_least", "%", f"{len(of)} strings, the same mesh"),
-            Check(f"locked strings that arrive at {100 * OTHER_BELOW:g} % of their limit and not at "
-                  f"{100 * OTHER_ABOVE:g} % on another mesh", 100 * float(other.mean()), 100 * 28 / 30, "at_least",
-                  "%", f"{len(of)} strings, segments of {100 * OTHER:g} %"),
-        ]  # fmt: skip
-    if len(of := tables.get("stepped", pd.DataFrame())):
-        checks += [
-            Check("trips in that arrive by the stepper as by feed", 100 * float((of["stepper"] == of["feed"]).mean()),
-                  90.0, "at_least", "%", "27 of 30"),
-            Check("stepper at two speeds, push, largest difference", float(of["apart_percent"].max()), 1.0, "at_most",
-                  "%", "of the push, or of the weight where that is more"),
-        ]  # fmt: skip
     if len(of := tables.get("thresholds", pd.DataFrame())):
         checks.append(Check("strings that another threshold of lock-up changes", float(of["changes"].sum()), 1.0,
                             "at_most", "", f"of {len(of)}, half and twice {100 * ARRIVING:g} %"))  # fmt: skip
@@ -255,7 +160,7 @@ def _checks(tables: dict[str, pd.DataFrame]) -> list[Check]:
 
 STUDY = Study(
     "fed_strings",
-    "Do strings at their limit have one answer from every mesh, and does the stepper agree?",
+    "Do strings at their limit have one answer from every mesh?",
     run,
     needs=("data",),
     timed=True,

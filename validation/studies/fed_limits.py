@@ -1,0 +1,154 @@
+"""Strings that lock up, on both sides of their limit: fed from rest on two meshes, and by the stepper.
+
+The strings are those of ``fed_strings``, and trips in of short strings with more friction.
+"""
+
+from collections.abc import Iterator
+from itertools import count, islice
+
+import numpy as np
+import pandas as pd
+
+from fctd.steady.feed import End
+from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
+from validation.parts.fed_strings import (
+    ARRIVES,
+    LEAST_LIMIT,
+    NOT,
+    Drawn,
+    Feeding,
+    Locked,
+    Row,
+    as_found,
+    drawn,
+    locked_of,
+    meshed,
+    scaled,
+    solve,
+    solved,
+    trips,
+)
+from validation.parts.slid_strings import LONGEST, slide
+
+LIMITS, STEPPED = 30, 30  # strings at their limit, half of them trips; trips by the stepper
+BELOW, ABOVE = 0.95, 1.05  # of the friction at lock-up, on the same mesh
+OTHER, OTHER_BELOW, OTHER_ABOVE = 0.7, 0.92, 1.08  # share of the segments, and of the friction on that mesh
+SPEEDS = 0.2, 0.4  # of the stepper [m/s]
+
+
+@table_of_rows
+def limits(context: Context, locked: list[Locked]) -> Rows:
+    """Locked strings at shares of their friction at lock-up, and the two limits of each."""
+    for string, point in context.progress(locked, "locked strings at their limit"):
+        _, case, kind, depth, friction = string
+        at, same, other = point.locked_up_at, as_found(case, point), meshed(case, OTHER)
+        below, above, other_below, other_above = (
+            solve(scaled(on, share * at), kind, depth)
+            for on, share in ((same, BELOW), (same, ABOVE), (other, OTHER_BELOW), (other, OTHER_ABOVE))
+        )
+        feeding = Feeding(case, point)
+        low, high = feeding.limit(at)
+        unloads = feeding.unloading_limit(high) if np.isfinite(high) else np.nan
+        yield {
+            "well": string.well, "operation": kind, "bit_depth_m": depth, "friction": friction,
+            "locked_up_friction": friction * at, "fed_arrives_at": friction * low, "fed_locks_up_at": friction * high,
+            "unloads_at": friction * unloads,
+            "below": below.arrival, "above": above.arrival, "other_below": other_below.arrival,
+            "other_above": other_above.arrival, "reason": point.message, "reason_below": _reason(below),
+            "reason_above": _reason(above),
+        }  # fmt: skip
+
+
+def _reason(row: Row) -> str:
+    return row.raised if row.point is None else row.point.message
+
+
+@table_of_rows
+def stepped(context: Context, locked: list[Locked]) -> Rows:
+    """Locked trips in, by the stepper at two speeds on both sides of their limit, and by feed.
+
+    Those with the fewest segments.
+    """
+    for string, point in context.progress(sorted(locked, key=lambda of: len(of[1].profile))[:STEPPED], "stepper"):
+        kind, depth, cut = string.operation, string.bit_depth, as_found(string.case, point)
+        feeding = Feeding(string.case, point)
+        for share in (BELOW, ABOVE):
+            at = share * point.locked_up_at
+            slow, fast = (slide(scaled(cut, at), kind, depth, speed, settles=True) for speed in SPEEDS)
+            feed = feeding.at(at)
+            yield {
+                "well": string.well, "bit_depth_m": depth, "segments": len(point.profile) - 1,
+                "share_of_limit_percent": 100 * share, "status": slow.status, "fed_m": slow.fed,
+                "bit_follows_percent": 100 * slow.share, "push_weights": slow.push,
+                "apart_percent": 100 * abs(fast.push - slow.push) / max(abs(slow.push), 1.0),
+                "stepper": ARRIVES if slow.slides else NOT, "fast": ARRIVES if fast.slides else NOT,
+                "feed": ARRIVES if feed == End.ARRIVED else NOT, "feed_ends": str(feed),
+            }  # fmt: skip
+
+
+def run(context: Context) -> Outcome:
+    """Locked strings at shares of their limit, fed in the steady solver, and trips among them by the stepper.
+
+    The quick run feeds one trip.
+    """
+    if context.quick:
+        locked = list(islice(locked_of(trips(context)), 1))
+    else:
+        tripped = list(islice(locked_of(trips(context)), STEPPED))
+        locked = [*islice(locked_of(_any(context)), LIMITS - LIMITS // 2), *tripped[: LIMITS // 2]]
+    tables = {"limits": limits(context, locked)}
+    display = {"limits": "Locked strings at shares of their limit"}
+    if not context.quick:
+        tables |= {"stepped": stepped(context, tripped)}
+        display |= {"stepped": "Locked trips in, by the stepper and by feed"}
+    return Outcome(tables=tables, checks=_checks(tables), notes=_notes(), display=display)
+
+
+def _any(context: Context) -> Iterator[tuple[Drawn, Row]]:
+    """Strings of both operations, without end."""
+    for index in count():
+        string = drawn(context, index)
+        if row := solved(string):
+            yield string, row
+
+
+def _notes() -> list[str]:
+    return [
+        "A string arrives at a share of its friction where the row is converged, or locked up with loads since "
+        "slack-off is spent; it does not where the row is locked up without loads. Its limit of feeding lies between "
+        "fed_arrives_at and fed_locks_up_at; one that is locked up there arrives again when its friction has fallen to "
+        f"unloads_at. Limits are looked for from {100 * LEAST_LIMIT:g} % of the friction at lock-up on.",
+        f"The stepper feeds a string by at most {LONGEST:g} m at {SPEEDS[0]:g} and {SPEEDS[1]:g} m/s.",
+    ]
+
+
+def _checks(tables: dict[str, pd.DataFrame]) -> list[Check]:
+    """The numbers with bounds."""
+    of = tables["limits"]
+    own = (of["below"] == ARRIVES) & (of["above"] == NOT)
+    other = (of["other_below"] == ARRIVES) & (of["other_above"] == NOT)
+    checks = [
+        Check(f"locked strings that arrive at {100 * BELOW:g} % of their limit and not at {100 * ABOVE:g} %",
+              100 * float(own.mean()), 100 * 28 / 30, "at_least", "%", f"{len(of)} strings, the same mesh"),
+        Check(f"locked strings that arrive at {100 * OTHER_BELOW:g} % of their limit and not at "
+              f"{100 * OTHER_ABOVE:g} % on another mesh", 100 * float(other.mean()), 100 * 28 / 30, "at_least",
+              "%", f"{len(of)} strings, segments of {100 * OTHER:g} %"),
+    ]  # fmt: skip
+    if "stepped" in tables:
+        of = tables["stepped"]
+        checks += [
+            Check("trips in that arrive by the stepper as by feed",
+                  100 * float((of["stepper"] == of["feed"]).mean()), 90.0, "at_least", "%", "27 of 30"),
+            Check("stepper at two speeds, push, largest difference", float(of["apart_percent"].max()), 1.0, "at_most",
+                  "%", "of the push, or of the weight where that is more"),
+        ]  # fmt: skip
+    return checks
+
+
+STUDY = Study(
+    "fed_limits",
+    "Do strings that lock up arrive just below their limit, by feed and by the stepper?",
+    run,
+    needs=("data",),
+    timed=True,
+)
