@@ -42,8 +42,9 @@ SEGMENT = 20.0  # of the horizontal well [m]
 MESHES = (1.0, 0.7, 0.5)  # shares of the segments of the case
 # Rows of one string are the same within this share of its weight, and their friction at lock-up within this one.
 SAME_LOAD, SAME_FRICTION = 0.01, 0.02
-# The limit of feeding is looked for between these shares of ``locked_up_at``, in so many halvings.
-LEAST_LIMIT, LARGEST_LIMIT, HALVINGS = 0.7, 1.3, 4
+# The limit of feeding is looked for from this share of ``locked_up_at`` on, first within a factor ``CLOSE`` of it, then
+# farther down, or up to the friction at which the row is locked up; until it is known within the ratio ``KNOWN``.
+LEAST, CLOSE, KNOWN = 0.1, 0.7, 1.03
 EASED = 0.97  # share of the friction from one step to the next of a string that is locked up
 AT_REST = Share(0.0, 0.0)
 ARRIVES, NOT = "arrives", "not"
@@ -259,7 +260,7 @@ class Feeding:
         """
         string, end = self._fed(locked)
         weight, share, found = self.problem.weight_on_bit, locked, float("nan")
-        while end == End.LOCKED and share > LEAST_LIMIT * locked:
+        while end == End.LOCKED and share > CLOSE * locked:
             share *= EASED
             if not string.ease(share):
                 break
@@ -272,17 +273,19 @@ class Feeding:
         return found
 
     def limit(self, about: float) -> tuple[float, float]:
-        """Shares of the friction between which feeding locks up, near a share ``about``.
+        """Shares of the friction between which feeding locks up, near a share ``about`` and below 1.
 
-        Zero or infinity where the limit lies beyond the shares that are tried.
+        The lower one is NaN where no share from ``LEAST`` of that on arrives.
         """
-        low, high = LEAST_LIMIT * about, LARGEST_LIMIT * about
-        if self.at(low) != End.ARRIVED:
-            return 0.0, low
-        if self.at(high) == End.ARRIVED:
-            return high, float("inf")
-        for _ in range(HALVINGS):
-            middle = 0.5 * (low + high)
+        low, high = CLOSE * about, min(about / CLOSE, 1.0)
+        while self.at(low) != End.ARRIVED:
+            low, high = CLOSE * low, low
+            if low < LEAST * about:
+                return float("nan"), high
+        if CLOSE * high >= low and high < 1.0 and self.at(high) == End.ARRIVED:
+            low, high = high, 1.0
+        while high > KNOWN * low:
+            middle = (low * high) ** 0.5
             low, high = (middle, high) if self.at(middle) == End.ARRIVED else (low, middle)
         return low, high
 
