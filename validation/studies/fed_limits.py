@@ -123,8 +123,8 @@ def _notes() -> list[str]:
     return [
         "The friction at lock-up is the limit of feeding: between fed_arrives_at, where a string that is fed from rest "
         "arrives, and fed_locks_up_at.  One that is locked up there arrives again when its friction has fallen to "
-        f"unloads_at.  Limits are looked for from {100 * LEAST:g} % of the row's own locked_up_friction on.  A row arrives "
-        "where it is converged, or locked up with loads since slack-off is spent; it does not where it is "
+        f"unloads_at.  Limits are looked for from {100 * LEAST:g} % of the row's own locked_up_friction on.  A row "
+        "arrives where it is converged, or locked up with loads since slack-off is spent; it does not where it is "
         "locked up without loads.",
         f"The stepper feeds a string by at most {LONGEST:g} m at {SPEEDS[0]:g} and {SPEEDS[1]:g} m/s.",
     ]
