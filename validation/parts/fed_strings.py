@@ -44,7 +44,7 @@ MESHES = (1.0, 0.7, 0.5)  # shares of the segments of the case
 SAME_LOAD, SAME_FRICTION = 0.01, 0.02
 # The limit of feeding is looked for from this share of ``locked_up_at`` on, first within a factor ``CLOSE`` of it, then
 # farther down, or up to the friction at which the row is locked up; until it is known within the ratio ``KNOWN``.
-LEAST, CLOSE, KNOWN = 0.1, 0.7, 1.03
+LEAST, CLOSE, KNOWN = 0.1, 0.7, 1.05
 EASED = 0.97  # share of the friction from one step to the next of a string that is locked up
 AT_REST = Share(0.0, 0.0)
 ARRIVES, NOT = "arrives", "not"
@@ -277,13 +277,16 @@ class Feeding:
 
         The lower one is NaN where no share from ``LEAST`` of that on arrives.
         """
-        low, high = CLOSE * about, min(about / CLOSE, 1.0)
-        while self.at(low) != End.ARRIVED:
+        low, high = CLOSE * min(about, 1.0), min(about / CLOSE, 1.0)
+        if self.at(low) == End.ARRIVED:
+            if high < 1.0 and self.at(high) == End.ARRIVED:
+                low, high = high, 1.0
+        else:
             low, high = CLOSE * low, low
-            if low < LEAST * about:
-                return float("nan"), high
-        if CLOSE * high >= low and high < 1.0 and self.at(high) == End.ARRIVED:
-            low, high = high, 1.0
+            while self.at(low) != End.ARRIVED:
+                low, high = CLOSE * low, low
+                if low < LEAST * about:
+                    return float("nan"), high
         while high > KNOWN * low:
             middle = (low * high) ** 0.5
             low, high = (middle, high) if self.at(middle) == End.ARRIVED else (low, middle)
