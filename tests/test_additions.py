@@ -134,16 +134,18 @@ import numpy as np
 import fctd
 from fctd.model.drillstring import lay_out
 from fctd.model.wellbore import build_wellbore
+from fctd.results.hanging_body import HANGING_COLUMNS
 from fctd.results.limits import LIMITS, WORST, find_shares
 from fctd.results.notes import limit_notes
 
 case = fctd.load_case("well.toml")
 string, hole = lay_out(case, 700.0), build_wellbore(case)
 none, worst = np.zeros(string.segments), np.empty((len(LIMITS), WORST))
+unbent = np.zeros((string.segments + 1, HANGING_COLUMNS))
 walls = hole.walls(hole.at(np.linspace(100.0, 700.0, string.segments))[0])
 assert find_shares(
-    none, none, none, 0.0, 1500.0, 0.0, walls.offset, walls.radius, string.contact_radius(), True, string.mid_contact(),
-    string.component, string.table, worst,
+    none, none, unbent, 0.0, 1500.0, 0.0, walls.offset, walls.radius, string.contact_radius(), True,
+    string.mid_contact(), string.component, string.table, worst,
 )
 print([note.text for note in limit_notes(worst, string, walls)])
 """

@@ -11,6 +11,26 @@ from fctd.case.errors import InputError, Table, exclusive
 SHORT = 12.0
 
 
+class JointSpec(Table):
+    """Joints of pipe, which repeat along a component: length of a joint, tool joint included, and its tool joint.
+
+    Tool joints touch the wall, and the body hangs between them.
+    """
+
+    length: units.PositiveLength
+    tool_joint_length: units.PositiveLength
+    tool_joint_diameter: units.Diameter
+    tool_joint_inner: units.Bore | None = None
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.tool_joint_length >= 0.5 * self.length:
+            raise InputError(f"less than half of a joint, {self.length:g} m", key="tool_joint_length")
+        if self.tool_joint_inner is not None and self.tool_joint_inner >= self.tool_joint_diameter:
+            raise InputError("a diameter below tool_joint_diameter", key="tool_joint_inner")
+        return self
+
+
 class ComponentSpec(Table):
     """Pipe or a tool of one kind. `segments` or `segment_length` [m] sets the length of its segments; without either
     they are short in bends and near the bit, and longer elsewhere.
@@ -25,6 +45,9 @@ class ComponentSpec(Table):
     than the sleeves beside it. Without `contact` a component is a point up to a length of 12 contact diameters. Its
     segments, and those of its neighbours, do not matter.
 
+    With `joint` the largest bending moment of the pipe, at its tool joints or between them, is computed from the
+    string's curvature, and mass and stiffnesses that are not given are those of body and tool joints together.
+
     A bent housing has its `bend` [rad] at the upper end, where the component is tilted against the one above
     it towards `toolface` [rad], which counts from the high side clockwise looking downhole.
 
@@ -35,7 +58,12 @@ class ComponentSpec(Table):
     length: units.PositiveLength | None = None
     outer_diameter: units.Diameter
     inner_diameter: units.Bore
-    contact_diameter: units.Diameter = Field(default_factory=lambda given: given["outer_diameter"])
+    joint: JointSpec | None = None
+    contact_diameter: units.Diameter = Field(
+        default_factory=lambda given: (
+            given["joint"].tool_joint_diameter if given.get("joint") else given["outer_diameter"]
+        )
+    )
     contact: Literal["point", "sleeve"] = Field(
         default_factory=lambda given: (
             "point" if given["length"] and given["length"] <= SHORT * given["contact_diameter"] else "sleeve"
@@ -65,6 +93,8 @@ class ComponentSpec(Table):
             raise InputError("less than half of outer_diameter", key="eccentricity")
         if self.contact_diameter < self.outer_diameter:
             raise InputError(f"at least outer_diameter, {self.outer_diameter:g} m", key="contact_diameter")
+        if self.joint is not None and self.joint.tool_joint_diameter <= self.outer_diameter:
+            raise InputError(f"more than outer_diameter, {self.outer_diameter:g} m", key="joint.tool_joint_diameter")
         if self.contact == "point" and self.length is None:
             raise InputError("sleeve, for a component without a length", key="contact", value=self.contact)
         return self

@@ -14,7 +14,8 @@ class Section(NamedTuple):
 
     mass [kg/m], weight (buoyed) [N/m], axial_inertia and tilt_inertia [kg m], EA [N], GJ, EI [N m^2],
     shear κGA [N], outer, inner and contact radius [m], yield_strength [Pa], eccentricity of the mass [m]; point : 1 for
-    a component that touches at a point, 0 for a sleeve; compressibility : strain along by pressure on all sides [1/Pa].
+    a component that touches at a point, 0 for a sleeve; compressibility : strain along by pressure on all sides [1/Pa];
+    joint, tool_joint : lengths of a joint of pipe and of its tool joint [m], 0 where they are not given.
     """
 
     mass: float
@@ -32,6 +33,8 @@ class Section(NamedTuple):
     eccentricity: float = 0.0
     point: float = 0.0
     compressibility: float = 0.0
+    joint: float = 0.0
+    tool_joint: float = 0.0
 
 
 def shear_coefficient(outer: float, inner: float, poisson: float) -> float:
@@ -58,7 +61,16 @@ def section_of(component: ComponentSpec, outside: float, inside: float | None = 
     modulus = component.youngs_modulus
     shear_modulus = modulus / (2 * (1 + component.poisson_ratio))
     kappa = shear_coefficient(b, a, component.poisson_ratio)
-    mass = component.linear_mass if component.linear_mass is not None else component.density * area
+    joint = component.joint
+    # Tool joints add steel, and are so many times as stiff, along and about the axis, as the body.
+    share, larger, stiffer = 0.0, 1.0, 1.0
+    if joint is not None:
+        d, c = 0.5 * joint.tool_joint_diameter, a if joint.tool_joint_inner is None else 0.5 * joint.tool_joint_inner
+        share = joint.tool_joint_length / joint.length
+        larger, stiffer = (d * d - c * c) / (b * b - a * a), (d**4 - c**4) / (b**4 - a**4)
+    mass = component.linear_mass
+    if mass is None:
+        mass = component.density * area * (1 + share * (larger - 1))
 
     def given(value: float | None, computed: float) -> float:
         return computed if value is None else value
@@ -68,8 +80,8 @@ def section_of(component: ComponentSpec, outside: float, inside: float | None = 
         weight=mass * GRAVITY * (1 - outside / component.density) + (inside - outside) * GRAVITY * np.pi * a * a,
         axial_inertia=0.5 * mass * (a * a + b * b),
         tilt_inertia=0.25 * mass * (a * a + b * b),
-        EA=given(component.axial_stiffness, modulus * area),
-        GJ=given(component.torsional_stiffness, shear_modulus * 2 * second),
+        EA=given(component.axial_stiffness, modulus * area / (1 - share * (1 - 1 / larger))),
+        GJ=given(component.torsional_stiffness, shear_modulus * 2 * second / (1 - share * (1 - 1 / stiffer))),
         EI=given(component.bending_stiffness, modulus * second),
         shear=given(component.shear_stiffness, kappa * shear_modulus * area),
         outer=b,
@@ -79,4 +91,6 @@ def section_of(component: ComponentSpec, outside: float, inside: float | None = 
         eccentricity=component.eccentricity,
         point=float(component.contact == "point"),
         compressibility=(1 - 2 * component.poisson_ratio) / modulus,
+        joint=0.0 if joint is None else joint.length,
+        tool_joint=0.0 if joint is None else joint.tool_joint_length,
     )

@@ -133,8 +133,18 @@ def rounded_down(length: float) -> float:
 
 
 @inlined
-def lateral_load(bends, k, s, weight, compression):
-    """Lateral load of the weight and of weight and compression together [N/m], at depth s near row k of ``bends``."""
+def course_of(bends, k, s):
+    """The row of ``bends`` above depth s, looked for from row k on."""
+    while k < len(bends) - 2 and bends[k + 1, 0] <= s:
+        k += 1
+    while k > 0 and bends[k, 0] > s:
+        k -= 1
+    return k
+
+
+@inlined
+def tangent_of(bends, k, s):
+    """Tangent of the hole and its curvature [1/m] at depth s near row k of ``bends``, three components of each."""
     span = bends[k + 1, 0] - bends[k, 0]
     bx, by, bz = (
         (bends[k + 1, 1] - bends[k, 1]) / span,
@@ -142,7 +152,13 @@ def lateral_load(bends, k, s, weight, compression):
         (bends[k + 1, 3] - bends[k, 3]) / span,
     )
     along = s - bends[k, 0]
-    tx, ty, tz = bends[k, 1] + along * bx, bends[k, 2] + along * by, bends[k, 3] + along * bz
+    return bends[k, 1] + along * bx, bends[k, 2] + along * by, bends[k, 3] + along * bz, bx, by, bz
+
+
+@inlined
+def lateral_load(bends, k, s, weight, compression):
+    """Lateral load of the weight and of weight and compression together [N/m], at depth s near row k of ``bends``."""
+    tx, ty, tz, bx, by, bz = tangent_of(bends, k, s)
     # The weight across the hole is w (z − tz t); a compressed string presses to the outer side of its bend.
     across = tx * tx + ty * ty
     qx = -weight * tz * tx - compression * bx
@@ -166,10 +182,7 @@ def find_buckling(bends, top_md, md, hole_radius, tension, bit_tension, EI, weig
         load = 0.5 * (tension[j] + below) if i and middle[j] else below
         F = compression[i] = max(-load, 0.0)
         s = md[j] if i else top_md
-        while k < len(bends) - 2 and bends[k + 1, 0] <= s:
-            k += 1
-        while k > 0 and bends[k, 0] > s:
-            k -= 1
+        k = course_of(bends, k, s)
         rows[i, MODE], rows[i, NEEDED] = NEITHER, np.inf
         clearance = hole_radius[j] - radius[j]
         if clearance <= 0:

@@ -13,6 +13,7 @@ import numpy as np
 
 from fctd.mechanics.jit import entry, inlined
 from fctd.model.section import Section
+from fctd.results.hanging_body import ASSUMED, MOMENT, TAKEN, USUAL
 from fctd.results.profile import von_mises
 
 # The wall of the model is a spring.  Steel and rock yield by a millimetre or two; a contact point that is deeper in
@@ -26,7 +27,8 @@ class Place(NamedTuple):
     """What the limits look at in one place, the top of a string or a contact point.
 
     tension (effective) [N], torque, bending [N m]; penetration of the wall and clearance [m], 0 at the top; hookload
-    [N], 0 below the top.
+    [N], 0 below the top; taken : by the body between tool joints, of its way to the wall; assumed [N m] : the bending
+    with joints of usual length, 0 where their length is given (``hanging_body``).
     """
 
     tension: float
@@ -35,6 +37,8 @@ class Place(NamedTuple):
     penetration: float
     clearance: float
     hookload: float
+    taken: float
+    assumed: float
 
 
 class Limit(NamedTuple):
@@ -72,6 +76,33 @@ LIMITS: Final[tuple[Limit, ...]] = (
         lambda share, at, section, where: (
             f"the stress at {where} is {share * section.yield_strength / 1e6:.0f} MPa, "
             f"the yield strength {section.yield_strength / 1e6:.0f} MPa"
+        ),
+    ),
+    Limit(
+        "tool_joints", "tool joints may bend the steel beyond its yield strength, and their distance is not given",
+        "give the component its joint, or a pipe of the catalogue",
+        lambda at, section: (
+            stress_of(at.tension, at.torque, at.assumed, section.outer, section.inner) / section.yield_strength
+            if at.assumed > at.bending
+            else 0.0
+        ),
+        lambda share, at, section, where: (
+            f"with tool joints {USUAL:g} m apart the pipe at {where} bends by {at.assumed / 1e3:.3g} kN·m at its tool "
+            f"joints, in place of {at.bending / 1e3:.3g} kN·m, and is stressed by "
+            f"{share * section.yield_strength / 1e6:.0f} MPa, the yield strength is "
+            f"{section.yield_strength / 1e6:.0f} MPa"
+        ),
+    ),
+    Limit(
+        "body", "the pipe's body touches the wall between its tool joints, or buckles there",
+        "give tool joints and body as components of their own where the moment matters",
+        lambda at, section: at.taken,
+        lambda share, at, section, where: (
+            f"the body between tool joints at {where} " + (
+                "is compressed beyond its buckling load"
+                if math.isinf(share)
+                else f"comes {share:.2f} times as far as the wall is"
+            ) + ", which the closed form of its bending leaves out"
         ),
     ),
     Limit(
@@ -116,7 +147,8 @@ def _section(table, k):
     """Row k of a table of sections, of which only what the limits use is read."""
     return Section(
         table[k, 0], table[k, 1], table[k, 2], table[k, 3], table[k, 4], table[k, 5], table[k, 6], table[k, 7],
-        table[k, 8], table[k, 9], table[k, 10], table[k, 11], table[k, 12], table[k, 13], table[k, 14],
+        table[k, 8], table[k, 9], table[k, 10], table[k, 11], table[k, 12], table[k, 13], table[k, 14], table[k, 15],
+        table[k, 16],
     )  # fmt: skip
 
 
@@ -129,25 +161,27 @@ def _beside(joints, end, middle, j):
 
 @entry
 def find_shares(
-    tension, torque, bending, bit_tension, bit_torque, hookload, offset, hole, radius, in_hole, middle, component,
+    tension, torque, hanging, bit_tension, bit_torque, hookload, offset, hole, radius, in_hole, middle, component,
     sections, worst,
 ):  # fmt: skip
     """Fill ``worst`` (limits, WORST) with the largest share of each limit along a string, 0 where it has none.
 
     Returns whether one is above 1: most strings have no notes.
-    tension, torque, bending (n,), bit_tension, bit_torque : of ``Loads``; hookload [N]; offset (n, 3), hole (n,) : of
-    the walls, radius (n,) : of the string at the contact points [m]; in_hole : whether there is a wall; middle,
-    component (n,), sections : of the string.
+    tension, torque (n,), bit_tension, bit_torque : of ``Loads``; hanging (n + 1, ...) : of ``find_hanging``; hookload
+    [N]; offset (n, 3), hole (n,) : of the walls, radius (n,) : of the string at the contact points [m]; in_hole :
+    whether there is a wall; middle, component (n,), sections : of the string.
     """
     worst[:] = 0.0
-    top = Place(tension[0], torque[0], bending[0], 0.0, 0.0, hookload)
+    top = Place(
+        tension[0], torque[0], hanging[0, MOMENT], 0.0, 0.0, hookload, hanging[0, TAKEN], hanging[0, ASSUMED]
+    )  # fmt: skip
     compare(top, _section(sections, component[0]), 0, worst)
     for j in range(len(hole)):
         clearance = hole[j] - radius[j]
         distance = math.sqrt(offset[j, 0] ** 2 + offset[j, 1] ** 2 + offset[j, 2] ** 2)
         here = Place(
-            _beside(tension, bit_tension, middle, j), _beside(torque, bit_torque, middle, j),
-            _beside(bending, 0.0, middle, j), distance - clearance if in_hole else 0.0, clearance, 0.0,
+            _beside(tension, bit_tension, middle, j), _beside(torque, bit_torque, middle, j), hanging[j + 1, MOMENT],
+            distance - clearance if in_hole else 0.0, clearance, 0.0, hanging[j + 1, TAKEN], hanging[j + 1, ASSUMED],
         )  # fmt: skip
         compare(here, _section(sections, component[j]), j + 1, worst)
     return (worst[:, SHARE] > 1).any()

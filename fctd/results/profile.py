@@ -12,6 +12,7 @@ from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.drillstring import String
 from fctd.model.wellbore import Wellbore, hole_frame
 from fctd.results.buckling import HELICAL_LIMIT, MODE, MODES, SINUSOIDAL_LIMIT, buckling_along, pipe_of
+from fctd.results.hanging_body import HANGING_COLUMNS, MOMENT, find_hanging
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -44,8 +45,8 @@ def place_in_words(md: float, bit_depth: float, factor: float = 1.0, unit: str =
     return f"{min(md, bit_depth) * factor:.0f} {unit}" + (f" + {over} {unit} of stretch" if over > 0 else "")
 
 
-def at_contacts(string: String, loads: Loads) -> tuple[Array, Array, Array]:
-    """Tension [N], torque and bending [N m] at the top and at the n contact points, each (n + 1,).
+def at_contacts(string: String, loads: Loads) -> tuple[Array, Array]:
+    """Tension [N] and torque [N m] at the top and at the n contact points, each (n + 1,).
 
     They are those of the joint there, or the mean of the two beside a contact in the middle of its segment.
     """
@@ -55,7 +56,19 @@ def at_contacts(string: String, loads: Loads) -> tuple[Array, Array, Array]:
         below = np.append(joints[1:], end)
         return np.append(joints[0], np.where(middle, 0.5 * (joints + below), below))
 
-    return along(loads.tension, loads.bit_tension), along(loads.torque, loads.bit_torque), along(loads.bending, 0.0)
+    return along(loads.tension, loads.bit_tension), along(loads.torque, loads.bit_torque)
+
+
+def hanging_along(hole: Wellbore, string: String, loads: Loads, md: Array, in_hole: bool) -> Array:
+    """Rows (n + 1, HANGING_COLUMNS) of ``find_hanging`` at the top and at the contact points, md (n,) [m]."""
+    rows = np.empty((string.segments + 1, HANGING_COLUMNS))
+    # Columns of tables are compiled for separately; copied, all callers share one function.
+    md, tension, bending = (np.ascontiguousarray(values) for values in (md, loads.tension, loads.bending))
+    find_hanging(
+        hole.bends, float(string.top_md), md, in_hole, tension, float(loads.bit_tension), bending,
+        string.mid_contact(), string.component, string.table, rows,
+    )  # fmt: skip
+    return rows
 
 
 def von_mises(tension: Load, torque: Load, bending: Load, outer: Load, inner: Load) -> Any:
@@ -71,11 +84,12 @@ def von_mises(tension: Load, torque: Load, bending: Load, outer: Load, inner: Lo
 
 
 def profile_table(
-    hole: Wellbore, string: String, mud_density: float, top: Array, points: Array, walls: Walls, loads: Loads
-) -> pd.DataFrame:
+    hole: Wellbore, string: String, mud_density: float, top: Array, points: Array, walls: Walls, loads: Loads,
+    in_hole: bool,
+) -> pd.DataFrame:  # fmt: skip
     """A row for the top and one per contact point.
 
-    top (3,), points (n, 3) : upper end and contact points [m]; walls : beside them.
+    top (3,), points (n, 3) : upper end and contact points [m]; walls : beside them; in_hole : whether they touch.
     """
     import pandas as pd  # slow to import, and a chart as CSV needs none
 
@@ -90,7 +104,8 @@ def profile_table(
         return np.append(values[0], values)
 
     outer, inner = of("outer"), of("inner")
-    tension, torque, bending = at_contacts(string, loads)
+    tension, torque = at_contacts(string, loads)
+    bending = hanging_along(hole, string, loads, md, in_hole)[:, MOMENT]
     # Buoyed weight gives effective tension; the true tension of the steel follows from the pressure of equal mud
     # inside and outside.
     pressure, steel = mud_density * GRAVITY * np.append(top[2], points[:, 2]), np.pi * (outer**2 - inner**2)

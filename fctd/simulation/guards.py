@@ -27,7 +27,7 @@ from fctd.results.buckling import Buckling
 from fctd.results.ledger import LOSSES
 from fctd.results.limits import LIMITS, WORST, find_shares
 from fctd.results.notes import Note, as_metadata, from_metadata, limit_notes, under_resolved
-from fctd.results.profile import Loads
+from fctd.results.profile import Loads, hanging_along
 from fctd.results.run_notes import (
     OF_THE_WALL,
     SMALL_FLUTTER,
@@ -132,8 +132,9 @@ class Guards(Restorable):
         run, string = self.run, self.run.string
         if string is not self._judged[0]:  # another one at each record where it hangs from a block, else never
             self._judged = string, *self._constants()
+        hanging = hanging_along(run.hole, string, loads, walls.md, run.case.contact.enabled)
         beyond = find_shares(
-            loads.tension, loads.torque, loads.bending, loads.bit_tension, loads.bit_torque, hookload, walls.offset,
+            loads.tension, loads.torque, hanging, loads.bit_tension, loads.bit_torque, hookload, walls.offset,
             walls.radius, state.row(run.S, state.RADIUS, run.segments), *self._judged[1:], self._worst,
         )  # fmt: skip
         return limit_notes(self._worst, string, walls) if beyond else ()

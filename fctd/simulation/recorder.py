@@ -28,7 +28,8 @@ from fctd.results.buckling import (
     buckling_along,
     pipe_of,
 )
-from fctd.results.profile import Loads, at_contacts, profile_table, von_mises
+from fctd.results.hanging_body import MOMENT
+from fctd.results.profile import Loads, at_contacts, hanging_along, profile_table, von_mises
 from fctd.results.status import RunStatus
 from fctd.results.tables import SimulationResult
 from fctd.simulation.guards import Guards
@@ -202,7 +203,9 @@ class Recorder(Restorable):
             self.series.skip()
             return
         string, n = self.run.string, self.run.segments
-        tension, twist, bending = (values[1:] for values in at_contacts(string, loads))
+        tension, twist = (values[1:] for values in at_contacts(string, loads))
+        hanging = hanging_along(self.run.hole, string, loads, walls.md, self.run.case.contact.enabled)
+        bending = hanging[1:, MOMENT]
         stress = von_mises(tension, twist, bending, string.of("outer"), string.of("inner"))
         rows = np.full((n + 1, ROW_COLUMNS), np.nan) if limits is None else limits
         mode = np.zeros(n) if limits is None else limits[1:, MODE]
@@ -235,7 +238,9 @@ class Recorder(Restorable):
         run = self.run
         points, walls = self._walls()
         top = run.S[[state.X, state.Y, state.Z]]
-        table = profile_table(run.hole, run.string, run.case.mud.density, top, points, walls, self._loads())
+        table = profile_table(
+            run.hole, run.string, run.case.mud.density, top, points, walls, self._loads(), run.case.contact.enabled
+        )
         table.insert(0, "operation", self.history[-1]["operation"])
         table.insert(0, "bit_depth_m", self.run.bit_depth)
         return table

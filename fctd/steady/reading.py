@@ -8,6 +8,7 @@ from fctd.arrays import Array
 from fctd.mechanics.jit import entry
 from fctd.mechanics.query import WALL_COLUMNS, query_walls
 from fctd.results.buckling import NEITHER, ROW_COLUMNS, find_buckling
+from fctd.results.hanging_body import HANGING_COLUMNS, find_hanging
 from fctd.results.limits import LIMITS, WORST, find_shares
 from fctd.steady.tangent import (
     AXIAL_MOMENT,
@@ -92,14 +93,17 @@ def read_shape(
         if numbers[OUTSIDE] == 0 and offset + pipe.radius[j] > 2 * walls[j, 3]:
             numbers[OUTSIDE] = j + 1
         least = min(least, joints[j, JOINT_TENSION])
+    rows, md, hanging = np.empty((n + 1, ROW_COLUMNS)), walls[:, 6].copy(), np.empty((n + 1, HANGING_COLUMNS))
+    find_hanging(
+        bends, top_md, md, in_hole, joints[:, JOINT_TENSION].copy(), bit_tension, joints[:, JOINT_BENDING].copy(),
+        pipe.middle, component, sections, hanging,
+    )  # fmt: skip
     numbers[NOTED] = find_shares(
-        joints[:, JOINT_TENSION], joints[:, JOINT_TORQUE], joints[:, JOINT_BENDING], bit_tension, bit_torque, hookload,
-        walls[:, :3], walls[:, 3], pipe.radius, in_hole, pipe.middle, component, sections,
-        numbers[SHARES:].reshape(-1, WORST),
+        joints[:, JOINT_TENSION], joints[:, JOINT_TORQUE], hanging, bit_tension, bit_torque, hookload, walls[:, :3],
+        walls[:, 3], pipe.radius, in_hole, pipe.middle, component, sections, numbers[SHARES:].reshape(-1, WORST),
     )  # fmt: skip
     if not in_hole or least >= 0:
         return
-    rows, md = np.empty((n + 1, ROW_COLUMNS)), walls[:, 6].copy()
     mode, first, last, longest, needed, excess = find_buckling(
         bends, top_md, md, walls[:, 3].copy(), joints[:, JOINT_TENSION].copy(), bit_tension, pipe.EI, pipe.weight,
         pipe.radius, pipe.length, pipe.middle, rows,

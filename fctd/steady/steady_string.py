@@ -108,9 +108,9 @@ class Equilibrium:
     @cached_property
     def profile(self) -> pd.DataFrame:
         """The string from the top to the bit, a row per contact point; columns of ``profile_table``."""
-        shape, mud = self._shape, self.case.mud.density
-        points = shape.contacts[:, PLACE]
-        return profile_table(shape.hole, shape.laid.string, mud, shape.top, points, shape.walls, shape.loads)
+        shape, mud, points = self._shape, self.case.mud.density, self._shape.contacts[:, PLACE]
+        in_hole = self.case.contact.enabled
+        return profile_table(shape.hole, shape.laid.string, mud, shape.top, points, shape.walls, shape.loads, in_hole)
 
     @property
     def feeding(self) -> pd.DataFrame:

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from fctd.mechanics.query import WALL_COLUMNS, Walls, walls_in
 from fctd.model.drillstring import String, lay_out
+from fctd.results.hanging_body import HANGING_COLUMNS, MOMENT
 from fctd.results.limits import LIMITS, ROW, SHARE, WORST, find_shares
 from fctd.results.notes import Note, limit_notes
 from fctd.results.profile import Loads, at_contacts, von_mises
@@ -25,12 +26,22 @@ def walls_of(string: String, depths: np.ndarray, hole: float = 0.108) -> Walls:
     return walls_in(rows)
 
 
+def hanging_of(string: String, loads: Loads) -> np.ndarray:
+    """Bending at the top and at the contact points, of a string whose joints are not known."""
+    below = np.append(loads.bending[1:], 0.0)
+    rows = np.zeros((string.segments + 1, HANGING_COLUMNS))
+    middle = np.where(string.mid_contact(), 0.5 * (loads.bending + below), below)
+    rows[:, MOMENT] = np.append(loads.bending[0], middle)
+    return rows
+
+
 def shares_of(string: String, loads: Loads, hookload: float, walls: Walls, in_hole: bool = True) -> np.ndarray:
     """The largest shares (limits, WORST) along a string."""
     worst = np.empty((len(LIMITS), WORST))
     beyond = find_shares(
-        loads.tension, loads.torque, loads.bending, loads.bit_tension, loads.bit_torque, float(hookload), walls.offset,
-        walls.radius, string.contact_radius(), in_hole, string.mid_contact(), string.component, string.table, worst,
+        loads.tension, loads.torque, hanging_of(string, loads), loads.bit_tension, loads.bit_torque, float(hookload),
+        walls.offset, walls.radius, string.contact_radius(), in_hole, string.mid_contact(), string.component,
+        string.table, worst,
     )  # fmt: skip
     assert beyond == (worst[:, SHARE] > 1).any()
     return worst
@@ -55,10 +66,12 @@ def test_the_largest_shares_are_those_of_the_profile(
     walls, radius = walls_of(STRING, np.array(depth)), STRING.contact_radius()
     worst = shares_of(STRING, loads, hookload, walls, in_hole)
     outer, inner = (np.append(STRING.of(name)[0], STRING.of(name)) for name in ("outer", "inner"))
-    stress = von_mises(*at_contacts(STRING, loads), outer, inner) / 931e6
+    bent = hanging_of(STRING, loads)[:, MOMENT]
+    stress = von_mises(*at_contacts(STRING, loads), bent, outer, inner) / 931e6
     deep = np.append(0.0, np.array(depth) / np.clip(0.25 * (0.108 - radius), 0.002, 0.01))
     pulled = np.append(hookload / (931e6 * np.pi * (0.055**2 - 0.035**2)), np.zeros(N))
-    for k, shares in enumerate((deep if in_hole else 0 * deep, stress, pulled)):
+    of = {"penetration": deep if in_hole else 0 * deep, "yield": stress, "tensile_capacity": pulled}
+    for k, shares in ((k, of[limit.code]) for k, limit in enumerate(LIMITS) if limit.code in of):
         assert worst[k, SHARE] == pytest.approx(max(shares.max(), 0.0), rel=1e-9, abs=1e-12)
         assert shares[int(worst[k, ROW])] == pytest.approx(worst[k, SHARE], rel=1e-9, abs=1e-12)
     found = string_notes(STRING, loads, hookload, walls, in_hole)

@@ -52,7 +52,7 @@ def test_a_rounding_error_to_the_left_of_the_high_side_is_the_high_side() -> Non
     high, right = hole_frame(directions)
     walls = hole.walls(points)._replace(offset=0.01 * high - 1e-19 * right)
     zeros = np.zeros(3)
-    table = profile_table(hole, string, 0.0, points[0], points, walls, Loads(zeros, zeros, zeros, zeros))
+    table = profile_table(hole, string, 0.0, points[0], points, walls, Loads(zeros, zeros, zeros, zeros), True)
     assert list(table["contact_angle_deg"]) == [0.0] * 4
     np.testing.assert_allclose(table["offset_high_m"][1:], 0.01)
 

@@ -1,0 +1,137 @@
+"""Bending of pipe between its tool joints, which touch, while its body hangs between them.
+
+In a bend of the hole the body turns as far as the hole does, but not evenly: in tension at the tool joints, where its
+curvature is that of the hole times KL/tanh KL (Lubinski 1961), in compression in its middle, times KL/sin KL, with
+K = √(|T|/EI) and L half of a joint.  Its lateral weight bends it as a beam that is clamped at both ends.  A tool joint
+does not bend: the body between them, of half length l, has all of the turn, and factors of Kl with L/l in front.
+
+A coarse string, whose contact points lie where its segments end, knows the mean curvature alone; these closed forms
+correct its bending moment.  They hold while the body does not touch the wall.
+"""
+
+import math
+from typing import Final
+
+import numpy as np
+
+from fctd.mechanics.jit import entry, inlined
+from fctd.model.section import Section
+from fctd.results.buckling import course_of, tangent_of
+
+# Columns of a row: largest bending moment of the pipe there [N m]; share of the way to the wall that its body takes,
+# infinite where a compressed body buckles between its tool joints; the moment with joints of ``USUAL`` length where a
+# section has tool joints and does not say how far apart they are [N m].
+MOMENT, TAKEN, ASSUMED = range(3)
+HANGING_COLUMNS = 3
+WEIGHT, EI, OUTER, CONTACT_RADIUS, POINT, JOINT, TOOL_JOINT = (
+    Section._fields.index(name) for name in ("weight", "EI", "outer", "contact_radius", "point", "joint", "tool_joint")
+)
+# Length of a joint of range 2, and of its tool joint [m].
+USUAL, USUAL_TOOL_JOINT = 9.5, 0.5
+# Below, factors are those of their series: rounding takes more digits than these leave out.
+SMALL: Final = 0.02
+# Beyond this share of π a compressed body has no finite bending.
+FINITE: Final = 0.98
+
+
+@inlined
+def factors_of(x, tensile):
+    """Factors of a body by x = Kl: bending by the hole's curvature at the tool joint and in the middle, bending there
+    by a lateral load q over q l², and how far the middle is from the chord of its ends, over θ l for a turn of the ends
+    by θ, and over q l⁴/EI."""
+    if x < SMALL:
+        square = x * x if tensile else -x * x
+        return (
+            1 + square / 3,
+            1 - square / 6,
+            1 / 3.0 - square / 45,
+            -1 / 6.0 + square * 7 / 360,
+            0.5 - square / 24,
+            1 / 24.0,
+        )
+    if tensile:
+        if x > 300.0:
+            return x, 0.0, (x - 1) / x**2, -1 / x**2, 1 / x, (0.5 * x - 1) / x**3
+        end, middle, half = x / math.tanh(x), x / math.sinh(x), math.tanh(0.5 * x)
+        return end, middle, (end - 1) / x**2, (middle - 1) / x**2, half / x, (0.5 * x - half) / x**3
+    end, middle, half = x / math.tan(x), x / math.sin(x), math.tan(0.5 * x)
+    return end, middle, (1 - end) / x**2, (1 - middle) / x**2, half / x, (half - 0.5 * x) / x**3
+
+
+@inlined
+def length_of(x, y, z):
+    """Of a vector."""
+    return math.sqrt(x * x + y * y + z * z)
+
+
+@inlined
+def bend_body(tension, own, stiffness, joint, tool_joint, room, kx, ky, kz, qx, qy, qz):
+    """Bending moment of a body [N m] and the share of its room that it takes.
+
+    own : the bending moment of the mean curvature [N m]; joint, tool_joint : lengths [m]; room : by which the tool
+    joints stand out [m]; k : curvature of the hole [1/m], of which the direction counts; q : lateral weight [N/m].
+    """
+    half, free = 0.5 * joint, 0.5 * (joint - tool_joint)
+    x = math.sqrt(abs(tension) / stiffness) * free
+    if tension < 0 and x > FINITE * math.pi:
+        return own, np.inf
+    end, middle, end_by_load, middle_by_load, turned, sagged = factors_of(x, tension >= 0)
+    # The curvature that the string has, in the plane in which the hole bends; in straight hole in that of the weight,
+    # where it does most.
+    curvature, bent, load = own / stiffness, length_of(kx, ky, kz), length_of(qx, qy, qz)
+    ux, uy, uz = 0.0, 0.0, 0.0
+    if bent > 1e-7:
+        ux, uy, uz = kx / bent, ky / bent, kz / bent
+    elif load > 0:
+        ux, uy, uz = qx / load, qy / load, qz / load
+    kx, ky, kz = curvature * ux, curvature * uy, curvature * uz
+    by_turn, by_load = stiffness * half / free, free * free
+    at_end = length_of(
+        by_turn * end * kx + by_load * end_by_load * qx, by_turn * end * ky + by_load * end_by_load * qy,
+        by_turn * end * kz + by_load * end_by_load * qz,
+    )  # fmt: skip
+    in_middle = length_of(
+        by_turn * middle * kx + by_load * middle_by_load * qx, by_turn * middle * ky + by_load * middle_by_load * qy,
+        by_turn * middle * kz + by_load * middle_by_load * qz,
+    )  # fmt: skip
+    # The hole's arc is half² κ/2 from its chord; the tool joints lie on the side to which tension and weight press.
+    of_turn, of_load = free * (0.5 * free - half * turned), sagged * free**4 / stiffness
+    dx, dy, dz = of_turn * kx + of_load * qx, of_turn * ky + of_load * qy, of_turn * kz + of_load * qz
+    px, py, pz = tension * kx + qx, tension * ky + qy, tension * kz + qz
+    pressed = length_of(px, py, pz)
+    towards = (dx * px + dy * py + dz * pz) / pressed if pressed > 0 else 0.0
+    return max(at_end, in_middle), max(towards, 0.0) / room
+
+
+@entry
+def find_hanging(bends, top_md, md, in_hole, tension, bit_tension, bending, middle, component, sections, rows):
+    """Update rows (n + 1, HANGING_COLUMNS) of the top and the n contact points given hole, string and loads.
+
+    bends : of the hole, md (n,) [m] : of the contact points; tension (effective) [N], bending [N m] : of the n joints;
+    middle, component (n,), sections : of the string.
+    """
+    k = 0
+    for i in range(len(md) + 1):
+        j = max(i - 1, 0)
+        below = bending[i] if i < len(md) else 0.0
+        pull_below = tension[i] if i < len(md) else bit_tension
+        own = bending[0] if i == 0 else 0.5 * (bending[j] + below) if middle[j] else below
+        pull = tension[0] if i == 0 else 0.5 * (tension[j] + pull_below) if middle[j] else pull_below
+        rows[i, MOMENT], rows[i, TAKEN], rows[i, ASSUMED] = own, 0.0, 0.0
+        row = sections[component[j]]
+        joint, tool_joint, room = row[JOINT], row[TOOL_JOINT], row[CONTACT_RADIUS] - row[OUTER]
+        if not in_hole or room <= 0 or row[POINT] != 0:
+            continue
+        s = md[j] if i else top_md
+        k = course_of(bends, k, s)
+        tx, ty, tz, bx, by, bz = tangent_of(bends, k, s)
+        weight = row[WEIGHT]
+        given = joint > 0
+        moment, taken = bend_body(
+            pull, own, row[EI], joint if given else USUAL, tool_joint if given else USUAL_TOOL_JOINT, room,
+            bx, by, bz, -weight * tz * tx, -weight * tz * ty, weight * (tx * tx + ty * ty),
+        )  # fmt: skip
+        if given:
+            rows[i, MOMENT], rows[i, TAKEN] = max(moment, own), taken
+        else:
+            rows[i, ASSUMED] = moment
