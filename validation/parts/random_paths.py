@@ -54,5 +54,7 @@ def path(rng: Random, spacing: float = 30.0, deepest: float = 9000.0) -> list[li
             # Near vertical an azimuth says little, and a turn of it is no bend.
             azimuth += rates[1] * step / max(math.sin(math.radians(inclination)), 0.2)
             drilled = min(max(inclination + rng.gauss(0, wander), 0.0), 180.0), azimuth + rng.gauss(0, wander)
-            stations.append([round(md, 2), round(drilled[0], 2), round(drilled[1] % 360, 2)])
+            station = [round(md, 2), round(drilled[0], 2), round(drilled[1] % 360, 2)]
+            if station[0] > stations[-1][0]:  # the last step of a stretch may be shorter than a centimetre
+                stations.append(station)
     return stations
