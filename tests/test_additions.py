@@ -110,7 +110,7 @@ def test_a_result_column_is_one_line(copy: Path) -> None:
 
 MAKE_UP = """
     Limit(
-        "make_up", "a connection turns further than it was made up", "lower the friction factor",
+        "connection", "a connection turns further than it was made up", "lower the friction factor",
         lambda at, section: abs(at.torque) / 1e3,
         lambda share, at, section, where: f"{at.torque:.0f} N m at {where}, the connection holds 1000 N m",
     ),
@@ -125,7 +125,7 @@ chart = fctd.torque_drag(case, ["trip_out", "rotate_off_bottom"], [700.0])
 events = probability_table(chart.assign(sample=0), [], 1)
 run = fctd.simulate(case)
 assert run.status == "completed", run.message
-print(list(chart["notes"]), meanings_of(chart["notes"])["make_up"]["headline"], set(events["event"]), sep="\\n")
+print(list(chart["notes"]), meanings_of(chart["notes"])["connection"]["headline"], set(events["event"]), sep="\\n")
 for found in (fctd.equilibrium(case, "rotate_off_bottom", 700.0), run):
     print([note.text for note in found.notes])
 """
@@ -159,9 +159,9 @@ def test_a_limit_and_its_note_are_one_entry_of_a_table(copy: Path) -> None:
     (copy / "well.toml").write_text(WELL.replace("segment_length = 40", "segment_length = 100") + ROTATE)
     walked, codes, headline, events, *texts = lines_of(copy, compiled=ONE_WALK, interpreted=LIMITED)
     assert walked == "['1500 N m at 700 m, the connection holds 1000 N m']"
-    assert codes == "['none', 'make_up']"
+    assert codes == "['none', 'connection']"
     assert headline == "a connection turns further than it was made up"
-    assert "beyond make up" in events
+    assert "beyond connection" in events
     assert all("the connection holds 1000 N m" in text for text in texts)
 
 

@@ -1,11 +1,14 @@
 """The table of a case file for the string: its components, from the bit upwards."""
 
-from typing import Literal, Self
+from collections.abc import Mapping
+from typing import Any, Literal, Self
 
 from pydantic import Field, model_validator
 
 from fctd.case import units
 from fctd.case.errors import InputError, Table, exclusive
+from fctd.case.pipes.filling import filled
+from fctd.case.pipes.grades import YieldStrength
 
 # A component is short, as stabilisers, reamers and bits are, up to so many times the diameter with which it touches.
 SHORT = 12.0
@@ -45,6 +48,9 @@ class ComponentSpec(Table):
     than the sleeves beside it. Without `contact` a component is a point up to a length of 12 contact diameters. Its
     segments, and those of its neighbours, do not matter.
 
+    `pipe` is a pipe of the catalogue, which `fctd pipes` lists: it gives the keys that you leave out. `yield_strength`
+    may be a grade, "S-135".
+
     With `joint` the largest bending moment of the pipe, at its tool joints or between them, is computed from the
     string's curvature, and mass and stiffnesses that are not given are those of body and tool joints together.
 
@@ -55,6 +61,9 @@ class ComponentSpec(Table):
     """
 
     name: str = Field(description="a name in quotes")
+    pipe: str | None = Field(
+        default=None, description="the name of a pipe in quotes, such as '5 in 19.5 S-135 NC50, premium'"
+    )
     length: units.PositiveLength | None = None
     outer_diameter: units.Diameter
     inner_diameter: units.Bore
@@ -75,7 +84,7 @@ class ComponentSpec(Table):
     youngs_modulus: units.PositiveStress = 206.8e9
     poisson_ratio: units.PoissonRatio = 0.3
     density: units.PositiveDensity = 7850.0
-    yield_strength: units.PositiveStress = 931e6  # of S-135, the strongest grade of API 5DP
+    yield_strength: YieldStrength = 931e6  # of S-135, the strongest grade of API 5DP
     axial_stiffness: units.PositiveAxialStiffness | None = None  # EA
     bending_stiffness: units.PositiveBendingStiffness | None = None  # EI
     torsional_stiffness: units.PositiveBendingStiffness | None = None  # GJ
@@ -83,6 +92,11 @@ class ComponentSpec(Table):
     bend: units.Bend = 0.0
     toolface: units.Angle = 0.0
     eccentricity: units.Length = 0.0
+
+    @model_validator(mode="before")
+    @classmethod
+    def _fill_in_pipe(cls, raw: Any) -> Any:
+        return filled(raw) if isinstance(raw, Mapping) else raw
 
     @model_validator(mode="after")
     def _check(self) -> Self:

@@ -28,7 +28,7 @@ CALIBRATION = {name: f"--{name}" for name in ("fit", "prior", "starts", "seed", 
 # The commands in the groups of the help, each in the module of its name, and options of which messages of the library
 # name the argument.
 GROUPS: dict[str, dict[str, dict[str, str]]] = {
-    "Begin": {"init": {}, "check": {}, "schema": {}},
+    "Begin": {"init": {}, "check": {}, "pipes": {}, "schema": {}},
     "Steady strings": {
         "chart": {"bit_depth": "--depths"},
         "equilibrium": {},

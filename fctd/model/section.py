@@ -1,12 +1,15 @@
 """Components of a string per metre of their length: mass, stiffness, and the weight in their fluids (§3.2, 5.1)."""
 
+import math
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
+from fctd.case.pipes.catalogue import pipe_named
 from fctd.case.string import ComponentSpec
 from fctd.mechanics.topdrive import GRAVITY
+from fctd.model.connection import make_up_torque
 
 
 class Section(NamedTuple):
@@ -15,7 +18,8 @@ class Section(NamedTuple):
     mass [kg/m], weight (buoyed) [N/m], axial_inertia and tilt_inertia [kg m], EA [N], GJ, EI [N m^2],
     shear κGA [N], outer, inner and contact radius [m], yield_strength [Pa], eccentricity of the mass [m]; point : 1 for
     a component that touches at a point, 0 for a sleeve; compressibility : strain along by pressure on all sides [1/Pa];
-    joint, tool_joint : lengths of a joint of pipe and of its tool joint [m], 0 where they are not given.
+    joint, tool_joint : lengths of a joint of pipe and of its tool joint [m], 0 where they are not given; make_up :
+    largest make-up torque of its tool joints [N m], infinite where it is not known.
     """
 
     mass: float
@@ -35,6 +39,7 @@ class Section(NamedTuple):
     compressibility: float = 0.0
     joint: float = 0.0
     tool_joint: float = 0.0
+    make_up: float = math.inf
 
 
 def shear_coefficient(outer: float, inner: float, poisson: float) -> float:
@@ -93,4 +98,10 @@ def section_of(component: ComponentSpec, outside: float, inside: float | None = 
         compressibility=(1 - 2 * component.poisson_ratio) / modulus,
         joint=0.0 if joint is None else joint.length,
         tool_joint=0.0 if joint is None else joint.tool_joint_length,
+        make_up=_make_up(component),
     )
+
+
+def _make_up(component: ComponentSpec) -> float:
+    torque = None if component.pipe is None else make_up_torque(pipe_named(component.pipe))
+    return math.inf if torque is None else torque

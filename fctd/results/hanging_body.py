@@ -15,7 +15,7 @@ from typing import Final
 import numpy as np
 
 from fctd.mechanics.jit import entry, inlined
-from fctd.model.section import Section
+from fctd.model.string_rows import CONTACT_RADIUS, EI, JOINT, OUTER, POINT, TOOL_JOINT, WEIGHT
 from fctd.results.buckling import course_of, tangent_of
 
 # Columns of a row: largest bending moment of the pipe there [N m]; share of the way to the wall that its body takes,
@@ -23,9 +23,6 @@ from fctd.results.buckling import course_of, tangent_of
 # section has tool joints and does not say how far apart they are [N m].
 MOMENT, TAKEN, ASSUMED = range(3)
 HANGING_COLUMNS = 3
-WEIGHT, EI, OUTER, CONTACT_RADIUS, POINT, JOINT, TOOL_JOINT = (
-    Section._fields.index(name) for name in ("weight", "EI", "outer", "contact_radius", "point", "joint", "tool_joint")
-)
 # Length of a joint of range 2, and of its tool joint [m].
 USUAL, USUAL_TOOL_JOINT = 9.5, 0.5
 # Below, factors are those of their series: rounding takes more digits than these leave out.

@@ -106,6 +106,15 @@ LIMITS: Final[tuple[Limit, ...]] = (
         ),
     ),
     Limit(
+        "make_up", "the torque exceeds the make-up torque of the tool joints, which turn on",
+        "check friction factor and bit torque, or use pipe with stronger tool joints",
+        lambda at, section: abs(at.torque) / section.make_up,
+        lambda share, at, section, where: (
+            f"the torque at {where} is {abs(at.torque) / 1e3:.1f} kN·m, the largest make-up torque of the tool joints "
+            f"{section.make_up / 1e3:.1f} kN·m"
+        ),
+    ),
+    Limit(
         "tensile_capacity", "the hook load exceeds the capacity of the uppermost pipe",
         "check friction factor, bends and yield_strength",
         lambda at, section: (
@@ -148,7 +157,7 @@ def _section(table, k):
     return Section(
         table[k, 0], table[k, 1], table[k, 2], table[k, 3], table[k, 4], table[k, 5], table[k, 6], table[k, 7],
         table[k, 8], table[k, 9], table[k, 10], table[k, 11], table[k, 12], table[k, 13], table[k, 14], table[k, 15],
-        table[k, 16],
+        table[k, 16], table[k, 17],
     )  # fmt: skip
 
 

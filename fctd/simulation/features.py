@@ -239,10 +239,10 @@ EVERYWHERE: Final = frozenset({
     "string.top_md",
     *(
         f"string.components.{key}" for key in (
-            "name", "length", "outer_diameter", "inner_diameter", "contact_diameter", "segments", "segment_length",
-            "linear_mass", "youngs_modulus", "poisson_ratio", "density", "yield_strength", "axial_stiffness",
-            "bending_stiffness", "torsional_stiffness", "shear_stiffness", "joint.length", "joint.tool_joint_length",
-            "joint.tool_joint_diameter", "joint.tool_joint_inner",
+            "name", "pipe", "length", "outer_diameter", "inner_diameter", "contact_diameter", "segments",
+            "segment_length", "linear_mass", "youngs_modulus", "poisson_ratio", "density", "yield_strength",
+            "axial_stiffness", "bending_stiffness", "torsional_stiffness", "shear_stiffness", "joint.length",
+            "joint.tool_joint_length", "joint.tool_joint_diameter", "joint.tool_joint_inner",
         )
     ),
     "mud.density", "rig.block_weight", "rig.guide_friction", "rig.sheave_efficiency", "rig.torque_offset",

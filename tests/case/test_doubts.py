@@ -106,6 +106,25 @@ def hole(*rows: tuple[float, float], friction: float = 0.2, kind: str | None = N
             {"components": [pipe(1000, 20, linear_mass=2.51 * 69.23)]},
         ),
         (
+            "no_tool_joints",
+            {"components": [{"pipe": "5 in 19.5 S-135 NC50", "segments": 20}]},
+            {"components": [{"pipe": "5 in 19.5 G-105", "segments": 20}]},
+        ),
+        (
+            "no_tool_joints",
+            {
+                "components": [
+                    {
+                        "pipe": "5 in 19.5 G-105",
+                        "segments": 20,
+                        "linear_mass": "21.92 lb/ft",
+                        "contact_diameter": "6 5/8 in",
+                    }
+                ]
+            },
+            {"components": [{"pipe": "5 in 19.5 G-105", "segments": 20, "linear_mass": "21.92 lb/ft"}]},
+        ),
+        (
             "floating_string",
             {"components": [pipe(1000, 20, linear_mass=10.7)]},
             {"components": [pipe(1000, 20, linear_mass=10.5)]},

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from fctd.case.doubts.hole import hole_size, rough_wall, shoe_below_td, wider_below
 from fctd.case.doubts.rig import no_bit_load, no_block, no_mud, rates, sheaves_and_drive
-from fctd.case.doubts.string import bent_along_gauge, bit_size, does_not_drift, light_string
+from fctd.case.doubts.string import bent_along_gauge, bit_size, does_not_drift, light_string, no_tool_joints
 from fctd.case.doubts.usual import Well, bare_lengths, unusual
 from fctd.case.friction import FrictionSet
 from fctd.case.input_warnings import InputWarning
@@ -36,6 +36,7 @@ def warnings_of(
         *no_mud(case.mud, float(stations[-1, 0])),
         *unusual(case),
         *light_string(case.string, case.mud),
+        *no_tool_joints(case.string),
         *bit_size(case.string, case.wellbore, float(stations[-1, 0])),
         *bent_along_gauge(case.string, case.wellbore),
         *does_not_drift(case.string, case.wellbore, min(float(stations[-1, 0]), case.wellbore.intervals[-1].to_md)),

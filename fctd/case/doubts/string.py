@@ -9,6 +9,8 @@ import numpy as np
 from fctd.case.doubts.usual import Doubts
 from fctd.case.hole import WellboreSpec
 from fctd.case.input_warnings import InputWarning
+from fctd.case.pipes.catalogue import pipe_named
+from fctd.case.pipes.filling import lacks_joints
 from fctd.case.rig import MudSpec
 from fctd.case.string import ComponentSpec, StringSpec
 
@@ -30,6 +32,24 @@ def light_string(string: StringSpec, mud: MudSpec) -> Doubts:
         elif not LIGHT * body <= mass <= HEAVY * body:
             text = f"{_name(part)} weighs {mass:.4g} kg/m, its body alone {body:.4g} kg/m"
             yield InputWarning("linear_mass", key, text, _REMEDY_OF_MASS)
+
+
+def no_tool_joints(string: StringSpec) -> Doubts:
+    """A pipe of the catalogue whose tool joints or couplings no page gives, where the case does not give them."""
+    for i, part in enumerate(string.components):
+        if part.pipe is None or not lacks_joints(pipe_named(part.pipe)):
+            continue
+        # A stored case has all keys.
+        bare = part.contact_diameter == part.outer_diameter
+        if part.linear_mass is None or bare:
+            lacks = "weighs as its body alone" if part.linear_mass is None else ""
+            touches = "touches with its body" if bare else ""
+            yield InputWarning(
+                "no_tool_joints", f"string.components[{i}].pipe",
+                f"{_name(part)} {' and '.join(filter(None, (lacks, touches)))}: the catalogue has no tool joints or "
+                "couplings for it",
+                "give linear_mass with them, contact_diameter, and joint where its bending matters",
+            )  # fmt: skip
 
 
 _REMEDY_OF_MASS: Final = "write linear_mass with its unit, such as '19.5 lb/ft', and check diameters and density"

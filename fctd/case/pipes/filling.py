@@ -1,0 +1,70 @@
+"""The keys of a component that its pipe gives."""
+
+import math
+from collections.abc import Mapping
+from typing import Any, Final
+
+from fctd.case.errors import InputError
+from fctd.case.pipes.catalogue import Pipe, pipe_named
+from fctd.case.pipes.names import CASING, TUBING
+
+STEEL: Final = 7850.0  # [kg/m³]
+
+
+def filled(raw: Mapping[str, Any]) -> Mapping[str, Any]:
+    """A component with what its `pipe` gives and it does not say itself; raises InputError for an unknown pipe."""
+    text = raw.get("pipe")
+    if text is None:
+        return raw
+    if not isinstance(text, str):
+        raise InputError(
+            "the name of a pipe in quotes, such as '5 in 19.5 S-135 NC50, premium'", key="pipe", value=text
+        )
+    try:
+        pipe = pipe_named(text)
+    except InputError as error:
+        raise error.at("pipe") from None
+    given = {key: value for key, value in raw.items() if value is not None}
+    if pipe.yield_strength is None and "yield_strength" not in given:
+        raise InputError(f"{pipe.name} with its grade, such as 'N-80', or yield_strength", key="pipe", value=text)
+    return {**_keys_of(pipe), **given}
+
+
+def _keys_of(pipe: Pipe) -> dict[str, Any]:
+    keys: dict[str, Any] = {
+        "name": pipe.name, "outer_diameter": pipe.worn_outer, "inner_diameter": pipe.inner,
+        "yield_strength": pipe.yield_strength, "linear_mass": mass_of(pipe),
+    }  # fmt: skip
+    joint = pipe.joint
+    if joint is not None:
+        keys["contact_diameter"] = joint.outer
+    if pipe.coupling is not None:
+        keys["contact_diameter"] = pipe.coupling
+    if joint is not None and joint.length is not None and joint.joint_length is not None:
+        keys["joint"] = {
+            "length": joint.joint_length, "tool_joint_length": joint.length, "tool_joint_diameter": joint.outer,
+            "tool_joint_inner": joint.inner,
+        }  # fmt: skip
+    return {key: value for key, value in keys.items() if value is not None}
+
+
+def mass_of(pipe: Pipe) -> float | None:
+    """Mass of a pipe with its tool joints or couplings, less the steel that its wear took from the body [kg/m].
+
+    None where no mass is printed: it is then that of the body.
+    """
+    if pipe.linear_mass is None:
+        return None
+    worn = math.pi / 4 * (pipe.outer**2 - pipe.worn_outer**2)
+    joint = pipe.joint
+    body = 1.0
+    if joint is not None and joint.length is not None and joint.joint_length is not None:
+        body -= joint.length / joint.joint_length
+    return pipe.linear_mass - STEEL * worn * body
+
+
+def lacks_joints(pipe: Pipe) -> bool:
+    """Whether no page gives the tool joints or the couplings of a pipe, or what it weighs with them."""
+    if pipe.kind in (CASING, TUBING):
+        return pipe.coupling is None
+    return pipe.connection == "" or (pipe.joint is not None and pipe.linear_mass is None)

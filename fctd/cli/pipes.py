@@ -1,0 +1,118 @@
+"""``fctd pipes``: the pipe of the catalogue, and what it bears."""
+
+import re
+from typing import Annotated, Final, NamedTuple
+
+import typer
+from rich.box import SIMPLE_HEAD
+from rich.table import Column, Table
+
+from fctd.case.errors import InputError
+from fctd.case.pipes.catalogue import Pipe, catalogue, of_grade, sources
+from fctd.case.pipes.filling import mass_of
+from fctd.case.pipes.grades import drill_pipe_grade_of
+from fctd.case.pipes.names import DRILL_PIPE, class_of
+from fctd.case.units import conversion
+from fctd.cli.base_command import Silent
+from fctd.cli.options import screen
+from fctd.cli.steady import Units
+from fctd.model.capacity import body_of
+from fctd.model.connection import make_up_torque
+from fctd.results.unit_systems import System
+
+NONE = "–"
+
+
+def pipes_command(
+    words: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[WORD]...",
+            help="Words of names, such as '5 in' NC50 premium; a grade of casing or tubing.",
+            show_default=False,
+        ),
+    ] = None,
+    units: Units = "si",
+    quiet: Silent = False,
+) -> None:
+    """List pipe by the names that the key pipe of a component takes, with its capacities and the pages it is from.
+
+    Capacities are computed from geometry and grade: tension, torque, pressure inside and outside at which the body
+    yields or collapses, and the largest make-up torque of the tool joints.  Casing and tubing have them with a grade
+    among the words.
+    """
+    found = found_by(words or [])
+    if not found:
+        raise InputError(
+            "words of a pipe's name; `fctd pipes` without words lists all", key="WORD", value=" ".join(words or [])
+        )
+    if quiet:
+        return
+    pages = list(dict.fromkeys(key for pipe in found for key in pipe.sources))
+    screen.print(_table(found, pages, units))
+    for number, key in enumerate(pages, start=1):
+        source = sources()[key]
+        screen.print(f"[{number}] {source.title}, {source.address}, opened {source.opened}", soft_wrap=True)
+
+
+def found_by(words: list[str]) -> list[Pipe]:
+    """The pipes whose names have all of some words, with the grade and the class among them."""
+    typed = " ".join(words)
+    text, wall_share = class_of(typed.lower().replace(",", " "), typed)
+    parts = re.findall(r"\d+\s+\d+/\d+|\S+", text)
+    grades = [grade for part in parts if (grade := drill_pipe_grade_of(part))]
+    grade = grades[0] if grades else None
+    pipes = [of_grade(pipe, grade) for pipe in catalogue()]
+    if wall_share != 1.0:
+        pipes = [pipe._replace(wall_share=wall_share) for pipe in pipes if pipe.kind == DRILL_PIPE]
+    if grade is not None:
+        pipes = [pipe for pipe in pipes if pipe.grade == grade]
+    whole = [f" {' '.join(part.split())} " for part in parts if drill_pipe_grade_of(part) is None]
+    return [pipe for pipe in pipes if all(part in f" {pipe.name.lower().replace(',', '')} " for part in whole)]
+
+
+class _Measure(NamedTuple):
+    """A column: heading, units in SI tables and on the screen, digits after the point in both systems."""
+
+    heading: str
+    unit: str
+    shown: tuple[str, str]
+    digits: tuple[int, int]
+
+
+COLUMNS: Final = (
+    _Measure("inner", "m", ("mm", "in"), (1, 3)),
+    _Measure("joint", "m", ("mm", "in"), (1, 3)),
+    _Measure("mass", "kg/m", ("kg/m", "lb/ft"), (1, 2)),
+    _Measure("tension", "N", ("kN", "klbf"), (0, 1)),
+    _Measure("torque", "N*m", ("kN*m", "kft*lbf"), (1, 2)),
+    _Measure("burst", "Pa", ("MPa", "psi"), (1, 0)),
+    _Measure("collapse", "Pa", ("MPa", "psi"), (1, 0)),
+    _Measure("make-up", "N*m", ("kN*m", "kft*lbf"), (1, 2)),
+)
+
+
+def _table(pipes: list[Pipe], pages: list[str], units: System) -> Table:
+    at = 0 if units == "si" else 1
+    headings = [f"{of.heading}\n{of.shown[at].replace('*', '·')}" for of in COLUMNS]
+    table = Table(
+        Column("pipe", min_width=10), *(Column(heading, justify="right", no_wrap=True) for heading in headings),
+        Column("from", no_wrap=True), box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
+    )  # fmt: skip
+    factors = [conversion(of.unit, of.shown[at]) for of in COLUMNS]
+    for pipe in pipes:
+        cells = [
+            NONE if value is None else f"{value * factor:.{of.digits[at]}f}"
+            for value, factor, of in zip(_values(pipe), factors, COLUMNS, strict=True)
+        ]
+        numbers = dict.fromkeys(pages.index(key) + 1 for key in pipe.sources)
+        table.add_row(pipe.name, *cells, " ".join(map(str, numbers)))
+    return table
+
+
+def _values(pipe: Pipe) -> list[float | None]:
+    """The numbers of a pipe, SI, in the order of the columns."""
+    body, joint = body_of(pipe), pipe.joint
+    touching = pipe.coupling if joint is None else joint.outer
+    strengths = [None] * 4 if body is None else [body.tension, body.torsion, body.burst, body.collapse]
+    return [pipe.inner, touching, mass_of(pipe), *strengths, make_up_torque(pipe)]
