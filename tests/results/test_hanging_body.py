@@ -108,6 +108,73 @@ def test_a_coarse_string_has_the_bending_of_its_joints(segment: float | None) ->
     assert without["bending_moment_N_m"].max() / (EI * DOGLEG) < 1.05
 
 
+SHORT_JOINT = 0.02  # of the resolved strings: Lubinski's tool joints have no length [m]
+
+
+def one_by_one(count: int, segments: int, mass: float) -> list[dict[str, Any]]:
+    """Tool joints and bodies as components of their own, and plain pipe above them; mass [kg/m]."""
+    body = {"outer_diameter": 5 * INCH, "inner_diameter": 4.276 * INCH, "linear_mass": mass}
+    body["youngs_modulus"] = 30e6 * 6894.757
+    tool_joint = body | {"length": SHORT_JOINT, "segments": 1, "contact": "sleeve", "contact_diameter": 6.625 * INCH}
+    hanging = body | {"length": 2 * HALF - SHORT_JOINT, "segments": segments}
+    parts = [{"name": f"{k}", **part} for k in range(count) for part in (tool_joint, hanging)]
+    return [*parts, {"name": "pipe", **body, "segment_length": 8.0}]
+
+
+def resolved(
+    stations: list[list[float]], components: list[dict[str, Any]], kind: str, depth: float, **more: Any
+) -> Any:
+    """The profile of a string without friction."""
+    intervals = [{"to_md": stations[-1][0], "diameter": 8.5 * INCH, "friction": 0.0}]
+    hole = {"geometry": "arcs", "stiffness_per_length": 1e9, "intervals": intervals}
+    return equilibrium(make_case(stations, components, wellbore=hole, **more), kind, depth).profile
+
+
+def bar(length: float) -> dict[str, Any]:
+    """A weight of 200,000 lbf at the lower end."""
+    return pipe(length, 4, outer=6 * INCH, inner=2 * INCH, linear_mass=200e3 * POUND / 9.80665 / length)
+
+
+@pytest.mark.parametrize(("segments", "closer"), [(16, 0.04), (32, 0.02)])
+def test_resolved_tool_joints_bend_as_the_closed_form_says(segments: int, closer: float) -> None:
+    """At the tool joint, in the middle of the body, and in the side force: Tκ over a joint, 15.14 kN."""
+    bend = 24 / 3.25 * 100 * FOOT
+    stations = [[0, 24, 0], [20, 24, 0], [20 + bend, 0, 0], [80 + bend, 0, 0]]
+    components = [bar(20.0), *one_by_one(26, segments, 1.0)]
+    profile = resolved(stations, components, "rotate_off_bottom", 60 + bend)
+    profile = profile[(profile["md_m"] > 20 + 0.25 * bend) & (profile["md_m"] < 20 + 0.75 * bend)]
+    bending = profile["bending_moment_N_m"] / (EI * DOGLEG)
+    assert bending.max() == pytest.approx(factor(200e3 * POUND)[0], rel=closer)
+    x = HALF * math.sqrt(200e3 * POUND / EI)
+    assert bending.min() == pytest.approx(x / math.sinh(x), rel=0.02)
+    at_joints = profile.loc[profile["contact_force_N"] > 100, "contact_force_N"]
+    assert 2 * at_joints.mean() == pytest.approx(15.14e3, rel=0.01)
+
+
+def test_resolved_tool_joints_in_level_hole_bend_by_the_weight_of_the_body() -> None:
+    """The string is level and then turns down, where the bar hangs from it."""
+    stations = [[0, 90, 0], [150, 90, 0], [450, 0, 0], [550, 0, 0]]
+    low = pipe(330, 66, outer=5 * INCH, inner=4.276 * INCH, linear_mass=0.1)
+    profile = resolved(stations, [bar(20.0), low, *one_by_one(14, 32, 31.1)], "rotate_off_bottom", 490.0)
+    profile = profile[(profile["md_m"] > 40) & (profile["md_m"] < 110)]
+    expected, taken = factor(profile["effective_tension_N"].mean(), 0.0, SHORT_JOINT, 31.1 * 9.80665)
+    assert profile["bending_moment_N_m"].max() == pytest.approx(expected, rel=0.03)
+    assert 0 < taken < 1
+
+
+def test_resolved_tool_joints_under_compression_bend_most_in_the_middle_of_the_body() -> None:
+    """A build of 3.25°/100 ft, KL about 1; the weight acts against the bend."""
+    depth = 50 / 3.25 * 100 * FOOT
+    bit = {"weight_on_bit": 58e3}
+    profile = resolved([[0, 20, 0], [depth, 70, 0]], one_by_one(48, 16, 5.0), "drill_sliding", depth, bit=bit)
+    profile = profile[(profile["md_m"] > 0.5 * depth) & (profile["md_m"] < 0.8 * depth)]
+    most = profile.loc[profile["bending_moment_N_m"].idxmax()]
+    weight = -5.0 * 9.80665 * math.sin(math.radians(most["inclination_deg"]))
+    expected, _ = factor(most["effective_tension_N"], DOGLEG, SHORT_JOINT, weight)
+    assert expected > 1.2
+    assert most["bending_moment_N_m"] / (EI * DOGLEG) == pytest.approx(expected, rel=0.01)
+
+
 def test_tool_joints_whose_length_is_not_given_are_noted_where_they_matter() -> None:
     """The stress would be beyond the yield strength; with the joints given, that is said."""
     weak = {"yield_strength": 320e6, "segment_length": 10.0}

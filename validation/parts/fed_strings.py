@@ -297,10 +297,10 @@ Locked = tuple[Drawn, Equilibrium]
 
 
 def locked_of(strings: Iterable[tuple[Drawn, Row]]) -> Iterator[Locked]:
-    """The strings that are locked up at a known share of their friction, on segments that follow them."""
+    """The strings that no push moves, locked up at a known share of their friction, on segments that follow them."""
     for string, row in strings:
         point = row.point
-        if point is None or point.status != SteadyStatus.LOCKED_UP or point.shape == "none":
+        if point is None or row.arrival != NOT or point.shape == "none":
             continue
         if np.isfinite(point.locked_up_at):
             yield string, point
