@@ -57,6 +57,9 @@ class RigSpec(Table):
     In a run in time a "stiff" `drive` turns the top as planned whatever the torque; "speed_control" and "impedance" are
     motors with inertia and a controller, whose settings are in `control`. With an `autodriller` the block follows
     `bit.weight_on_bit`, by the hook load, in place of the `speed` of a drilling operation, which gives its duration.
+
+    `hoist_capacity` [N] is the largest reading of the weight indicator that the hoist lifts, block included, and
+    `largest_torque` [N*m] that of the drive. A note says where more is needed; they do not limit what is computed.
     """
 
     block_weight: units.Force = 0.0
@@ -64,6 +67,8 @@ class RigSpec(Table):
     sheave_efficiency: units.Efficiency = 1.0
     torque_offset: units.Torque = 0.0
     torque_per_rpm: units.Torque = 0.0
+    hoist_capacity: units.PositiveForce | None = None
+    largest_torque: units.PositiveTorque | None = None
     feed: Literal["auto", "long_segment", "stands"] = "auto"
     stand_length: units.PositiveLength = 28.5
     connection_time: units.PositiveTime = 60.0

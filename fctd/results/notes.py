@@ -10,6 +10,7 @@ from dataclasses import asdict, dataclass
 from typing import Any, Final, NamedTuple
 
 from fctd.arrays import Array
+from fctd.case.rig import RigSpec
 from fctd.mechanics.query import Walls
 from fctd.model.drillstring import String
 from fctd.results.buckling import Buckling
@@ -26,6 +27,12 @@ class Meaning(NamedTuple):
 
 MEANINGS: Final = {
     **{limit.code: Meaning(limit.headline, limit.remedy) for limit in LIMITS},
+    "hoist": Meaning(
+        "the hoist cannot lift the string", "lower friction factor or weight, or check rig.hoist_capacity"
+    ),
+    "drive": Meaning(
+        "the drive cannot turn the string", "lower friction factor or bit torque, or check rig.largest_torque"
+    ),
     "buckling": Meaning(
         "the string is buckled, and its segments are too long to bend that way", "use shorter segments there"
     ),
@@ -153,6 +160,18 @@ def limit_notes(worst: Array, string: String, walls: Walls) -> tuple[Note, ...]:
             text = limit.text(share, Place(*at), string.sections[section], where)
             found.append(note_of(limit.code, text, share, place))
     return tuple(found)
+
+
+def rig_notes(rig: RigSpec, indicator: float, torque: float) -> tuple[Note, ...]:
+    """Notes on a rig that is too weak for a reading of the weight indicator [N], or for a drive torque [N m]."""
+    found = []
+    if rig.hoist_capacity is not None:
+        text = f"the weight indicator reads {indicator / 1e3:.0f} kN, the hoist lifts {rig.hoist_capacity / 1e3:.0f} kN"
+        found.append(note_beyond("hoist", text, indicator, rig.hoist_capacity))
+    if rig.largest_torque is not None:
+        text = f"the drive torque is {abs(torque) / 1e3:.1f} kN·m, the drive has {rig.largest_torque / 1e3:.1f} kN·m"
+        found.append(note_beyond("drive", text, abs(torque), rig.largest_torque))
+    return tuple(note for note in found if note is not None)
 
 
 def homogenised(buckling: Buckling) -> Note:

@@ -26,7 +26,7 @@ from fctd.model.torsion import axial_period_of
 from fctd.results.buckling import Buckling
 from fctd.results.ledger import LOSSES
 from fctd.results.limits import LIMITS, WORST, find_shares
-from fctd.results.notes import Note, as_metadata, from_metadata, limit_notes, under_resolved
+from fctd.results.notes import Note, as_metadata, from_metadata, limit_notes, rig_notes, under_resolved
 from fctd.results.profile import Loads, hanging_along
 from fctd.results.run_notes import (
     OF_THE_WALL,
@@ -90,15 +90,15 @@ class Guards(Restorable):
 
     def check_record(
         self, bit_depth: float, pull: tuple[float, float], loads: Loads, walls: Walls, buckling: Buckling,
-        row: Mapping[str, float], turning: tuple[float, float] = (0.0, 0.0),
+        row: Mapping[str, float], turning: tuple[float, float] = (0.0, 0.0), readings: tuple[float, float] = (0.0, 0.0),
     ) -> None:  # fmt: skip
         """Keep the notes of a record; loads are means over its interval, row is its row of the ledger.
 
         pull : mean hook load of the record, and the least of its steps [N]; turning : rotation at the top [rad/s] and
-        mean torque [N m].
+        mean torque [N m]; readings : of the weight indicator [N] and of the drive torque [N m].
         """
         run = self.run
-        for note in self._of_limits(loads, walls, pull[0]):
+        for note in (*self._of_limits(loads, walls, pull[0]), *rig_notes(run.case.rig, *readings)):
             self._keep(note, bit_depth)
         self._keep(under_resolved(buckling), bit_depth)
         self._check_hookload(bit_depth, *pull)

@@ -112,8 +112,12 @@ class Recorder(Restorable):
         )
         row = ledger.entry(self.run.S, self.run.top, self.run.segments, self.start, self.energy())
         self.ledger.append({"time_s": self.last_time, **row})
-        pulls, turning = (hookload, self.history[-1]["hookload_min_N"]), (spin, torque)
-        self.guards.timed(self.guards.check_record, self.run.bit_depth, pulls, loads, walls, buckling, row, turning)
+        record = self.history[-1]
+        pulls, turning = (hookload, record["hookload_min_N"]), (spin, torque)
+        shown = record["weight_indicator_N"], record["drive_torque_N_m"]
+        self.guards.timed(
+            self.guards.check_record, self.run.bit_depth, pulls, loads, walls, buckling, row, turning, shown
+        )
         self._keep_segments(loads, walls, limits)
         low, high = sorted((before, self.run.bit_depth))
         passed = [depth for depth in self.wanted if low - SAME_DEPTH <= depth <= high + SAME_DEPTH]

@@ -21,7 +21,7 @@ from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling
 from fctd.results.columns import IN_CHART, Column
 from fctd.results.display import MAIN, html_table, load_rows
 from fctd.results.limits import WORST
-from fctd.results.notes import Note, homogenised, limit_notes
+from fctd.results.notes import Note, homogenised, limit_notes, rig_notes
 from fctd.results.profile import profile_table
 from fctd.results.status import SteadyStatus
 from fctd.steady.continuation import CONVERGED, NOT_FINITE
@@ -145,9 +145,9 @@ class Equilibrium:
         if not self.answered:
             return ()
         shape = self._shape
-        found: tuple[Note, ...] = ()
+        found = rig_notes(self.case.rig, self.weight_indicator, self.drive_torque)
         if shape.numbers[NOTED]:
-            found = limit_notes(shape.numbers[SHARES:].reshape(-1, WORST), shape.laid.string, shape.walls)
+            found = (*limit_notes(shape.numbers[SHARES:].reshape(-1, WORST), shape.laid.string, shape.walls), *found)
         if self.method != HOMOGENISED:
             return found
         # How deep its long segments lie in the wall says nothing of the string's waves.

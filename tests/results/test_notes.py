@@ -233,3 +233,16 @@ def test_a_buckled_string_on_long_segments_is_noted_at_its_upper_end() -> None:
     assert "helical from 540 to 1500 m, where segments of 10 m cannot bend that way" in note.text
     assert "segments of at most 2.5 m would" in note.text
     assert notes.under_resolved(replace(buckled, longest=0.0)) is None
+
+
+@pytest.mark.parametrize(("share", "codes"), [(1.02, []), (0.98, ["hoist", "drive"])])
+def test_a_rig_that_is_too_weak_is_noted(share: float, codes: list[str]) -> None:
+    """The limits at 2 % more and less than what the row needs: block and string, torque and offset."""
+    needs: dict[str, Any] = {"block_weight": 200e3, "torque_offset": 500.0}
+    given = {"mud": {"rotational_damping": 2.0}}
+    free = equilibrium(make_case(rig=needs, **given), "rotate_off_bottom", 900.0, rpm=60)
+    assert free.weight_indicator > free.hookload + 199e3
+    limits = {"hoist_capacity": share * free.weight_indicator, "largest_torque": share * free.drive_torque}
+    point = equilibrium(make_case(rig=needs | limits, **given), "rotate_off_bottom", 900.0, rpm=60)
+    assert [note.code for note in point.notes] == codes
+    assert point.hookload == free.hookload

@@ -37,6 +37,11 @@ RAISED: dict[str, tuple[set[str], dict[str, Any]]] = {
     "a soft wall and weak steel": (
         {"penetration", "yield", "tensile_capacity"}, well(BUILD, WEAK, trip(450, 452), wellbore=SOFT),
     ),
+    "a weak rig": (
+        {"hoist", "drive"},
+        well(BUILD, [pipe(None, None, segment_length=28.5)], rotation(450, 1, ramp=0.5),
+             rig={"hoist_capacity": 1e5, "largest_torque": 50.0}),
+    ),
     "a sharp bend in long segments": (
         {"joint"},
         well([[0, 0, 0], [200, 0, 0], [240, 60, 0], [600, 60, 0]], [pipe(None, None, outer=0.06, inner=0.04,
