@@ -59,7 +59,8 @@ class RigSpec(Table):
     `bit.weight_on_bit`, by the hook load, in place of the `speed` of a drilling operation, which gives its duration.
 
     `hoist_capacity` [N] is the largest reading of the weight indicator that the hoist lifts, block included, and
-    `largest_torque` [N*m] that of the drive. A note says where more is needed; they do not limit what is computed.
+    `largest_torque` [N*m] that of the drive; slips grip the uppermost pipe along `slip_length` [m]. A note says where
+    more is needed; they do not limit what is computed.
     """
 
     block_weight: units.Force = 0.0
@@ -69,6 +70,7 @@ class RigSpec(Table):
     torque_per_rpm: units.Torque = 0.0
     hoist_capacity: units.PositiveForce | None = None
     largest_torque: units.PositiveTorque | None = None
+    slip_length: units.PositiveLength | None = None
     feed: Literal["auto", "long_segment", "stands"] = "auto"
     stand_length: units.PositiveLength = 28.5
     connection_time: units.PositiveTime = 60.0

@@ -12,7 +12,9 @@ from typing import Any, Final, NamedTuple
 from fctd.arrays import Array
 from fctd.case.rig import RigSpec
 from fctd.mechanics.query import Walls
+from fctd.model.capacity import Body
 from fctd.model.drillstring import String
+from fctd.model.section import Section
 from fctd.results.buckling import Buckling
 from fctd.results.limits import LIMITS, Place
 from fctd.results.profile import place_in_words
@@ -32,6 +34,9 @@ MEANINGS: Final = {
     ),
     "drive": Meaning(
         "the drive cannot turn the string", "lower friction factor or bit torque, or check rig.largest_torque"
+    ),
+    "slips": Meaning(
+        "slips would crush the uppermost pipe", "use longer slips, stronger pipe at the top, or check rig.slip_length"
     ),
     "buckling": Meaning(
         "the string is buckled, and its segments are too long to bend that way", "use shorter segments there"
@@ -162,8 +167,11 @@ def limit_notes(worst: Array, string: String, walls: Walls) -> tuple[Note, ...]:
     return tuple(found)
 
 
-def rig_notes(rig: RigSpec, indicator: float, torque: float) -> tuple[Note, ...]:
-    """Notes on a rig that is too weak for a reading of the weight indicator [N], or for a drive torque [N m]."""
+def rig_notes(rig: RigSpec, indicator: float, torque: float, top: Section, hanging: float) -> tuple[Note, ...]:
+    """Notes on a rig that is too weak for a reading of the weight indicator [N], or for a drive torque [N m].
+
+    Also where slips crush the uppermost pipe, of a section ``top``, by the weight ``hanging`` in them [N].
+    """
     found = []
     if rig.hoist_capacity is not None:
         text = f"the weight indicator reads {indicator / 1e3:.0f} kN, the hoist lifts {rig.hoist_capacity / 1e3:.0f} kN"
@@ -171,6 +179,13 @@ def rig_notes(rig: RigSpec, indicator: float, torque: float) -> tuple[Note, ...]
     if rig.largest_torque is not None:
         text = f"the drive torque is {abs(torque) / 1e3:.1f} kN·m, the drive has {rig.largest_torque / 1e3:.1f} kN·m"
         found.append(note_beyond("drive", text, abs(torque), rig.largest_torque))
+    if rig.slip_length is not None and hanging > 0:
+        most = Body(2 * top.outer, 2 * top.inner, top.yield_strength).tension_in_slips(rig.slip_length)
+        text = (
+            f"{hanging / 1e3:.0f} kN hang in slips, which crush the uppermost pipe at {most / 1e3:.0f} kN by Reinhold "
+            "and Spiri (1959), tests find up to a fifth less"
+        )
+        found.append(note_beyond("slips", text, hanging, most))
     return tuple(note for note in found if note is not None)
 
 

@@ -245,7 +245,7 @@ EVERYWHERE: Final = frozenset({
             "joint.tool_joint_length", "joint.tool_joint_diameter", "joint.tool_joint_inner",
         )
     ),
-    "mud.density", "rig.hoist_capacity", "rig.largest_torque", "rig.block_weight",
+    "mud.density", "rig.hoist_capacity", "rig.largest_torque", "rig.slip_length", "rig.block_weight",
     "rig.guide_friction", "rig.sheave_efficiency", "rig.torque_offset",
     "rig.torque_per_rpm", "contact.damping", "solver.step", "solver.shape_damping", "solver.buckling",
     "solver.resolve_work", "record.interval", "record.profile_at",

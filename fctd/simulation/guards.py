@@ -90,15 +90,19 @@ class Guards(Restorable):
 
     def check_record(
         self, bit_depth: float, pull: tuple[float, float], loads: Loads, walls: Walls, buckling: Buckling,
-        row: Mapping[str, float], turning: tuple[float, float] = (0.0, 0.0), readings: tuple[float, float] = (0.0, 0.0),
+        row: Mapping[str, float], turning: tuple[float, float] = (0.0, 0.0),
+        readings: tuple[float, float, float] = (0.0, 0.0, 0.0),
     ) -> None:  # fmt: skip
         """Keep the notes of a record; loads are means over its interval, row is its row of the ledger.
 
         pull : mean hook load of the record, and the least of its steps [N]; turning : rotation at the top [rad/s] and
-        mean torque [N m]; readings : of the weight indicator [N] and of the drive torque [N m].
+        mean torque [N m]; readings : of the weight indicator [N] and of the drive torque [N m], and what hangs in the
+        slips [N].
         """
-        run = self.run
-        for note in (*self._of_limits(loads, walls, pull[0]), *rig_notes(run.case.rig, *readings)):
+        run, (indicator, drive, hanging) = self.run, readings
+        top = run.string.sections[run.string.component[0]]
+        of_the_rig = rig_notes(run.case.rig, indicator, drive, top, hanging)
+        for note in (*self._of_limits(loads, walls, pull[0]), *of_the_rig):
             self._keep(note, bit_depth)
         self._keep(under_resolved(buckling), bit_depth)
         self._check_hookload(bit_depth, *pull)

@@ -114,7 +114,7 @@ class Recorder(Restorable):
         self.ledger.append({"time_s": self.last_time, **row})
         record = self.history[-1]
         pulls, turning = (hookload, record["hookload_min_N"]), (spin, torque)
-        shown = record["weight_indicator_N"], record["drive_torque_N_m"]
+        shown = record["weight_indicator_N"], record["drive_torque_N_m"], hookload if upper_end.in_slips else 0.0
         self.guards.timed(
             self.guards.check_record, self.run.bit_depth, pulls, loads, walls, buckling, row, turning, shown
         )

@@ -145,9 +145,12 @@ class Equilibrium:
         if not self.answered:
             return ()
         shape = self._shape
-        found = rig_notes(self.case.rig, self.weight_indicator, self.drive_torque)
+        kind, string = KINDS[self.operation], shape.laid.string
+        hanging = 0.0 if kind.direction or kind.on_bottom else self.hookload
+        top = string.sections[string.component[0]]
+        found = rig_notes(self.case.rig, self.weight_indicator, self.drive_torque, top, hanging)
         if shape.numbers[NOTED]:
-            found = (*limit_notes(shape.numbers[SHARES:].reshape(-1, WORST), shape.laid.string, shape.walls), *found)
+            found = (*limit_notes(shape.numbers[SHARES:].reshape(-1, WORST), string, shape.walls), *found)
         if self.method != HOMOGENISED:
             return found
         # How deep its long segments lie in the wall says nothing of the string's waves.

@@ -246,3 +246,23 @@ def test_a_rig_that_is_too_weak_is_noted(share: float, codes: list[str]) -> None
     point = equilibrium(make_case(rig=needs | limits, **given), "rotate_off_bottom", 900.0, rpm=60)
     assert [note.code for note in point.notes] == codes
     assert point.hookload == free.hookload
+
+
+@pytest.mark.parametrize(("length", "codes"), [(16.5, []), (10.0, ["slips"])])
+def test_slips_that_crush_the_uppermost_pipe_are_noted(length: float, codes: list[str]) -> None:
+    """5 in S-135 premium: 403,000 lbf in slips of 16.5 in; the string weighs 390,000.  A moving row has no note."""
+    weak = pipe(None, None, segment_length=100.0, outer=4.8552 * 0.0254, inner=4.276 * 0.0254, yield_strength=930.8e6)
+    heavy = weak | {"linear_mass": 390e3 * 4.4482216 / 9.80665 / 900}
+    case = make_case(components=[heavy], rig={"slip_length": f"{length} in"})
+    assert [note.code for note in equilibrium(case, "rotate_off_bottom", 900.0, rpm=60).notes] == codes
+    assert equilibrium(case, "trip_out", 900.0).notes == ()
+
+
+def test_a_string_that_hangs_in_crushing_slips_is_noted_in_a_run() -> None:
+    """While a stand is added."""
+    weak = pipe(None, None, segment_length=28.5, yield_strength=60e6)
+    hung = make_case(
+        components=[weak], operations=[trip(900, 930, speed=1.0)],
+        rig={"feed": "stands", "slip_length": 0.1, "connection_time": 1.0},
+    )  # fmt: skip
+    assert "slips" in {note.code for note in simulate(hung).notes}
