@@ -20,7 +20,7 @@ class JointSpec(Table):
     Tool joints touch the wall, and the body hangs between them.
     """
 
-    length: units.PositiveLength
+    length: units.JointLength
     tool_joint_length: units.PositiveLength
     tool_joint_diameter: units.Diameter
     tool_joint_inner: units.Bore | None = None

@@ -296,6 +296,10 @@ PositiveRpm = Annotated[float, Quantity(dimension=ROTATION, above=0.0, at_most=M
 MeasuredDepth = Annotated[float, Quantity(dimension=LENGTH)]
 Length = Annotated[float, Quantity(dimension=LENGTH, at_least=0.0)]
 PositiveLength = Annotated[float, Quantity(dimension=LENGTH, above=0.0)]
+# A joint of range 3 has up to 14 m.
+JointLength = Annotated[
+    float, Quantity(dimension=LENGTH, above=0.0, at_most=20.0, likely_units=(LikelyUnit(20, 60, " ft"),))
+]
 WIDEST: Final = 5.0  # [m]: no well is wider
 DIAMETER_UNITS: Final = (LikelyUnit(WIDEST, 60, " in"), LikelyUnit(60, 1500, " mm"))
 Bore = Annotated[float, Quantity(dimension=LENGTH, at_least=0.0, at_most=WIDEST, likely_units=DIAMETER_UNITS)]

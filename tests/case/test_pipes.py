@@ -17,6 +17,7 @@ from fctd.case.raw_case import checked
 from fctd.case.string import ComponentSpec
 
 NC50 = "5 in 19.5 S-135 NC50"
+JOINT = {"length": 9.5, "tool_joint_length": 0.5, "tool_joint_diameter": 0.16}
 PREMIUM = PipeName(5.0, 19.5, None, "S-135", "nc50", 0.8)
 
 
@@ -154,6 +155,13 @@ def test_a_stored_component_is_read_as_it_was() -> None:
         ({"pipe": NC50, "inner_diameter": "6 in"}, 'inner_diameter = "6 in": expected a diameter below outer_diameter'),
         ({"pipe": NC50, "yield_strength": "S-136"}, "expected a stress, or the grade S-135"),
         ({"name": "x", "inner_diameter": 0.05}, "outer_diameter is missing"),
+        (
+            {"pipe": NC50, "joint": {**JOINT, "length": 31.5}},
+            "joint.length = 31.5: expected a length above 0 and at most 20 m (31.5 looks like '31.5 ft')",
+        ),
+        ({"pipe": NC50, "joint": {**JOINT, "tool_joint_length": 21}}, "less than half of a joint, 9.5 m"),
+        ({"pipe": NC50, "joint": {**JOINT, "tool_joint_diameter": "5 in"}}, "expected more than outer_diameter"),
+        ({"pipe": NC50, "joint": {**JOINT, "tool_joint_inner": 0.2}}, "expected a diameter below tool_joint_diameter"),
     ],
 )
 def test_a_wrong_component_is_refused(keys: dict[str, Any], message: str) -> None:
