@@ -128,6 +128,12 @@ def test_a_component_takes_from_its_pipe_what_it_does_not_say() -> None:
     assert own.yield_strength == strength_of("G-105")
 
 
+def test_one_key_of_the_joint_may_be_given() -> None:
+    longer = component(pipe=NC50, joint={"length": "45 ft"}).joint
+    assert longer is not None
+    assert (longer.length, longer.tool_joint_length) == pytest.approx((45 * 0.3048, 21 * INCH))
+
+
 def test_wear_takes_the_steel_from_outside() -> None:
     new, worn = component(pipe=NC50), component(pipe=f"{NC50}, premium")
     assert worn.outer_diameter == pytest.approx(4.8552 * INCH)

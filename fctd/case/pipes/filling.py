@@ -27,7 +27,10 @@ def filled(raw: Mapping[str, Any]) -> Mapping[str, Any]:
     given = {key: value for key, value in raw.items() if value is not None}
     if pipe.yield_strength is None and "yield_strength" not in given:
         raise InputError(f"{pipe.name} with its grade, such as 'N-80', or yield_strength", key="pipe", value=text)
-    return {**_keys_of(pipe), **given}
+    of_pipe = _keys_of(pipe)
+    if isinstance(joint := given.get("joint"), Mapping):
+        given["joint"] = {**of_pipe.get("joint", {}), **joint}
+    return {**of_pipe, **given}
 
 
 def _keys_of(pipe: Pipe) -> dict[str, Any]:
