@@ -2,12 +2,13 @@
 
 import pytest
 
+from fctd.cli.options import screen
 from fctd.cli.pipes import found_by
 from tests.commands import Command
 
 
 def test_the_table_has_name_numbers_and_page(cli: Command, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("COLUMNS", "200")
+    monkeypatch.setattr(screen, "_width", 200)
     said = cli("pipes", "nc50", "premium", "--units", "field").out
     row = next(line.split() for line in said.splitlines() if "premium" in line)
     assert row[:6] == ["5", "in", "19.5", "S-135", "NC50,", "premium"]
@@ -16,7 +17,7 @@ def test_the_table_has_name_numbers_and_page(cli: Command, monkeypatch: pytest.M
 
 
 def test_numbers_are_not_cut_on_a_usual_screen(cli: Command, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("COLUMNS", "80")
+    monkeypatch.setattr(screen, "_width", 80)
     said = cli("pipes", "5", "S-135").out
     assert "…" not in said
     assert "41.7" in said
