@@ -9,6 +9,7 @@ from itertools import count, islice
 import numpy as np
 import pandas as pd
 
+from fctd.results.status import RunStatus
 from fctd.steady.feed import End
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts.fed_strings import (
@@ -30,7 +31,7 @@ from validation.parts.fed_strings import (
     solved,
     trips,
 )
-from validation.parts.slid_strings import LONGEST, slide
+from validation.parts.slid_strings import LONGEST, Slid, slide
 
 LIMITS, STEPPED = 30, 30  # strings at their limit, half of them trips; trips by the stepper
 BELOW, ABOVE = 0.95, 1.05  # of the friction at lock-up, on the same mesh
@@ -98,9 +99,14 @@ def stepped(context: Context, locked: list[Locked]) -> Rows:
                 "share_of_limit_percent": 100 * share, "status": slow.status, "fed_m": slow.fed,
                 "bit_follows_percent": 100 * slow.share, "push_weights": slow.push,
                 "apart_percent": 100 * abs(fast.push - slow.push) / max(abs(slow.push), 1.0),
-                "stepper": ARRIVES if slow.slides else NOT, "fast": ARRIVES if fast.slides else NOT,
+                "stepper": _stepped(slow), "fast": _stepped(fast),
                 "feed": _fed(feeding, at),
             }  # fmt: skip
+
+
+def _stepped(of: Slid) -> str:
+    """Whether a string arrives by the stepper: one whose push grows until a joint bends beyond the model does not."""
+    return ARRIVES if of.slides and of.status != RunStatus.UNSTABLE else NOT
 
 
 def run(context: Context) -> Outcome:
