@@ -143,13 +143,16 @@ class Case(Table):
 
     def quoting(self, error: InputError) -> InputError:
         """The error with the value as the user wrote it, where the error is about a key that he wrote."""
-        for key in (error.key, error.key.replace(".contact_diameter", ".outer_diameter")):
+        others = (".contact_diameter", ".joint.tool_joint_diameter", ".pipe", ".outer_diameter")
+        for key in (error.key, *(error.key.replace(".contact_diameter", other) for other in others)):
             try:
                 written = look_up(self._written.raw, *split_key(key))
             except InputError:
                 return error  # about no key of a case
             if isinstance(written, str | int | float) and error.file is None:
-                return InputError(error.expected, key=key, value=written, more=error.more)
+                of_pipe = key.endswith(".pipe") and key != error.key
+                expected = f"a diameter of {error.expected}, not {error.value}" if of_pipe else error.expected
+                return InputError(expected, key=key, value=written, more=error.more)
         return error
 
     def check_depths(self) -> None:

@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 
 from fctd.case import units
 from fctd.case.errors import InputError, Table, exclusive
-from fctd.case.pipes.filling import filled
+from fctd.case.pipes.filling import STEEL, filled
 from fctd.case.pipes.grades import YieldStrength
 
 # A component is short, as stabilisers, reamers and bits are, up to so many times the diameter with which it touches.
@@ -27,8 +27,8 @@ class JointSpec(Table):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        if self.tool_joint_length >= 0.5 * self.length:
-            raise InputError(f"less than half of a joint, {self.length:g} m", key="tool_joint_length")
+        if self.tool_joint_length > 0.25 * self.length:
+            raise InputError(f"at most a quarter of a joint of {self.length:g} m", key="tool_joint_length")
         if self.tool_joint_inner is not None and self.tool_joint_inner >= self.tool_joint_diameter:
             raise InputError("a diameter below tool_joint_diameter", key="tool_joint_inner")
         return self
@@ -83,7 +83,7 @@ class ComponentSpec(Table):
     linear_mass: units.PositiveLinearMass | None = None
     youngs_modulus: units.PositiveStress = 206.8e9
     poisson_ratio: units.PoissonRatio = 0.3
-    density: units.PositiveDensity = 7850.0
+    density: units.PositiveDensity = STEEL
     yield_strength: YieldStrength = 931e6  # of S-135, the strongest grade of API 5DP
     axial_stiffness: units.PositiveAxialStiffness | None = None  # EA
     bending_stiffness: units.PositiveBendingStiffness | None = None  # EI
@@ -109,6 +109,9 @@ class ComponentSpec(Table):
             raise InputError(f"at least outer_diameter, {self.outer_diameter:g} m", key="contact_diameter")
         if self.joint is not None and self.joint.tool_joint_diameter <= self.outer_diameter:
             raise InputError(f"more than outer_diameter, {self.outer_diameter:g} m", key="joint.tool_joint_diameter")
+        if self.joint is not None and self.contact_diameter < self.joint.tool_joint_diameter:
+            least = self.joint.tool_joint_diameter
+            raise InputError(f"at least joint.tool_joint_diameter, {least:g} m", key="contact_diameter")
         if self.contact == "point" and self.length is None:
             raise InputError("sleeve, for a component without a length", key="contact", value=self.contact)
         return self

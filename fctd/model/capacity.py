@@ -10,8 +10,9 @@ from dataclasses import dataclass
 from typing import Final
 
 from fctd.case.pipes.catalogue import Pipe
+from fctd.case.pipes.grades import KSI
 
-PSI: Final = 6894.757293168361  # [Pa]
+PSI: Final = KSI / 1e3  # [Pa]
 SHEAR: Final = 0.577  # of the yield strength, API's 1/√3
 THINNEST: Final = 0.875  # of the nominal wall, of new pipe
 # The wedge of a slip: its taper, 9° 27′ 45″, and the friction of its back; Reinhold & Spiri (1959).

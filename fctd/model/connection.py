@@ -5,12 +5,13 @@ from functools import cache
 from typing import Final, NamedTuple
 
 from fctd.case.pipes.catalogue import INCH, Pipe, connection_of, table
+from fctd.case.pipes.grades import KSI
 
 # Friction of thread and shoulder, half the angle of the thread; yield strength of tool joints [Pa] (API Spec 7-1);
 # share of the yield torque to make up to at most.
 FRICTION: Final = 0.08
 FLANK: Final = math.radians(30.0)
-YIELD_STRENGTH: Final = 120e3 * 6894.757293168361
+YIELD_STRENGTH: Final = 120 * KSI
 MAKE_UP = 0.6
 
 

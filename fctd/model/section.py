@@ -19,7 +19,8 @@ class Section(NamedTuple):
     shear κGA [N], outer, inner and contact radius [m], yield_strength [Pa], eccentricity of the mass [m]; point : 1 for
     a component that touches at a point, 0 for a sleeve; compressibility : strain along by pressure on all sides [1/Pa];
     joint, tool_joint : lengths of a joint of pipe and of its tool joint [m], 0 where they are not given; make_up :
-    largest make-up torque of its tool joints [N m], infinite where it is not known.
+    largest make-up torque of its tool joints [N m], infinite where it is not known; body_weight : of its body alone,
+    buoyed [N/m].
     """
 
     mass: float
@@ -40,6 +41,7 @@ class Section(NamedTuple):
     joint: float = 0.0
     tool_joint: float = 0.0
     make_up: float = math.inf
+    body_weight: float = 0.0
 
 
 def shear_coefficient(outer: float, inner: float, poisson: float) -> float:
@@ -77,12 +79,16 @@ def section_of(component: ComponentSpec, outside: float, inside: float | None = 
     if mass is None:
         mass = component.density * area * (1 + share * (larger - 1))
 
+    def weight_of(mass: float) -> float:
+        buoyed: float = mass * GRAVITY * (1 - outside / component.density)
+        return buoyed + (inside - outside) * GRAVITY * np.pi * a * a
+
     def given(value: float | None, computed: float) -> float:
         return computed if value is None else value
 
     return Section(
         mass=mass,
-        weight=mass * GRAVITY * (1 - outside / component.density) + (inside - outside) * GRAVITY * np.pi * a * a,
+        weight=weight_of(mass),
         axial_inertia=0.5 * mass * (a * a + b * b),
         tilt_inertia=0.25 * mass * (a * a + b * b),
         EA=given(component.axial_stiffness, modulus * area / (1 - share * (1 - 1 / larger))),
@@ -99,6 +105,7 @@ def section_of(component: ComponentSpec, outside: float, inside: float | None = 
         joint=0.0 if joint is None else joint.length,
         tool_joint=0.0 if joint is None else joint.tool_joint_length,
         make_up=_make_up(component),
+        body_weight=weight_of(min(component.density * area, mass)),
     )
 
 

@@ -15,7 +15,7 @@ from typing import Final
 import numpy as np
 
 from fctd.mechanics.jit import entry, inlined
-from fctd.model.string_rows import CONTACT_RADIUS, EI, JOINT, OUTER, POINT, TOOL_JOINT, WEIGHT
+from fctd.model.string_rows import BODY_WEIGHT, CONTACT_RADIUS, EI, JOINT, OUTER, POINT, TOOL_JOINT
 from fctd.results.buckling import course_of, tangent_of
 
 # Columns of a row: largest bending moment of the pipe there [N m]; share of the way to the wall that its body takes,
@@ -100,6 +100,13 @@ def bend_body(tension, own, stiffness, joint, tool_joint, room, kx, ky, kz, qx, 
     return max(at_end, in_middle), max(towards, 0.0) / room
 
 
+@inlined
+def beside(joints, end, middle, j):
+    """A load of the joints at contact point j, as ``profile.at_contacts`` has it."""
+    below = joints[j + 1] if j + 1 < len(joints) else end
+    return 0.5 * (joints[j] + below) if middle[j] else below
+
+
 @entry
 def find_hanging(bends, top_md, md, in_hole, tension, bit_tension, bending, middle, component, sections, rows):
     """Update rows (n + 1, HANGING_COLUMNS) of the top and the n contact points given hole, string and loads.
@@ -110,10 +117,8 @@ def find_hanging(bends, top_md, md, in_hole, tension, bit_tension, bending, midd
     k = 0
     for i in range(len(md) + 1):
         j = max(i - 1, 0)
-        below = bending[i] if i < len(md) else 0.0
-        pull_below = tension[i] if i < len(md) else bit_tension
-        own = bending[0] if i == 0 else 0.5 * (bending[j] + below) if middle[j] else below
-        pull = tension[0] if i == 0 else 0.5 * (tension[j] + pull_below) if middle[j] else pull_below
+        own = beside(bending, 0.0, middle, j) if i else bending[0]
+        pull = beside(tension, bit_tension, middle, j) if i else tension[0]
         rows[i, MOMENT], rows[i, TAKEN], rows[i, ASSUMED] = own, 0.0, 0.0
         row = sections[component[j]]
         joint, tool_joint, room = row[JOINT], row[TOOL_JOINT], row[CONTACT_RADIUS] - row[OUTER]
@@ -122,7 +127,7 @@ def find_hanging(bends, top_md, md, in_hole, tension, bit_tension, bending, midd
         s = md[j] if i else top_md
         k = course_of(bends, k, s)
         tx, ty, tz, bx, by, bz = tangent_of(bends, k, s)
-        weight = row[WEIGHT]
+        weight = row[BODY_WEIGHT]  # the wall carries that of the tool joints
         given = joint > 0
         moment, taken = bend_body(
             pull, own, row[EI], joint if given else USUAL, tool_joint if given else USUAL_TOOL_JOINT, room,

@@ -13,7 +13,7 @@ import numpy as np
 
 from fctd.mechanics.jit import entry, inlined
 from fctd.model.section import Section
-from fctd.results.hanging_body import ASSUMED, MOMENT, TAKEN, USUAL
+from fctd.results.hanging_body import ASSUMED, MOMENT, TAKEN, USUAL, beside
 from fctd.results.profile import von_mises
 
 # The wall of the model is a spring.  Steel and rock yield by a millimetre or two; a contact point that is deeper in
@@ -157,15 +157,8 @@ def _section(table, k):
     return Section(
         table[k, 0], table[k, 1], table[k, 2], table[k, 3], table[k, 4], table[k, 5], table[k, 6], table[k, 7],
         table[k, 8], table[k, 9], table[k, 10], table[k, 11], table[k, 12], table[k, 13], table[k, 14], table[k, 15],
-        table[k, 16], table[k, 17],
+        table[k, 16], table[k, 17], table[k, 18],
     )  # fmt: skip
-
-
-@inlined
-def _beside(joints, end, middle, j):
-    """A load of the joints at contact point j, as ``profile.at_contacts`` has it."""
-    below = joints[j + 1] if j + 1 < len(joints) else end
-    return 0.5 * (joints[j] + below) if middle[j] else below
 
 
 @entry
@@ -189,7 +182,7 @@ def find_shares(
         clearance = hole[j] - radius[j]
         distance = math.sqrt(offset[j, 0] ** 2 + offset[j, 1] ** 2 + offset[j, 2] ** 2)
         here = Place(
-            _beside(tension, bit_tension, middle, j), _beside(torque, bit_torque, middle, j), hanging[j + 1, MOMENT],
+            beside(tension, bit_tension, middle, j), beside(torque, bit_torque, middle, j), hanging[j + 1, MOMENT],
             distance - clearance if in_hole else 0.0, clearance, 0.0, hanging[j + 1, TAKEN], hanging[j + 1, ASSUMED],
         )  # fmt: skip
         compare(here, _section(sections, component[j]), j + 1, worst)

@@ -125,6 +125,24 @@ def hole(*rows: tuple[float, float], friction: float = 0.2, kind: str | None = N
             {"components": [{"pipe": "5 in 19.5 G-105", "segments": 20, "linear_mass": "21.92 lb/ft"}]},
         ),
         (
+            "no_tool_joints",
+            {
+                "components": [
+                    {
+                        "pipe": "5 in 19.5 G-105",
+                        "segments": 20,
+                        "joint": {"length": 9.5, "tool_joint_length": 0.5, "tool_joint_diameter": 0.168},
+                    }
+                ]
+            },
+            {"components": [{"pipe": "7 in 29 N-80 casing", "segments": 20}]},
+        ),
+        (
+            "unlike_pipe",
+            {"components": [{"pipe": "5 in 19.5 S-135 NC50", "segments": 20, "outer_diameter": 0.12704}]},
+            {"components": [{"pipe": "5 in 19.5 S-135 NC50", "segments": 20, "inner_diameter": "3 in"}]},
+        ),
+        (
             "floating_string",
             {"components": [pipe(1000, 20, linear_mass=10.7)]},
             {"components": [pipe(1000, 20, linear_mass=10.5)]},

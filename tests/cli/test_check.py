@@ -132,3 +132,29 @@ def test_warnings(case_file: Path, cli: Command) -> None:
     assert err.startswith(f"warning: {case_file}: mud.density: ")
     assert err.count("\n") == 1
     cli(*arguments, "--strict", code=1)
+
+
+@pytest.mark.parametrize(
+    ("keys", "message"),
+    [
+        (
+            'outer_diameter = "5 in"\ninner_diameter = "4.276 in"\n'
+            'joint = {length = "31 ft", tool_joint_length = "21 in", tool_joint_diameter = "9 in"}',
+            'joint.tool_joint_diameter = "9 in": expected at most the hole\'s',
+        ),
+        (
+            'pipe = "9 5/8 in 47 N-80 casing"',
+            "N-80 casing\": expected a diameter of at most the hole's 215.9 mm, not 269.",
+        ),
+        (
+            'pipe = "5 in 19.5 S-135 NC50"\njoint = {tool_joint_diameter = "9 in"}',
+            'tool_joint_diameter = "9 in": expected',
+        ),
+    ],
+)
+def test_what_is_wider_than_the_hole_is_named_by_the_key_that_was_written(
+    keys: str, message: str, cli: Command, case_file: Path
+) -> None:
+    text = case_file.read_text().replace('outer_diameter = "5 in"\ninner_diameter = "4.276 in"', keys)
+    case_file.write_text(text)
+    assert message in cli("check", case_file, code=2).err

@@ -175,6 +175,17 @@ def test_resolved_tool_joints_under_compression_bend_most_in_the_middle_of_the_b
     assert most["bending_moment_N_m"] / (EI * DOGLEG) == pytest.approx(expected, rel=0.01)
 
 
+@pytest.mark.parametrize("kind", ["rotate_off_bottom", "trip_out"])
+def test_the_body_alone_hangs_between_tool_joints(kind: str) -> None:
+    """Level, without tension: w l²/3, w the buoyed weight of the body; the wall carries that of the tool joints."""
+    hole = {"geometry": "arcs", "intervals": [{"to_md": 900, "diameter": 8.5 * INCH, "friction": 0.0}]}
+    part = {"pipe": "5 in 19.5 S-135 NC50", "segment_length": 10.0}
+    case = make_case([[0, 90, 0], [900, 90, 0]], [part], wellbore=hole, mud={"density": 1200.0})
+    moment = equilibrium(case, kind, 800.0).profile["bending_moment_N_m"].iloc[30]
+    body = 9.80665 * math.pi / 4 * (0.127**2 - 0.1086104**2) * (7850 - 1200)
+    assert moment == pytest.approx(body * (0.5 * (31.7 * FOOT - 21 * INCH)) ** 2 / 3, rel=0.005)
+
+
 def test_tool_joints_whose_length_is_not_given_are_noted_where_they_matter() -> None:
     """The stress would be beyond the yield strength; with the joints given, that is said."""
     weak = {"yield_strength": 320e6, "segment_length": 10.0}

@@ -7,7 +7,14 @@ from collections.abc import Sequence
 
 from fctd.case.doubts.hole import hole_size, rough_wall, shoe_below_td, wider_below
 from fctd.case.doubts.rig import no_bit_load, no_block, no_mud, rates, sheaves_and_drive
-from fctd.case.doubts.string import bent_along_gauge, bit_size, does_not_drift, light_string, no_tool_joints
+from fctd.case.doubts.string import (
+    bent_along_gauge,
+    bit_size,
+    does_not_drift,
+    light_string,
+    no_tool_joints,
+    unlike_pipe,
+)
 from fctd.case.doubts.usual import Well, bare_lengths, unusual
 from fctd.case.friction import FrictionSet
 from fctd.case.input_warnings import InputWarning
@@ -37,6 +44,7 @@ def warnings_of(
         *unusual(case),
         *light_string(case.string, case.mud),
         *no_tool_joints(case.string),
+        *unlike_pipe(case.string),
         *bit_size(case.string, case.wellbore, float(stations[-1, 0])),
         *bent_along_gauge(case.string, case.wellbore),
         *does_not_drift(case.string, case.wellbore, min(float(stations[-1, 0]), case.wellbore.intervals[-1].to_md)),

@@ -15,6 +15,7 @@ from fctd.case.rig import MudSpec
 from fctd.case.string import ComponentSpec, StringSpec
 
 LIGHT, HEAVY = 0.85, 2.5  # mass over that of the pipe body: spiral collars have 0.95, tool joints add up to 0.6
+SAME_DIAMETER: Final = 1e-4  # [m], a rounded diameter
 IN_GAUGE: Final = 0.9  # of the hole's diameter: a bit that drilled the hole, or runs in it
 
 
@@ -37,7 +38,7 @@ def light_string(string: StringSpec, mud: MudSpec) -> Doubts:
 def no_tool_joints(string: StringSpec) -> Doubts:
     """A pipe of the catalogue whose tool joints or couplings no page gives, where the case does not give them."""
     for i, part in enumerate(string.components):
-        if part.pipe is None or not lacks_joints(pipe_named(part.pipe)):
+        if part.pipe is None or part.joint is not None or not lacks_joints(pipe_named(part.pipe)):
             continue
         # A stored case has all keys.
         bare = part.contact_diameter == part.outer_diameter
@@ -49,6 +50,22 @@ def no_tool_joints(string: StringSpec) -> Doubts:
                 f"{_name(part)} {' and '.join(filter(None, (lacks, touches)))}: the catalogue has no tool joints or "
                 "couplings for it",
                 "give linear_mass with them, contact_diameter, and joint where its bending matters",
+            )  # fmt: skip
+
+
+def unlike_pipe(string: StringSpec) -> Doubts:
+    """A component whose diameters are not those of the pipe that it names."""
+    for i, part in enumerate(string.components):
+        if part.pipe is None:
+            continue
+        pipe = pipe_named(part.pipe)
+        own, named = (part.outer_diameter, part.inner_diameter), (pipe.worn_outer, pipe.inner)
+        if max(abs(x - y) for x, y in zip(own, named, strict=True)) > SAME_DIAMETER:
+            sizes = [f"{1e3 * outer:.6g} mm by {1e3 * inner:.6g} mm" for outer, inner in (own, named)]
+            yield InputWarning(
+                "unlike_pipe", f"string.components[{i}].pipe",
+                f"{_name(part)} has a body of {sizes[0]}, its pipe one of {sizes[1]}",
+                "leave out the keys that the pipe gives, mass and joint among them, or the pipe",
             )  # fmt: skip
 
 

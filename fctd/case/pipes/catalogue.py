@@ -7,6 +7,7 @@ The tables beside this module have inches, feet and pounds per foot, as they are
 import csv
 import difflib
 import math
+import re
 from collections.abc import Iterator
 from functools import cache
 from importlib.resources import files
@@ -97,6 +98,8 @@ def pipe_named(text: str) -> Pipe:
     if len(found) > 1:
         names = " or ".join(f"'{pipe.name}'" for pipe in found[:NAMED])
         raise InputError(f"one pipe of those that it may be, {names}", value=text)
+    if name.wall_share != 1.0 and found[0].kind != DRILL_PIPE:
+        raise InputError(f"{found[0].name} without a class or wear, which drill pipe alone has", value=text)
     return of_grade(found[0], name.grade)._replace(wall_share=name.wall_share)
 
 
@@ -128,12 +131,12 @@ def table(name: str) -> list[dict[str, str]]:
 @cache
 def connection_of(word: str) -> str:
     """The name by which the catalogue calls a connection, "4 1/2 IF" as "NC50"; in lower case without blanks."""
-    plain = "".join(word.lower().split())
+    plain = _plain(word)
     return next((_plain(row["name"]) for row in table("connections") if _plain(row["alias"]) == plain), plain)
 
 
 def _plain(word: str) -> str:
-    return "".join(word.lower().split())
+    return re.sub(r"[\s-]", "", word.lower())
 
 
 def _drill_pipe() -> Iterator[Pipe]:

@@ -6,7 +6,7 @@ from typing import Any, Final
 
 from fctd.case.errors import InputError
 from fctd.case.pipes.catalogue import Pipe, pipe_named
-from fctd.case.pipes.names import CASING, TUBING
+from fctd.case.pipes.names import CASING, EXAMPLE, TUBING
 
 STEEL: Final = 7850.0  # [kg/m³]
 
@@ -17,9 +17,7 @@ def filled(raw: Mapping[str, Any]) -> Mapping[str, Any]:
     if text is None:
         return raw
     if not isinstance(text, str):
-        raise InputError(
-            "the name of a pipe in quotes, such as '5 in 19.5 S-135 NC50, premium'", key="pipe", value=text
-        )
+        raise InputError(f"the name of a pipe in quotes, such as {EXAMPLE}", key="pipe", value=text)
     try:
         pipe = pipe_named(text)
     except InputError as error:
@@ -30,6 +28,8 @@ def filled(raw: Mapping[str, Any]) -> Mapping[str, Any]:
     of_pipe = _keys_of(pipe)
     if isinstance(joint := given.get("joint"), Mapping):
         given["joint"] = {**of_pipe.get("joint", {}), **joint}
+        if given["joint"] != of_pipe.get("joint"):  # else what touches and weighs would be other tool joints
+            of_pipe = {key: of_pipe[key] for key in of_pipe if key not in ("contact_diameter", "linear_mass")}
     return {**of_pipe, **given}
 
 

@@ -18,6 +18,7 @@ _KINDS: Final = {
 }  # fmt: skip
 # Share of the wall that is left in the classes of used pipe (API RP 7G).
 CLASSES: Final = {"new": 1.0, "premium": 0.8, "class 2": 0.7}
+_SHORT: Final = re.compile(r"(?<!\S)prem\.?(?!\S)")
 MOST_WEAR: Final = 0.5  # of the wall
 _NUMBER = r"\d+(?:(?:\s+|\s*-\s*)\d+/\d+|\.\d+)?|\d+/\d+|\.\d+"
 _NAME: Final = re.compile(
@@ -25,9 +26,12 @@ _NAME: Final = re.compile(
     rf"(?P<second>{_NUMBER})\s*(?:lbs?/ft|lbf/ft|ppf|#|inch|in\.?|\"|”)?(?P<rest>(?:[\s,].*)?)",
     re.IGNORECASE | re.DOTALL,
 )
-_WORN: Final = re.compile(r"(?P<percent>\d+(?:\.\d+)?)\s*%\s*(?:worn|wear)")
+_WORN: Final = re.compile(
+    r"(?:worn|wear)\s*(?P<percent>\d+(?:\.\d+)?)\s*%|(?<![\d.])(?P<other>\d+(?:\.\d+)?)\s*%\s*(?:worn|wear)"
+)
 _FRACTIONS: Final = str.maketrans(
-    {"½": " 1/2", "¼": " 1/4", "¾": " 3/4", "⅛": " 1/8", "⅜": " 3/8", "⅝": " 5/8", "⅞": " 7/8", "⁄": "/", "–": "-"}
+    {"½": " 1/2", "¼": " 1/4", "¾": " 3/4", "⅛": " 1/8", "⅜": " 3/8", "⅝": " 5/8", "⅞": " 7/8", "⁄": "/"}
+    | {"–": "-", "‑": "-", "″": '"', "”": '"'}
 )
 EXAMPLE: Final = "'5 in 19.5 S-135 NC50, premium'"
 
@@ -49,7 +53,7 @@ class PipeName(NamedTuple):
 
 def parse(text: str) -> PipeName:
     """The parts of a name; raises InputError for a text that is none."""
-    plain = text.translate(_FRACTIONS)
+    plain = re.sub(r"(?<=\d),(?=\d)", ".", text.translate(_FRACTIONS))  # a decimal comma
     found = _NAME.fullmatch(plain)
     if found is None:
         raise InputError(f"size, weight, grade and connection of a pipe, such as {EXAMPLE}", value=text)
@@ -71,8 +75,9 @@ def parse(text: str) -> PipeName:
 
 def class_of(rest: str, text: str) -> tuple[str, float]:
     """The name without its class, and the share of the wall that the class has."""
+    rest = _SHORT.sub("premium", rest)
     if (worn := _WORN.search(rest)) is not None:
-        wear = float(worn["percent"]) / 100
+        wear = float(worn["percent"] or worn["other"]) / 100
         if wear > MOST_WEAR:
             raise InputError(f"at most {100 * MOST_WEAR:g} % of the wall worn off", value=text)
         return rest.replace(worn[0], " "), 1 - wear
