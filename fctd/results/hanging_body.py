@@ -15,12 +15,22 @@ from typing import Final
 import numpy as np
 
 from fctd.mechanics.jit import entry, inlined
-from fctd.model.string_rows import BODY_WEIGHT, CONTACT_RADIUS, EI, JOINT, OUTER, POINT, TOOL_JOINT
+from fctd.model.string_rows import (
+    BODY_WEIGHT,
+    CONTACT_RADIUS,
+    EI,
+    INNER,
+    JOINT,
+    OUTER,
+    POINT,
+    TOOL_JOINT,
+    YIELD_STRENGTH,
+)
 from fctd.results.buckling import course_of, tangent_of
 
 # Columns of a row: largest bending moment of the pipe there [N m]; share of the way to the wall that its body takes,
 # infinite where a compressed body buckles between its tool joints; the moment with joints of ``USUAL`` length where a
-# section has tool joints and does not say how far apart they are [N m].
+# section has tool joints and does not say how far apart they are, 0 where it matters little [N m].
 MOMENT, TAKEN, ASSUMED = range(3)
 HANGING_COLUMNS = 3
 # Length of a joint of range 2, and of its tool joint [m].
@@ -29,6 +39,9 @@ USUAL, USUAL_TOOL_JOINT = 9.5, 0.5
 SMALL: Final = 0.02
 # Beyond this share of π a compressed body has no finite bending.
 FINITE: Final = 0.98
+# Below this share of the yield strength by tension and bending the assumed moment is left out, as it costs a tenth of a
+# row: only torque near the pipe's own limit would bring such a place to yield.
+LITTLE: Final = 0.5
 
 
 @inlined
@@ -101,6 +114,24 @@ def bend_body(tension, own, stiffness, joint, tool_joint, room, kx, ky, kz, qx, 
 
 
 @inlined
+def may_yield(row, tension, own):
+    """Whether usual joints may stress pipe of a section beyond half of its yield strength, by bounds without its place.
+
+    In tension x/tanh x is below 1 + x, and the sag below that of a beam without tension; compression up to x = 1.5
+    raises bending by a half, and the sag by a fifth.
+    """
+    half, free = 0.5 * USUAL, 0.5 * (USUAL - USUAL_TOOL_JOINT)
+    x = math.sqrt(abs(tension) / row[EI]) * free
+    if tension < 0 and x > 1.5:
+        return True
+    raised = 1 + x if tension >= 0 else 1.6
+    most = half / free * own * raised + 0.4 * abs(row[BODY_WEIGHT]) * free * free
+    outer, inner = row[OUTER] * row[OUTER], row[INNER] * row[INNER]
+    normal = (abs(tension) + 4 * most * row[OUTER] / (outer + inner)) / (math.pi * (outer - inner))
+    return normal > LITTLE * row[YIELD_STRENGTH]
+
+
+@inlined
 def beside(joints, end, middle, j):
     """A load of the joints at contact point j, as ``profile.at_contacts`` has it."""
     below = joints[j + 1] if j + 1 < len(joints) else end
@@ -122,13 +153,13 @@ def find_hanging(bends, top_md, md, in_hole, tension, bit_tension, bending, midd
         rows[i, MOMENT], rows[i, TAKEN], rows[i, ASSUMED] = own, 0.0, 0.0
         row = sections[component[j]]
         joint, tool_joint, room = row[JOINT], row[TOOL_JOINT], row[CONTACT_RADIUS] - row[OUTER]
-        if not in_hole or room <= 0 or row[POINT] != 0:
+        given = joint > 0
+        if not in_hole or room <= 0 or row[POINT] != 0 or not (given or may_yield(row, pull, own)):
             continue
         s = md[j] if i else top_md
         k = course_of(bends, k, s)
         tx, ty, tz, bx, by, bz = tangent_of(bends, k, s)
         weight = row[BODY_WEIGHT]  # the wall carries that of the tool joints
-        given = joint > 0
         moment, taken = bend_body(
             pull, own, row[EI], joint if given else USUAL, tool_joint if given else USUAL_TOOL_JOINT, room,
             bx, by, bz, -weight * tz * tx, -weight * tz * ty, weight * (tx * tx + ty * ty),

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from fctd import Case, equilibrium
 from fctd.mechanics.jit import kernel
 from fctd.model.section import section_of
-from fctd.results.hanging_body import bend_body
+from fctd.results.hanging_body import USUAL, USUAL_TOOL_JOINT, bend_body, may_yield
+from fctd.results.profile import von_mises
 from tests.cases import make_case, pipe
 
 INCH, POUND, FOOT = 0.0254, 4.4482216152605, 0.3048
@@ -20,6 +21,7 @@ EI = 30e6 * 6894.757 * math.pi / 64 * ((5 * INCH) ** 4 - (4.276 * INCH) ** 4)
 HALF, ROOM = 180 * INCH, 0.8125 * INCH
 DOGLEG = math.radians(3.25) / (100 * FOOT)
 body = kernel(lambda *given: bend_body(*given))
+matters = kernel(lambda row, tension, own: may_yield(row, tension, own))
 
 
 def factor(tension: float, dogleg: float = DOGLEG, tool_joint: float = 0.0, weight: float = 0.0) -> tuple[float, float]:
@@ -216,3 +218,23 @@ def test_mass_and_stiffness_are_those_of_body_and_tool_joints() -> None:
     stiffer = (0.168**4 - 0.083**4) / (0.127**4 - 0.07**4)
     assert pytest.approx(9.0 / plain.GJ + 0.5 / (plain.GJ * stiffer)) == 9.5 / section.GJ
     assert (section.EI, section.contact_radius) == (plain.EI, 0.084)
+
+
+@given(
+    tension=st.floats(-150e3, 2e6), curvature=st.floats(0, 0.02), weight=st.floats(0, 600.0),
+    outer=st.floats(0.08, 0.2), wall=st.floats(0.005, 0.03), towards=st.sampled_from([1.0, -1.0]),
+)  # fmt: skip
+def test_what_is_left_out_of_the_assumed_moment_is_below_half_of_the_yield_strength(
+    tension: float, curvature: float, weight: float, outer: float, wall: float, towards: float
+) -> None:
+    """The bounds hold: the stress of tension and bending with usual joints is at most half of the strength."""
+    inner = outer - 2 * wall
+    part = pipe(None, 4, outer=outer, inner=inner, contact_diameter=outer + 0.03, yield_strength=400e6)
+    section = section_of(make_case(components=[part]).string.components[0], 0.0)._replace(body_weight=weight)
+    own = section.EI * curvature
+    if matters(np.array(section), tension, own):
+        return
+    moment, _ = body(
+        tension, own, section.EI, USUAL, USUAL_TOOL_JOINT, 0.015, 0.0, 0.0, curvature, 0.0, 0.0, towards * weight
+    )  # fmt: skip
+    assert von_mises(tension, 0.0, moment, 0.5 * outer, 0.5 * inner) <= 0.5 * 400e6 * (1 + 1e-9)
