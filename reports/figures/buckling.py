@@ -104,3 +104,36 @@ def statuses(tables: Tables, ax: Axes) -> None:
     style.rows_downwards(ax, list(share.index))
     ax.set_xlabel("share of the rows that did not converge, %")
     style.legend_above(ax, columns=3)
+
+
+@figure(
+    "fed_limits",
+    name="shapes",
+    caption=(
+        "Strings beside their limit: where they lie round the hole and how hard they press, in the full run each that "
+        "arrives by feed and not by the stepper, or the other way round; in the quick run one that is fed."
+    ),
+)
+def beside_limits(tables: Tables) -> Canvas:
+    """Contact angle on the left, contact force on the right, over measured depth; a row for each string."""
+    table = tables["shapes"]
+    names = list(table["string"].unique())
+    canvas, axes = style.subplots(0.4 + 2.2 * len(names), len(names), 2, squeeze=False)
+    for (angle, force), name in zip(axes, names, strict=True):
+        of_string = table[table["string"] == name]
+        for index, by in enumerate(of_string["by"].unique()):
+            shape = of_string[of_string["by"] == by]
+            around = (shape["contact_angle_deg"] + 90) % 360 - 90
+            angle.plot(shape["md_m"], around, ".", color=style.COLOURS[index], markersize=2.5)
+            touching = shape[shape["contact_force_N"] > 0]
+            force.plot(
+                touching["md_m"], touching["contact_force_N"] / 1e3, ".", color=style.COLOURS[index], markersize=2.5,
+                label=by,
+            )  # fmt: skip
+        angle.set(xlabel="measured depth, m", ylabel="contact angle")
+        angle.set_yticks(style.SIDES, style.SIDE_LABELS)
+        angle.set_title(name, loc="left")
+        force.set(yscale="log", xlabel="measured depth, m", ylabel="contact force, kN")
+        style.plain_log_ticks(force.yaxis)
+        force.legend(markerscale=3)
+    return canvas

@@ -11,12 +11,14 @@ from random import Random
 from typing import Any, NamedTuple
 
 import numpy as np
+import pandas as pd
 
 from fctd import Case, Equilibrium
 from fctd.case.errors import InputError
 from fctd.mechanics import state
 from fctd.model import layouts
 from fctd.model.operations import steady_rates
+from fctd.model.wellbore import hole_frame
 from fctd.results.buckling import NOT_BUCKLED
 from fctd.results.status import SteadyStatus
 from fctd.steady.attempts import TOO_MUCH
@@ -26,6 +28,7 @@ from fctd.steady.continuation import CONVERGED
 from fctd.steady.equilibrium import Solver
 from fctd.steady.feed import ARRIVING, End, FedString, Start
 from fctd.steady.problem import Allowance, Problem, Share
+from fctd.steady.tangent import NORMAL_FORCE
 from fctd.steady.torque_drag import with_friction
 from validation.cases.wells import real_well
 from validation.harness.study import Context
@@ -229,6 +232,7 @@ class Feeding:
         problem.bit_torque = torque
         self.problem = self._problem(as_found(case, point), point)
         self.problem.at_axis = 1
+        self.share = AT_REST
 
     @staticmethod
     def _problem(case: Case, point: Equilibrium) -> Problem:
@@ -238,8 +242,23 @@ class Feeding:
     def at(self, share: float, arriving: float = ARRIVING) -> End:
         """How feeding ends at a share of the friction, off bottom and then onto it, with the work of a row."""
         string, end = self._fed(share, arriving)
+        self.share = Share(share, 0.0)
         string.let_go()
         return end
+
+    def profile(self) -> pd.DataFrame:
+        """The shape in which feeding ended last: measured depth, angle from the high side and force of each contact."""
+        contacts = self.problem.reactions(self.share).contacts
+        walls = self.problem.walls(contacts)
+        high, right = hole_frame(self.problem.hole.at(walls.md)[1])
+        up, aside = np.sum(walls.offset * high, axis=1), np.sum(walls.offset * right, axis=1)
+        return pd.DataFrame(
+            {
+                "md_m": walls.md,
+                "contact_angle_deg": np.degrees(np.arctan2(aside, up)) % 360,
+                "contact_force_N": contacts[:, NORMAL_FORCE],
+            }
+        )
 
     def _fed(self, share: float, arriving: float = ARRIVING) -> tuple[FedString, End]:
         """A string that was fed, and how that ended."""

@@ -2,6 +2,8 @@
 
 from typing import NamedTuple
 
+import pandas as pd
+
 from fctd import Case, Simulation
 from fctd.case.operations import KINDS
 from fctd.steady.equilibrium import Solver
@@ -19,13 +21,14 @@ RECORDED = 0.05  # [m] fed between two records
 
 
 class Slid(NamedTuple):
-    """How a string ended: status of the run, share of the feed that the bit moves, push in weights of the string, and
-    the length fed [m]."""
+    """How a string ended: status of the run, share of the feed that the bit moves, push in weights of the string, the
+    length fed [m], and its profile."""
 
     status: str
     share: float
     push: float
     fed: float
+    profile: pd.DataFrame
 
     @property
     def slides(self) -> bool:
@@ -55,7 +58,7 @@ def slide(case: Case, kind: str, depth: float, speed: float = SPEED, settles: bo
     fed, md, push = records[-1]
     before, stood, _ = next(row for row in records if row[0] >= fed - LAST)
     share = (md - stood) / (fed - before) if fed > before else 0.0
-    return Slid(str(simulation.status), share, push, fed - begins)
+    return Slid(str(simulation.status), share, push, fed - begins, simulation.result().profile)
 
 
 def _has_settled(records: list[tuple[float, float, float]], begins: float) -> bool:

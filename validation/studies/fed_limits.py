@@ -5,10 +5,12 @@ The strings are those of ``fed_strings``, and trips in of short strings with mor
 
 from collections.abc import Iterator
 from itertools import count, islice
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
+from fctd import Equilibrium
 from fctd.results.status import RunStatus
 from fctd.steady.feed import End
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
@@ -37,6 +39,7 @@ LIMITS, STEPPED = 30, 30  # strings at their limit, half of them trips; trips by
 BELOW, ABOVE = 0.95, 1.05  # of the friction at lock-up, on the same mesh
 OTHER, OTHER_BELOW, OTHER_ABOVE = 0.7, 0.92, 1.08  # share of the segments, and of the friction on that mesh
 SPEEDS = 0.2, 0.4  # of the stepper [m/s]
+SHAPE = ["string", "by", "md_m", "contact_angle_deg", "contact_force_N"]  # columns of shapes
 QUICK = 1744  # index of the one trip of the quick run, which takes ten seconds
 
 
@@ -80,12 +83,13 @@ def _reason(row: Row) -> str:
     return row.raised if row.point is None else row.point.message
 
 
-@table_of_rows
-def stepped(context: Context, locked: list[Locked]) -> Rows:
+def stepped(context: Context, locked: list[Locked]) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Locked trips in, by the stepper at two speeds on both sides of their limit, and by feed.
 
-    Those with the fewest segments.
+    Those with the fewest segments.  The second table has both shapes of each row in which they differ.
     """
+    rows: list[dict[str, Any]] = []
+    shapes = [pd.DataFrame(columns=SHAPE)]
     for string, point in context.progress(sorted(locked, key=lambda of: len(of[1].profile))[:STEPPED], "stepper"):
         kind, depth, cut = string.operation, string.bit_depth, as_found(string.case, point)
         feeding = Feeding(string.case, point)
@@ -93,7 +97,7 @@ def stepped(context: Context, locked: list[Locked]) -> Rows:
         for share in (BELOW, ABOVE):
             at = share * limit
             slow, fast = (slide(scaled(cut, at), kind, depth, speed, settles=True) for speed in SPEEDS)
-            yield {
+            rows.append({
                 "well": string.well, "bit_depth_m": depth, "segments": len(point.profile) - 1,
                 "limit_friction": string.friction * limit,
                 "share_of_limit_percent": 100 * share, "status": slow.status, "fed_m": slow.fed,
@@ -101,7 +105,26 @@ def stepped(context: Context, locked: list[Locked]) -> Rows:
                 "apart_percent": 100 * abs(fast.push - slow.push) / max(abs(slow.push), 1.0),
                 "stepper": _stepped(slow), "fast": _stepped(fast),
                 "feed": _fed(feeding, at),
-            }  # fmt: skip
+            })  # fmt: skip
+            if rows[-1]["stepper"] != rows[-1]["feed"]:
+                name = f"{string.well}, {depth:.0f} m, {100 * share:.0f} % of its limit"
+                for by, profile in (("stepper", slow.profile), ("feed", feeding.profile())):
+                    shapes.append(_shape(profile, name, f"{by}: {rows[-1][by]}"))
+    return pd.DataFrame(rows), pd.concat(shapes, ignore_index=True)
+
+
+def both_sides(string: Drawn, point: Equilibrium, limits: pd.Series) -> pd.DataFrame:
+    """The shapes in which feed ends below and above the limit of a string."""
+    feeding, at = Feeding(string.case, point), limits["fed_locks_up_at"] / string.friction
+    shapes = []
+    for share in (BELOW, ABOVE):
+        by = f"{100 * share:.0f} %: {_fed(feeding, share * at)}"
+        shapes.append(_shape(feeding.profile(), f"{string.well}, {string.bit_depth:.0f} m", by))
+    return pd.concat(shapes, ignore_index=True)
+
+
+def _shape(profile: pd.DataFrame, string: str, by: str) -> pd.DataFrame:
+    return profile.assign(string=string, by=by)[SHAPE]
 
 
 def _stepped(of: Slid) -> str:
@@ -122,8 +145,10 @@ def run(context: Context) -> Outcome:
         locked = [*islice(locked_of(_any(context)), LIMITS - LIMITS // 2), *tripped[: LIMITS // 2]]
     tables = {"limits": limits(context, locked)}
     display = {"limits": "Locked strings at shares of their limit"}
-    if not context.quick:
-        tables |= {"stepped": stepped(context, tripped)}
+    if context.quick:
+        tables["shapes"] = both_sides(*locked[0], tables["limits"].iloc[0])
+    else:
+        tables["stepped"], tables["shapes"] = stepped(context, tripped)
         display |= {"stepped": "Locked trips in, by the stepper and by feed"}
     return Outcome(tables=tables, checks=_checks(tables), notes=_notes(), display=display)
 

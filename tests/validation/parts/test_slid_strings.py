@@ -1,5 +1,6 @@
 """Strings that are fed in time: what slides, and when the hook load has settled."""
 
+import pandas as pd
 import pytest
 
 from validation.parts import slid_strings
@@ -26,7 +27,7 @@ def test_a_hook_load_has_not_settled_before_ten_metres_are_fed() -> None:
 
 @pytest.mark.parametrize(("share", "push", "slides"), [(1.0, 0.5, True), (0.4, 0.5, False), (1.0, 1.1 * MOST, False)])
 def test_a_string_slides_where_its_bit_follows_and_no_rig_is_exceeded(share: float, push: float, slides: bool) -> None:
-    assert Slid("completed", share, push, FED).slides == slides
+    assert Slid("completed", share, push, FED, pd.DataFrame()).slides == slides
 
 
 def test_the_stepper_has_no_bit_on_bottom() -> None:
