@@ -326,10 +326,13 @@ def locked_of(strings: Iterable[tuple[Drawn, Row]]) -> Iterator[Locked]:
 
 
 def trips(context: Context) -> Iterator[tuple[Drawn, Row]]:
-    """Short strings that buckle as they trip in, with more friction; without end."""
+    """Short strings that buckle as they trip in, with more friction; without end.
+
+    They hang at the rotary table, as the stepper moves them by stands.
+    """
     for index in count():
         string = drawn(context, index, MORE_FRICTION)
-        if string.operation != "trip_in" or string.bit_depth > SHORT:
+        if string.operation != "trip_in" or string.bit_depth > SHORT or string.case.string.top_md > 0:
             continue
         row = solved(string)
         if row is not None and row.is_buckled:
