@@ -5,6 +5,7 @@
     for record in fctd.Simulation(case): print(record["hookload_N"])
     point = fctd.equilibrium(case, operation="trip_out", bit_depth="8000 ft")
     chart = fctd.torque_drag(case, operation=["trip_in", "trip_out"], bit_depths=range(1750, 2451, 10))
+    left = fctd.margin_table(case, bit_depths=[2450])
     found = fctd.monitor(case, "readings.csv")
     finer = fctd.refine(case, tolerance=0.01).case
     fitted = fctd.calibrate(case, "measured.csv", ["friction.open", "rig.block_weight"]).case
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from fctd.results.tables import SimulationResult, open_result
     from fctd.simulation.simulate import Simulation, simulate
     from fctd.steady.equilibrium import equilibrium
+    from fctd.steady.margin_table import margin_table
     from fctd.steady.refine import Refinement, refine
     from fctd.steady.steady_string import Equilibrium
     from fctd.steady.torque_drag import torque_drag
@@ -46,6 +48,7 @@ _HOMES = {
     "equilibrium": "fctd.steady.equilibrium",
     "find_contacts": "fctd.model.wellbore",
     "load_case": "fctd.case.load",
+    "margin_table": "fctd.steady.margin_table",
     "monitor": "fctd.monitoring.monitor",
     "open_result": "fctd.results.tables",
     "predict": "fctd.calibration.calibrate",
@@ -69,6 +72,7 @@ __all__ = [
     "equilibrium",
     "find_contacts",
     "load_case",
+    "margin_table",
     "monitor",
     "open_result",
     "predict",

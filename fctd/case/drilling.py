@@ -59,9 +59,12 @@ class MotorSpec(Table):
 class BitSpec(Table):
     """Loads on the bit while drilling: weight on bit [N], bit torque [N*m]. A run in time that drills needs `rock`,
     and one that slides also a `motor`.
+
+    `overpull` [N] is the force with which a stuck bit holds a string that is pulled up, in steady strings alone.
     """
 
     weight_on_bit: units.Force = 0.0
     torque: units.PositiveOrZeroTorque = 0.0
+    overpull: units.Force = 0.0
     rock: RockSpec | None = Field(default=None, description="a table [bit.rock]")
     motor: MotorSpec | None = Field(default=None, description="a table [bit.motor]")

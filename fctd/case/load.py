@@ -16,6 +16,7 @@ from fctd.case.errors import MISSING, InputError, Table, naming, nearest
 from fctd.case.hole import FileName, WellboreSpec
 from fctd.case.input_file import read_toml
 from fctd.case.input_warnings import InputWarning
+from fctd.case.limits import LimitsSpec
 from fctd.case.operations import KINDS, Operation
 from fctd.case.raw_case import (
     apply_override,
@@ -50,6 +51,7 @@ class Case(Table):
     string: StringSpec = Field(description="a table [string]")
     mud: MudSpec = MudSpec()
     rig: RigSpec = RigSpec()
+    limits: LimitsSpec = LimitsSpec()
     bit: BitSpec = BitSpec()
     contact: ContactSpec = ContactSpec()
     solver: SolverSpec = SolverSpec()

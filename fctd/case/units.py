@@ -283,9 +283,11 @@ PoissonRatio = Annotated[float, Number(at_least=0.0, at_most=0.5)]
 Share = Annotated[float, Number(noun="a share", at_least=0.0, at_most=1.0)]
 Ratio = Annotated[float, Number(noun="a ratio", at_least=0.0, at_most=10.0)]
 PositiveRatio = Annotated[float, Number(noun="a ratio", above=0.0, at_most=10.0)]
+DesignFactor = Annotated[float, Number(noun="a design factor", at_least=1.0, at_most=10.0)]
 LossFactor = Annotated[float, Number(noun="a loss factor", at_least=0.0, at_most=0.2)]
 Work = Annotated[float, Number(noun="a number of iterations times segments", above=0.0)]
 Efficiency = Annotated[float, Number(noun="an efficiency", above=0.0, at_most=1.0)]
+PositiveShare = Annotated[float, Number(noun="a share", above=0.0, at_most=1.0)]
 # Hoists run at 1 to 3 m/s and top drives at up to 300 rev/min; a model at a thousandth of the size turns some thirty
 # times as fast.  A larger number is in the wrong unit.
 FASTEST: Final = 10.0  # [m/s]

@@ -32,6 +32,7 @@ GROUPS: dict[str, dict[str, dict[str, str]]] = {
     "Steady strings": {
         "chart": {"bit_depth": "--depths"},
         "equilibrium": {},
+        "limits": {"bit_depths": "--depths"},
         "refine": {"bit_depth": "--bit-depth"},
     },
     "Strings in time": {"simulate": {}, "status": {}},

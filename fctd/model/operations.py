@@ -132,6 +132,21 @@ MOVING = frozenset(name for name, kind in KINDS.items() if kind.direction)
 TURNING = frozenset(name for name, kind in KINDS.items() if kind.may_turn)
 
 
+class BitLoads(NamedTuple):
+    """Weight on the bit [N], below 0 where a stuck bit holds the string, and torque at the bit [N m]."""
+
+    weight: float
+    torque: float
+
+
+def bit_loads(case: Case, kind: str) -> BitLoads:
+    """Loads of a case at the bit in an operation of a kind."""
+    of, bit = KINDS[kind], case.bit
+    if of.on_bottom:
+        return BitLoads(bit.weight_on_bit, bit.torque)
+    return BitLoads(0.0 - bit.overpull if of.direction < 0 else 0.0, 0.0)
+
+
 def steady_rates(
     case: Case, kind: str, speed: float | str | None = None, rpm: float | str | None = None
 ) -> SteadyRates:

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from fctd.case.operations import KINDS
+from fctd.model.operations import bit_loads
 from fctd.plots.facts import heading_of_profile
 from fctd.plots.palette import DARK, LOOKS, PALETTE, QUIET
 from fctd.plots.style import RC, Sheet
@@ -126,7 +127,7 @@ def _handles(point: Equilibrium, path: pd.DataFrame) -> list[Artist]:
 
 def _weight_on_bit(point: Equilibrium) -> float:
     """Weight on bit of the operation [N]."""
-    return point.case.bit.weight_on_bit if KINDS[point.operation].on_bottom else 0.0
+    return max(bit_loads(point.case, point.operation).weight, 0.0)
 
 
 def _touches_bottom(path: pd.DataFrame) -> float:

@@ -1,16 +1,18 @@
 """Limits of a string: of each, which share of it a place of the string uses, what its note says, and what helps.
 
-A limit is one entry of ``LIMITS``.  Its share is plain arithmetic of the loads in a place and of the section there,
-compiled into one walk along the string (``find_shares``), which steady strings and the records of runs take.  Notes
-(notes.py), their headlines in charts and the probabilities of a sweep go through the same table.
+A limit is one entry of ``LIMITS``.  Load and capacity are plain arithmetic of the loads in a place and of the section
+there, compiled into one walk along the string (``find_shares``), which steady strings and the records of runs take.
+Notes (notes.py), their headlines in charts, margins (steady/margins.py) and the probabilities of a sweep go through the
+same table.
 """
 
 import math
 from collections.abc import Callable
-from typing import Any, Final, NamedTuple
+from typing import Any, Final, Literal, NamedTuple
 
 import numpy as np
 
+from fctd.case.limits import LimitsSpec
 from fctd.mechanics.jit import entry, inlined
 from fctd.model.section import Section
 from fctd.results.hanging_body import ASSUMED, MOMENT, TAKEN, USUAL, beside
@@ -42,27 +44,38 @@ class Place(NamedTuple):
 
 
 class Limit(NamedTuple):
-    """A limit, of which a place of a string uses a share.
+    """A limit: a load of a place of the string, and what the place bears of it.
 
-    code, headline, remedy : of its note.  share : of a place and its section, above 1 beyond the limit; compiled.
-    text : the note's sentence, by the share, the place, its section and where it is.
+    code, headline, remedy : of its note.  load, capacity : of a place and its section, SI; compiled; a place uses the
+    share load/capacity, above 1 beyond the limit.  unit : of both, empty for a ratio.  text : the note's sentence, by
+    the share, the place, its section and where it is.  asked : the key of ``LimitsSpec`` that sets how much of the
+    capacity may be used.  of_steel : whether the string fails there, so that it counts among its margins.
     """
 
     code: str
     headline: str
     remedy: str
-    share: Callable[[Any, Any], Any]
+    unit: str
+    load: Callable[[Any, Any], Any]
+    capacity: Callable[[Any, Any], Any]
     text: Callable[[float, Place, Section, str], str]
+    asked: Literal["", "design_factor", "torque_share"] = ""
+    of_steel: bool = False
+
+    def scale(self, limits: LimitsSpec) -> float:
+        """By how many times the share counts more, for how near to the limit the string may be loaded; at least 1."""
+        if self.asked == "design_factor":
+            return limits.design_factor
+        return 1 / limits.torque_share if self.asked == "torque_share" else 1.0
 
 
 stress_of = inlined(von_mises)
 LIMITS: Final[tuple[Limit, ...]] = (
     Limit(
         "penetration", "the string is pressed deep into the wall",
-        "check friction factor, bends and the wall's stiffness",
-        lambda at, section: (
-            at.penetration / min(max(SHARE_OF_CLEARANCE * at.clearance, LEAST_PENETRATION), MOST_PENETRATION)
-        ),
+        "check friction factor, bends and the wall's stiffness", "m",
+        lambda at, section: at.penetration,
+        lambda at, section: min(max(SHARE_OF_CLEARANCE * at.clearance, LEAST_PENETRATION), MOST_PENETRATION),
         lambda share, at, section, where: (
             f"a contact point at {where} is {1e3 * at.penetration:.3g} mm deep in the wall, "
             f"where the clearance is {1e3 * at.clearance:.3g} mm"
@@ -70,33 +83,37 @@ LIMITS: Final[tuple[Limit, ...]] = (
     ),
     Limit(
         "yield", "the steel is stressed beyond its yield strength", "check friction factor, bends and yield_strength",
-        lambda at, section: (
-            stress_of(at.tension, at.torque, at.bending, section.outer, section.inner) / section.yield_strength
-        ),
+        "Pa",
+        lambda at, section: stress_of(at.tension, at.torque, at.bending, section.outer, section.inner),
+        lambda at, section: section.yield_strength,
         lambda share, at, section, where: (
             f"the stress at {where} is {share * section.yield_strength / 1e6:.0f} MPa, "
             f"the yield strength {section.yield_strength / 1e6:.0f} MPa"
         ),
+        "design_factor", of_steel=True,
     ),
     Limit(
         "tool_joints", "tool joints may bend the steel beyond its yield strength, and their distance is not given",
-        "give the component its joint, or a pipe of the catalogue",
+        "give the component its joint, or a pipe of the catalogue", "Pa",
         lambda at, section: (
-            stress_of(at.tension, at.torque, at.assumed, section.outer, section.inner) / section.yield_strength
+            stress_of(at.tension, at.torque, at.assumed, section.outer, section.inner)
             if at.assumed > at.bending
             else 0.0
         ),
+        lambda at, section: section.yield_strength,
         lambda share, at, section, where: (
             f"with tool joints {USUAL:g} m apart the pipe at {where} bends by {at.assumed / 1e3:.3g} kN·m at its tool "
             f"joints, in place of {at.bending / 1e3:.3g} kN·m, and is stressed by "
             f"{share * section.yield_strength / 1e6:.0f} MPa, the yield strength is "
             f"{section.yield_strength / 1e6:.0f} MPa"
         ),
+        "design_factor",
     ),
     Limit(
         "body", "the pipe's body touches the wall between its tool joints, or buckles there",
-        "give tool joints and body as components of their own where the moment matters",
+        "give tool joints and body as components of their own where the moment matters", "",
         lambda at, section: at.taken,
+        lambda at, section: 1.0,
         lambda share, at, section, where: (
             f"the body between tool joints at {where} " + (
                 "is compressed beyond its buckling load"
@@ -107,23 +124,25 @@ LIMITS: Final[tuple[Limit, ...]] = (
     ),
     Limit(
         "make_up", "the torque exceeds the make-up torque of the tool joints, which turn on",
-        "check friction factor and bit torque, or use pipe with stronger tool joints",
-        lambda at, section: abs(at.torque) / section.make_up,
+        "check friction factor and bit torque, or use pipe with stronger tool joints", "N m",
+        lambda at, section: abs(at.torque),
+        lambda at, section: section.make_up,
         lambda share, at, section, where: (
             f"the torque at {where} is {abs(at.torque) / 1e3:.1f} kN·m, the largest make-up torque of the tool joints "
             f"{section.make_up / 1e3:.1f} kN·m"
         ),
+        "torque_share", of_steel=True,
     ),
     Limit(
         "tensile_capacity", "the hook load exceeds the capacity of the uppermost pipe",
-        "check friction factor, bends and yield_strength",
-        lambda at, section: (
-            at.hookload / (section.yield_strength * np.pi * (section.outer**2 - section.inner**2))
-        ),
+        "check friction factor, bends and yield_strength", "N",
+        lambda at, section: at.hookload,
+        lambda at, section: section.yield_strength * np.pi * (section.outer**2 - section.inner**2),
         lambda share, at, section, where: (
             f"the hook load is {at.hookload / 1e3:.0f} kN, the uppermost pipe yields at "
             f"{at.hookload / share / 1e3:.0f} kN"
         ),
+        "design_factor", of_steel=True,
     ),
 )  # fmt: skip
 # Columns of the largest shares (len(LIMITS), WORST): the share, the row of its place, 0 for the top, and the place.
@@ -135,12 +154,13 @@ def _comparison(limits: tuple[Limit, ...]) -> Any:
     """A function that updates the largest shares of limits by those of a place, compiled into its caller."""
     if not limits:
         return inlined(lambda at, section, row, worst: None)
-    others, share_of, k = _comparison(limits[:-1]), inlined(limits[-1].share), len(limits) - 1
+    others, k = _comparison(limits[:-1]), len(limits) - 1
+    load_of, capacity_of = inlined(limits[-1].load), inlined(limits[-1].capacity)
 
     @inlined
     def compare(at, section, row, worst):
         others(at, section, row, worst)
-        share = share_of(at, section)
+        share = load_of(at, section) / capacity_of(at, section)
         if share > worst[k, SHARE]:
             worst[k, SHARE], worst[k, ROW] = share, row
             worst[k, PLACE:] = at

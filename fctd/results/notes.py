@@ -10,6 +10,7 @@ from dataclasses import asdict, dataclass
 from typing import Any, Final, NamedTuple
 
 from fctd.arrays import Array
+from fctd.case.limits import LimitsSpec
 from fctd.case.rig import RigSpec
 from fctd.mechanics.query import Walls
 from fctd.model.capacity import Body
@@ -18,6 +19,8 @@ from fctd.model.section import Section
 from fctd.results.buckling import Buckling
 from fctd.results.limits import LIMITS, Place
 from fctd.results.profile import place_in_words
+
+FULL: Final = LimitsSpec()  # all of each capacity may be used
 
 
 class Meaning(NamedTuple):
@@ -154,16 +157,22 @@ def meanings_of(cells: Iterable[str]) -> dict[str, dict[str, str]]:
     return {code: meaning._asdict() for code, meaning in MEANINGS.items() if code in used}
 
 
-def limit_notes(worst: Array, string: String, walls: Walls) -> tuple[Note, ...]:
-    """Notes on a string beyond a limit of ``LIMITS``; worst : of ``find_shares``; walls : beside its contact points."""
+def limit_notes(worst: Array, string: String, walls: Walls, asked: LimitsSpec = FULL) -> tuple[Note, ...]:
+    """Notes on a string beyond a limit of ``LIMITS``, or nearer to it than is asked for.
+
+    worst : of ``find_shares``; walls : beside its contact points.
+    """
     found = []
     for limit, (share, row, *at) in zip(LIMITS, worst.tolist(), strict=True):
-        if share > 1:
+        scale = limit.scale(asked)
+        if scale * share > 1:
             k = int(row)
             place, section = (float(walls.md[k - 1]) if k else string.top_md), string.component[max(k - 1, 0)]
             where = place_in_words(place, string.bit_depth)
             text = limit.text(share, Place(*at), string.sections[section], where)
-            found.append(note_of(limit.code, text, share, place))
+            if scale > 1:
+                text += f", with limits.{limit.asked} = {getattr(asked, limit.asked):g}"
+            found.append(note_of(limit.code, text, scale * share, place))
     return tuple(found)
 
 
@@ -180,13 +189,18 @@ def rig_notes(rig: RigSpec, indicator: float, torque: float, top: Section, hangi
         text = f"the drive torque is {abs(torque) / 1e3:.1f} kN·m, the drive has {rig.largest_torque / 1e3:.1f} kN·m"
         found.append(note_beyond("drive", text, abs(torque), rig.largest_torque))
     if rig.slip_length is not None and hanging > 0:
-        most = Body(2 * top.outer, 2 * top.inner, top.yield_strength).tension_in_slips(rig.slip_length)
+        most = crushed_at(top, rig.slip_length)
         text = (
             f"{hanging / 1e3:.0f} kN hang in slips, which crush the uppermost pipe at {most / 1e3:.0f} kN by Reinhold "
             "and Spiri (1959), tests find up to a fifth less"
         )
         found.append(note_beyond("slips", text, hanging, most))
     return tuple(note for note in found if note is not None)
+
+
+def crushed_at(top: Section, slip_length: float) -> float:
+    """Weight at which slips of a length [m] crush the uppermost pipe [N]."""
+    return Body(2 * top.outer, 2 * top.inner, top.yield_strength).tension_in_slips(slip_length)
 
 
 def homogenised(buckling: Buckling) -> Note:

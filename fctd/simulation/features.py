@@ -223,6 +223,9 @@ FEATURES: dict[str, Feature] = {
         "damping of the joints", "at most the default", ("solver.joint_damping",), _joint_damping,
     ),
     "loss_factor": Feature("damping of torsion", "0", ("solver.loss_factor",), _key("solver.loss_factor", 0.0)),
+    "overpull": Feature(
+        "a stuck bit, which steady strings have", "0", ("bit.overpull",), _key("bit.overpull", 0.0)
+    ),
     "helical_force": Feature(
         "the force of a helix, which fctd equilibrium and fctd chart have", '"none"',
         ("contact.helical_force",), _at_wall(_key("contact.helical_force", "none")),
@@ -245,6 +248,7 @@ EVERYWHERE: Final = frozenset({
             "joint.tool_joint_length", "joint.tool_joint_diameter", "joint.tool_joint_inner",
         )
     ),
+    "limits.design_factor", "limits.torque_share", "limits.overpull_margin",
     "mud.density", "rig.hoist_capacity", "rig.largest_torque", "rig.slip_length", "rig.block_weight",
     "rig.guide_friction", "rig.sheave_efficiency", "rig.torque_offset",
     "rig.torque_per_rpm", "contact.damping", "solver.step", "solver.shape_damping", "solver.buckling",
@@ -255,7 +259,7 @@ EVERYWHERE: Final = frozenset({
 UNKNOWN_KEYS: Final = "unknown keys"
 
 # Features of FCTD's own stepper.
-OWN = frozenset(FEATURES) - {"helical_force"} | {UNKNOWN_KEYS}
+OWN = frozenset(FEATURES) - {"helical_force", "overpull"} | {UNKNOWN_KEYS}
 # With another contact method: it finds walls, in whose cake nothing is pressed and which begin below the derrick.
 ASKED = OWN - {"no_wall", "cake", "stands", UNKNOWN_KEYS}
 

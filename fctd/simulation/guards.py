@@ -26,7 +26,7 @@ from fctd.model.torsion import axial_period_of
 from fctd.results.buckling import Buckling
 from fctd.results.ledger import LOSSES
 from fctd.results.limits import LIMITS, WORST, find_shares
-from fctd.results.notes import Note, as_metadata, from_metadata, limit_notes, rig_notes, under_resolved
+from fctd.results.notes import FULL, Note, as_metadata, from_metadata, limit_notes, rig_notes, under_resolved
 from fctd.results.profile import Loads, hanging_along
 from fctd.results.run_notes import (
     OF_THE_WALL,
@@ -141,7 +141,8 @@ class Guards(Restorable):
             loads.tension, loads.torque, hanging, loads.bit_tension, loads.bit_torque, hookload, walls.offset,
             walls.radius, state.row(run.S, state.RADIUS, run.segments), *self._judged[1:], self._worst,
         )  # fmt: skip
-        return limit_notes(self._worst, string, walls) if beyond else ()
+        asked = run.case.limits
+        return limit_notes(self._worst, string, walls, asked) if beyond or asked != FULL else ()
 
     def _constants(self) -> tuple[bool, NDArray[np.bool_], NDArray[np.int64], Array]:
         string = self.run.string

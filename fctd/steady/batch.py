@@ -16,10 +16,9 @@ from numpy.typing import NDArray
 
 from fctd.arrays import Array
 from fctd.case.load import Case
-from fctd.case.operations import KINDS
 from fctd.mechanics import state
 from fctd.mechanics.jit import entry, inlined, kernel
-from fctd.model.operations import SteadyRates
+from fctd.model.operations import SteadyRates, bit_loads
 from fctd.model.string_in_hole import damping_of, pressure_of
 from fctd.model.string_rows import EI, WEIGHT, fill_rows, find_contacts
 from fctd.model.wellbore import Wellbore
@@ -151,8 +150,7 @@ def solve_batch(case: Case, hole: Hole, rows: Sequence[Row], work: Workspace) ->
     laid = {id(row.laid): row.laid for row in rows}
     places = {key: k for k, key in enumerate(laid)}
     which = np.array([(places[id(row.laid)], row.friction) for row in rows])
-    bit = {False: (0.0, 0.0), True: (case.bit.weight_on_bit, case.bit.torque)}
-    loads = np.array([(*row.rates, *bit[KINDS[row.operation].on_bottom]) for row in rows], float)
+    loads = np.array([(*row.rates, *bit_loads(case, row.operation)) for row in rows], float)
     packed = _pack(case, list(laid.values()))
     answers = np.zeros((len(rows), ANSWER))
     most = int(np.diff(packed.first).max()) + 1

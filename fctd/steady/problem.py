@@ -9,12 +9,11 @@ from numpy.typing import NDArray
 
 from fctd.arrays import Array
 from fctd.case.load import Case
-from fctd.case.operations import KINDS
 from fctd.mechanics import state
 from fctd.mechanics.contact import FACTOR, FACTOR_AROUND
 from fctd.mechanics.query import WALL_COLUMNS, Walls
 from fctd.model.bent_housings import bent_joints, kink_of
-from fctd.model.operations import SteadyRates
+from fctd.model.operations import SteadyRates, bit_loads
 from fctd.model.wellbore import Wellbore
 from fctd.results.buckling import buckling_along
 from fctd.steady.block_thomas import SIZE, negative_pivots, solve_with_pivoting
@@ -167,9 +166,7 @@ class Problem:
         self.string = laid.string
         self.n = self.string.segments
         self.fed = laid.put(work.S)
-        kind = KINDS[operation]
-        self.weight_on_bit = case.bit.weight_on_bit if kind.on_bottom else 0.0
-        self.bit_torque = case.bit.torque if kind.on_bottom else 0.0
+        self.weight_on_bit, self.bit_torque = bit_loads(case, operation)
         self.weight, self.allowed = limits(
             work.S, self.n, self.string.bit_depth, self.weight_on_bit, self.fed, self._top_length
         )

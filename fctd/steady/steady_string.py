@@ -14,14 +14,14 @@ from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.case.text import counted
 from fctd.model.frames import steady_offsets
-from fctd.model.operations import SteadyRates, drive_torque, weight_indicator
+from fctd.model.operations import SteadyRates, bit_loads, drive_torque, weight_indicator
 from fctd.model.tortuosity import shortfall
 from fctd.model.wellbore import Wellbore
 from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling
 from fctd.results.columns import IN_CHART, Column
 from fctd.results.display import MAIN, html_table, load_rows
 from fctd.results.limits import WORST
-from fctd.results.notes import Note, homogenised, limit_notes, rig_notes
+from fctd.results.notes import FULL, Note, homogenised, limit_notes, rig_notes
 from fctd.results.profile import profile_table
 from fctd.results.status import SteadyStatus
 from fctd.steady.continuation import CONVERGED, NOT_FINITE
@@ -139,6 +139,11 @@ class Equilibrium:
             return UNKNOWN
         return self._shape.buckling if self.case.contact.enabled else NOT_BUCKLED
 
+    @property
+    def shares(self) -> Array:
+        """The largest share of each limit (limits, WORST), of ``find_shares``."""
+        return self._shape.numbers[SHARES:].reshape(-1, WORST)
+
     @cached_property
     def notes(self) -> tuple[Note, ...]:
         """Warnings about the loads; empty where there are no loads."""
@@ -149,8 +154,8 @@ class Equilibrium:
         hanging = 0.0 if kind.direction or kind.on_bottom else self.hookload
         top = string.sections[string.component[0]]
         found = rig_notes(self.case.rig, self.weight_indicator, self.drive_torque, top, hanging)
-        if shape.numbers[NOTED]:
-            found = (*limit_notes(shape.numbers[SHARES:].reshape(-1, WORST), string, shape.walls), *found)
+        if shape.numbers[NOTED] or self.case.limits != FULL:
+            found = (*limit_notes(self.shares, string, shape.walls, self.case.limits), *found)
         if self.method != HOMOGENISED:
             return found
         # How deep its long segments lie in the wall says nothing of the string's waves.
@@ -173,10 +178,10 @@ def steady_string(
     code : of the iteration; negative : number of unstable modes; method : name of the rung that found it (ladder.py).
     """
     kind, numbers = KINDS[operation], answer.numbers
-    on_bottom = (case.bit.weight_on_bit, case.bit.torque) if kind.on_bottom else (0.0, 0.0)
+    at_bit = bit_loads(case, operation)
     shape = Shape(
         hole, laid, numbers[TOP:SHAPE], answer.joints, answer.contacts, answer.walls, numbers[SHAPE:],
-        -on_bottom[0], on_bottom[1],
+        -at_bit.weight, at_bit.torque,
     )  # fmt: skip
     _, iterations, hookload, torque, imbalance, allowed = numbers[:TOP].tolist()
     # The hook load of a horizontal string is 0 within rounding.

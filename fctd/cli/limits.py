@@ -1,0 +1,186 @@
+"""``fctd limits CASE``: how far the string is from its limits, per operation and bit depth."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Final
+
+import numpy as np
+import typer
+from rich.box import SIMPLE_HEAD
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.table import Column, Table
+
+from fctd.case.doubts import warnings_of
+from fctd.case.load import Case, check_bit_depth, naming_file
+from fctd.case.operations import KINDS
+from fctd.case.text import printable
+from fctd.cli.chart import DEPTHS_HELP
+from fctd.cli.options import (
+    CaseFile,
+    Friction,
+    Overrides,
+    Quiet,
+    Strict,
+    bare_length,
+    changes_of,
+    finish,
+    messages,
+    print_written,
+    read_case,
+    refuse_sources,
+    screen,
+    tell,
+)
+from fctd.cli.steady import KIND_HELP, Rpm, Speed, Units, check_table, file_option, in_units, metadata_of, read_drive
+from fctd.model.depths import read_depth, read_depths
+from fctd.results.unit_systems import System, reworded, shown
+from fctd.steady.margin_table import USUAL, margin_table
+from fctd.steady.margins import FATIGUE, MEANINGS, OVERPULL, SET_DOWN, SLIPS, TORQUE
+from fctd.store.tables import write_table
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+SCREEN_ROWS = 24  # of a margin
+# Of each margin, in words, and the columns of what is added at the bit, of the load at the limit and of what is left.
+SHOWN: Final = {
+    OVERPULL: ("pull on a stuck bit", "force_at_bit_N", "hookload_N", "hookload_left_N"),
+    SET_DOWN: ("more weight on the bit", "force_at_bit_N", "hookload_N", "hookload_left_N"),
+    TORQUE: ("more torque at the bit", "torque_at_bit_N_m", "surface_torque_N_m", "surface_torque_left_N_m"),
+    SLIPS: ("weight in the slips", "", "hookload_N", "hookload_left_N"),
+}
+
+
+def limits_command(
+    case_file: CaseFile,
+    operations: Annotated[
+        list[str],
+        typer.Option(
+            "--operation",
+            metavar="KINDS",
+            help=f"{KIND_HELP}; several with commas between them, or all; default: {', '.join(USUAL)}.",
+        ),
+    ] = [],  # noqa: B006 (typer copies it)
+    depths: Annotated[
+        str,
+        typer.Option("--depths", metavar="D or FROM:TO:STEP", help=f"{DEPTHS_HELP} Or one depth, such as shoe."),
+    ] = "td",
+    speed: Speed = None,
+    rpm: Rpm = None,
+    overrides: Overrides = [],  # noqa: B006
+    friction: Friction = None,
+    out: Annotated[Path | None, file_option("--out", "A row for every margin, .csv, .parquet or .xlsx.")] = None,
+    units: Units = "si",
+    quiet: Quiet = False,
+    strict: Strict = False,
+) -> None:
+    """Find how far the string is from its limits: overpull, weight set down, torque, slips, and bending to and fro.
+
+    Loads at the bit grow until the first limit is reached, each as a steady string.  How much of a capacity may be used
+    is set in [limits], and what the rig bears in [rig].
+    """
+    check_table(out)
+    case = read_case(case_file, changes_of(overrides, friction))
+    refuse_sources(case, out, "--out")
+    bare = bare_length(units)
+    bit_depths = read_depths(depths, case, "--depths", bare) if ":" in depths else [_one(depths, case, bare)]
+    names = [name.strip() for text in operations for name in text.split(",")]
+    kinds = list(dict.fromkeys(kind for name in names for kind in (KINDS if name == "all" else [name]))) or list(USUAL)
+    drive = read_drive(speed, rpm, units)
+    warnings = warnings_of(case, kinds, **drive)
+    tell(case, warnings, strict=strict, units=units)
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=messages, disable=quiet, transient=True) as bar:
+        task = bar.add_task("compiling", total=None)
+
+        def show(done: int, total: int) -> None:
+            bar.update(task, description=printable(case.name), completed=done, total=total)
+
+        table = margin_table(case, kinds, bit_depths, **drive, progress=show)
+    written: list[Path] = []
+    try:  # written before anything is printed, as the terminal may be closed
+        if out is not None:
+            metadata = metadata_of(case, units, kinds, drive, warnings)
+            metadata["limits"] = {code: MEANINGS[code] for code in table["limit"].unique() if code in MEANINGS}
+            written += write_table(in_units(units, table), out, metadata)
+    finally:
+        _print(table, case.name, units)
+    print_written(written)
+    finish(bool((table["margin"] != "none").all()), _beyond(table), strict)
+
+
+def _one(depth: str, case: Case, bare: str) -> float:
+    """A single bit depth [m]."""
+    found = read_depth(depth, case, "--depths", bare)
+    with naming_file(case):
+        check_bit_depth(found, *case.depths, "--depths", depth)
+    return found
+
+
+def _beyond(table: "pd.DataFrame") -> list[str]:
+    """The limits that a string is beyond before any load is added."""
+    return sorted(set(table.loc[table["share_used"] > 1, "limit"]))
+
+
+def _print(table: "pd.DataFrame", name: str, units: System) -> None:
+    """Print a table for each operation and margin, and the reasons of rows without a number."""
+    screen.print(printable(name), style="bold", soft_wrap=True)
+    metre = shown("bit_depth_m", units)
+    for (operation, margin), of in table.groupby(["operation", "margin"], sort=False):
+        if margin in SHOWN:
+            screen.print(f"{operation}: {SHOWN[margin][0]}, {shown(SHOWN[margin][2], units).label}")
+            screen.print(_table(of, SHOWN[margin][1:], units))
+    for line in _bending(table, units):
+        screen.print(line, soft_wrap=True)
+    said = table[table["reason"] != "none"]
+    for (operation, limit, reason), of in said.groupby(["operation", "limit", "reason"], sort=False):
+        depths = [f"{depth * metre.factor:.0f}" for depth in of["bit_depth_m"]]
+        span = depths[0] if len(depths) == 1 else f"{depths[0]} to {depths[-1]}"
+        at = f"{operation} at {span} {metre.label} ({len(of)} of {table['bit_depth_m'].nunique()})"
+        what = "" if limit == "none" else f", {limit}"
+        screen.print(f"{at}{what}: {reworded(reason, units)}", soft_wrap=True)
+
+
+def _table(of: "pd.DataFrame", columns: tuple[str, str, str], units: System) -> Table:
+    """The rows of a margin, at evenly spread depths where they are many."""
+    metre = shown("bit_depth_m", units)
+    depths = of["bit_depth_m"].unique()
+    most = max(SCREEN_ROWS // of["limit"].nunique(), 1)
+    picked = depths[np.unique(np.linspace(len(depths) - 1, 0, min(most, len(depths))).round().astype(int))]
+    limits = [row.replace("_", " ") for row in of["limit"]]
+    numbers = [f"bit, {metre.label}", "used, %", "at bit", "at surface", "left"]
+    table = Table(
+        Column("until", no_wrap=True, min_width=max(map(len, limits))),
+        *(Column(name, justify="right", no_wrap=True, min_width=len(name)) for name in numbers),
+        Column("where", no_wrap=True, overflow="ellipsis"), box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
+    )  # fmt: skip
+    for row in of[of["bit_depth_m"].isin(picked)].to_dict("records"):
+        place = "" if np.isnan(row["md_m"]) else f"{row['md_m'] * metre.factor:.0f} {metre.label}"
+        part = "" if row["part"] == "none" else printable(row["part"])
+        table.add_row(
+            row["limit"].replace("_", " "), f"{row['bit_depth_m'] * metre.factor:.0f}",
+            "" if np.isnan(row["share_used"]) else f"{100 * row['share_used']:.0f}",
+            *(_cell(row, column, units) for column in columns),
+            ", ".join(text for text in (place, part) if text),
+        )  # fmt: skip
+    return table
+
+
+def _cell(row: dict[str, Any], column: str, units: System) -> str:
+    if not column or np.isnan(row[column]):
+        return "–"
+    return f"{row[column] * shown(column, units).factor:z.{1 if column.endswith('_N_m') else 0}f}"
+
+
+def _bending(table: "pd.DataFrame", units: System) -> list[str]:
+    """The largest bending to and fro of each operation, as lines."""
+    lines = []
+    metre, stress = shown("bit_depth_m", units), shown("bending_stress_Pa", units)
+    for operation, of in table[table["margin"] == FATIGUE].groupby("operation", sort=False):
+        worst = max(of.to_dict("records"), key=lambda row: row["bending_stress_Pa"])
+        amplitude, often = worst["bending_stress_Pa"] * stress.factor, worst["cycles_per_hour"]
+        place, bit = worst["md_m"] * metre.factor, worst["bit_depth_m"] * metre.factor
+        lines.append(
+            f"{operation}: turning bends the steel to and fro by ±{amplitude:.0f} {stress.label}, {often:.0f} times an "
+            f"hour, at {place:.0f} {metre.label} in {printable(worst['part'])}, bit at {bit:.0f} {metre.label}"
+        )
+    return lines

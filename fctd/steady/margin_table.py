@@ -1,0 +1,78 @@
+"""The margins of several operations at many bit depths, a row for each (margins.py)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, Final
+
+from fctd.case.errors import InputError
+from fctd.case.load import Case, naming_file
+from fctd.case.units import LENGTH, argument
+from fctd.model.operations import rates_of_all
+from fctd.steady.equilibrium import Solver
+from fctd.steady.margins import Margin, margins
+from fctd.steady.torque_drag import FrictionChoice, with_friction
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+# Columns of the table by the fields of a margin.
+COLUMNS: Final = {
+    "margin": "margin", "limit": "limit", "part": "part", "md": "md_m", "share": "share_used",
+    "force": "force_at_bit_N", "hookload": "hookload_N", "hookload_left": "hookload_left_N",
+    "torque": "torque_at_bit_N_m", "surface_torque": "surface_torque_N_m",
+    "surface_torque_left": "surface_torque_left_N_m", "bending_stress": "bending_stress_Pa",
+    "cycles_per_hour": "cycles_per_hour", "reason": "reason",
+}  # fmt: skip
+# What is looked at where no operation is named: pulling, setting down, turning.
+USUAL: Final = ("trip_out", "trip_in", "rotate_off_bottom")
+Progress = Callable[[int, int], None]
+
+
+def margin_table(
+    case: Case,
+    operation: str | Sequence[str] = USUAL,
+    bit_depths: Sequence[float | str] = (),
+    friction: FrictionChoice | None = None,
+    speed: float | str | None = None,
+    rpm: float | str | None = None,
+    progress: Progress | None = None,
+) -> pd.DataFrame:
+    """A row for every margin of every operation and bit depth, SI.
+
+    operation : kind or kinds.  bit_depths [m], or texts with units; without any the depth of the hole.  friction : None
+    for the case's own.  speed [m/s], rpm : see ``equilibrium``.
+
+    Columns: operation, bit_depth_m, and those of ``Margin``: margin (overpull, set_down, torque, slips, fatigue, or
+    none where no steady string was found), limit (the first that is reached), part and md_m (where), share_used (of
+    that limit, without more load), force_at_bit_N and torque_at_bit_N_m (that are added there), hookload_N and
+    surface_torque_N_m at the limit, hookload_left_N and surface_torque_left_N_m until then, bending_stress_Pa (its
+    amplitude) and cycles_per_hour of a string that turns, and reason.  NaN where a number does not apply.
+
+    Raises InputError for unusable input, and where string and hole fit at none of the depths.
+    """
+    import pandas as pd  # slow to import
+
+    with naming_file(case):
+        kinds = [operation] if isinstance(operation, str) else list(operation)
+        depths = [argument(depth, LENGTH, "bit_depths") for depth in bit_depths] or [case.depths[1]]
+        rates = rates_of_all(case, kinds, speed, rpm)
+        solver = Solver(case if friction is None else with_friction(case, friction))
+        rows: list[dict[str, Any]] = []
+        unfit: list[InputError] = []
+        for done, depth in enumerate(depths):
+            try:
+                laid = solver.lay_out(depth)
+            except InputError as error:
+                unfit.append(error)
+                found = [(kind, Margin("none", "none", reason=f"not_possible: {error}")) for kind in kinds]
+            else:
+                found = [(kind, one) for kind in kinds for one in margins(solver, kind, rates[kind], laid)]
+            for kind, one in found:
+                named = {COLUMNS[name]: value for name, value in one._asdict().items()}
+                rows.append({"operation": kind, "bit_depth_m": depth, **named})
+            if progress is not None:
+                progress(done + 1, len(depths))
+        if len(unfit) == len(depths):
+            raise unfit[0]
+    return pd.DataFrame(rows)

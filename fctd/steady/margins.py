@@ -1,0 +1,356 @@
+"""How far a steady string is from its limits: loads at the bit grow until the first limit is reached.
+
+Pulling up, a stuck bit holds the string with an overpull; going down, the string is set down on its bit; turning, a
+torque at the bit holds it.  Every load is a steady string of its own, so that friction, bends and bending stress are
+those of the string under that load.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq
+
+from fctd.case.operations import KINDS
+from fctd.model.operations import SteadyRates, bit_loads
+from fctd.results.buckling import HELICAL, MODES, NEITHER, SINUSOIDAL
+from fctd.results.limits import LIMITS, ROW, SHARE
+from fctd.results.notes import crushed_at
+from fctd.steady.equilibrium import Solver
+from fctd.steady.laid_string import LaidString
+from fctd.steady.steady_string import Equilibrium
+
+# A margin is known within this share of the load, and a load at which the string buckles or stops within the next.
+EXACT, CLOSE = 1e-9, 2e-3
+# Overpull and torque grow from this share of the weakest section's capacity on, by doubling, up to its multiple.
+FIRST, MOST_CAPACITY = 1 / 64, 4.0
+# No more than so many weights of the string are set down.
+MOST_WEIGHT = 2.0
+SNAKING, HELIX, SLACK_OFF, LOCK_UP = "snaking", "helix", "slack_off", "lock_up"
+OVERPULL, SET_DOWN, TORQUE, SLIPS, FATIGUE = "overpull", "set_down", "torque", "slips", "fatigue"
+# What follows first from each limit, in words.
+MEANINGS: Final = {
+    **{limit.code: limit.headline for limit in LIMITS if limit.of_steel},
+    "hoist": "the hoist lifts no more",
+    "drive": "the drive turns no more",
+    "slips": "slips crush the uppermost pipe",
+    SNAKING: "the string snakes",
+    HELIX: "the string winds itself into a helix",
+    SLACK_OFF: "no weight is left at the hook but that of the block",
+    LOCK_UP: "no push moves the bit",
+    FATIGUE: "turning bends the steel to and fro",
+}
+NAN: Final = float("nan")
+
+
+class Margin(NamedTuple):
+    """What is left until a limit, SI; NaN where a number does not apply.
+
+    margin : which load grows; limit : the one that is reached first; part, md : where; share : of the limit that is
+    used already.  force, torque : that are added at the bit; hookload, surface_torque : at the limit, and what is left
+    of them.  bending_stress : its amplitude; cycles_per_hour : of it; reason : why there is no number, or what else is
+    to be said.
+    """
+
+    margin: str
+    limit: str
+    part: str = "none"
+    md: float = NAN
+    share: float = NAN
+    force: float = NAN
+    hookload: float = NAN
+    hookload_left: float = NAN
+    torque: float = NAN
+    surface_torque: float = NAN
+    surface_torque_left: float = NAN
+    bending_stress: float = NAN
+    cycles_per_hour: float = NAN
+    reason: str = "none"
+
+
+class First(NamedTuple):
+    """The limit of which a string uses the largest share, counted as it may be used: code, share, part and depth."""
+
+    code: str
+    share: float
+    part: str
+    md: float
+
+
+def first_limit(point: Equilibrium) -> First:
+    """The limit of the steel that a string uses most."""
+    shape, asked = point._shape, point.case.limits
+    string = shape.laid.string
+    worst, row, code = 0.0, 0, "yield"
+    for limit, found in zip(LIMITS, point.shares, strict=True):
+        share = limit.scale(asked) * float(found[SHARE])
+        if limit.of_steel and share > worst:
+            worst, row, code = share, int(found[ROW]), limit.code
+    md = float(shape.walls.md[row - 1]) if row else string.top_md
+    part = point.case.string.components[int(string.component[max(row - 1, 0)])]
+    return First(code, worst, part.name, md)
+
+
+@dataclass
+class Loaded:
+    """A string of an operation whose loads at the bit grow.
+
+    solver : of its case; rates : of the operation; laid : the string.
+    """
+
+    solver: Solver
+    operation: str
+    rates: SteadyRates
+    laid: LaidString
+
+    def __post_init__(self) -> None:
+        self.own = bit_loads(self.solver.case, self.operation)
+        self.free = self.pulled(0.0) if KINDS[self.operation].direction < 0 else self.pressed(0.0, 0.0)
+
+    def pulled(self, overpull: float) -> Equilibrium:
+        """The string that a stuck bit holds with a force [N]."""
+        return self._solve(self.operation, {"overpull": overpull}, {})
+
+    def pressed(self, weight: float, torque: float, **contact: Any) -> Equilibrium:
+        """The string with more weight on its bit [N], and more torque at it [N m]; contact : other keys of contact."""
+        own_weight, own_torque = max(self.own.weight, 0.0), self.own.torque
+        loads = {"weight_on_bit": own_weight + weight, "torque": own_torque + torque}
+        return self._solve("drill_rotating" if self.rates.spin else "drill_sliding", loads, contact)
+
+    def _solve(self, operation: str, bit: dict[str, float], contact: dict[str, Any]) -> Equilibrium:
+        case = self.solver.case
+        changed: dict[str, Any] = {
+            "bit": case.bit.model_copy(update=bit),
+            # The closed forms say when it buckles, and have the wall force of its waves.
+            "solver": case.solver.model_copy(update={"buckling": "detect"}),
+            "contact": case.contact.model_copy(update={"helical_force": "none"} | contact),
+        }
+        solver = Solver(case.model_copy(update=changed), self.solver.hole, self.solver.work)
+        return solver.solve_string(operation, self.rates, self.laid)
+
+
+def margins(solver: Solver, operation: str, rates: SteadyRates, laid: LaidString) -> Iterator[Margin]:
+    """The margins of a string in an operation.
+
+    The overpull of one that moves up, the weight that can be set down by one that moves down, the torque and the
+    bending to and fro of one that turns, and what slips bear of one that stands still.
+    """
+    loaded, kind, rig = Loaded(solver, operation, rates, laid), KINDS[operation], solver.case.rig
+    if not loaded.free.answered:
+        yield Margin("none", "none", reason=f"{loaded.free.status}: {loaded.free.message}")
+        return
+    if kind.direction < 0:
+        yield _overpull(loaded)
+        if rig.hoist_capacity is not None:
+            yield _hoisted(loaded, rig.hoist_capacity)
+    if kind.direction > 0:
+        yield from _set_down(loaded)
+    if rates.spin > 0:
+        if kind.direction >= 0:
+            yield _turned(loaded)
+            if rig.largest_torque is not None:
+                yield _driven(loaded, rig.largest_torque)
+        yield _bent_to_and_fro(loaded.free, rates.spin)
+    if not kind.direction and not kind.on_bottom and rig.slip_length is not None:
+        yield _in_slips(loaded.free, rig.slip_length)
+
+
+def _overpull(loaded: Loaded) -> Margin:
+    """The overpull at which the first section of the string reaches a limit."""
+    used = first_limit(loaded.free)
+    capacity = _weakest(loaded.laid, "tension")
+
+    def excess(overpull: float) -> float:
+        return _excess(loaded.pulled(overpull))
+
+    found = _root(excess, capacity)
+    if not np.isfinite(found):
+        return Margin(OVERPULL, used.code, used.part, used.md, used.share, reason=_why(used, excess, capacity))
+    return _at_pull(loaded, found, first_limit(loaded.pulled(found)), used.share)
+
+
+def _hoisted(loaded: Loaded, capacity: float) -> Margin:
+    """The overpull at which the weight indicator reads what the hoist lifts."""
+
+    def excess(overpull: float) -> float:
+        return loaded.pulled(overpull).weight_indicator / capacity - 1
+
+    share = loaded.free.weight_indicator / capacity
+    used = First("hoist", share, "none", NAN)
+    found = _root(excess, capacity)
+    if not np.isfinite(found):
+        return Margin(OVERPULL, "hoist", share=share, reason=_why(used, excess, capacity))
+    return _at_pull(loaded, found, used, share)
+
+
+def _at_pull(loaded: Loaded, overpull: float, reached: First, share: float) -> Margin:
+    point, asked = loaded.pulled(overpull), loaded.solver.case.limits.overpull_margin
+    left = point.hookload - loaded.free.hookload
+    lacking = f"less than limits.overpull_margin = {asked / 1e3:g} kN at the hook"
+    return Margin(
+        OVERPULL, reached.code, reached.part, reached.md, share, overpull, point.hookload, left,
+        reason="none" if left >= asked else lacking,
+    )  # fmt: skip
+
+
+def _set_down(loaded: Loaded) -> Iterator[Margin]:
+    """The weights at which a string snakes, winds itself into a helix, yields, leaves no weight at the hook, locks up.
+
+    Beyond buckling its waves have the wall force of the closed forms, and not their bending.  What becomes of a string
+    that turns beyond its helix is not known: it rolls round the hole.
+    """
+    push, string = loaded.solver.case.rig.push, loaded.laid.string
+    most = MOST_WEIGHT * float(string.of("weight") @ string.length)
+
+    def mode(weight: float) -> int:
+        point = loaded.pressed(weight, 0.0)
+        return MODES.index(point.buckling.mode) if point.answered else HELICAL
+
+    def pushed(weight: float) -> Equilibrium:
+        return loaded.pressed(weight, 0.0, helical_force="analytic")
+
+    def arrives(weight: float, hookload: float) -> bool:
+        point = pushed(weight)
+        return point.answered and point.hookload >= hookload
+
+    yield _at_weight(loaded, SNAKING, _last(lambda weight: mode(weight) <= NEITHER, most))
+    yield _at_weight(loaded, HELIX, _last(lambda weight: mode(weight) <= SINUSOIDAL, most))
+    if loaded.rates.spin:
+        return
+    locks = _last(lambda weight: arrives(weight, -np.inf), most)
+    spent = _last(lambda weight: arrives(weight, -push), locks if np.isfinite(locks) else most)
+    spent = spent if np.isfinite(spent) else locks
+    # No rig pushes on from there.
+    bears = _last(lambda weight: first_limit(pushed(weight)).share < 1, spent if np.isfinite(spent) else most)
+    if np.isfinite(bears):
+        yield _at_weight(loaded, first_limit(pushed(bears)).code, bears, helical_force="analytic")
+    yield _at_weight(loaded, SLACK_OFF, spent, helical_force="analytic")
+    yield _at_weight(loaded, LOCK_UP, locks, helical_force="analytic")
+
+
+def _at_weight(loaded: Loaded, code: str, weight: float, **contact: Any) -> Margin:
+    """The margin of a string that is set down with more weight on its bit [N], NaN where no limit was found."""
+    if not np.isfinite(weight):
+        return Margin(SET_DOWN, code, reason=f"not below {MOST_WEIGHT:g} weights of the string")
+    point, beyond = loaded.pressed(weight, 0.0, **contact), loaded.pressed((1 + 2 * CLOSE) * weight, 0.0)
+    is_steel = code not in (SNAKING, HELIX, SLACK_OFF, LOCK_UP)
+    part, md = first_limit(point)[2:] if is_steel else ("none", beyond.buckling.to_md)
+    # The push on a string that locks up grows without bound.
+    hookload = point.hookload if code != LOCK_UP else NAN
+    already = "already so without more weight on the bit"
+    return Margin(
+        SET_DOWN, code, part, md, force=weight, hookload=hookload, hookload_left=loaded.free.hookload - hookload,
+        reason=already if weight == 0 else "none",
+    )  # fmt: skip
+
+
+def _turned(loaded: Loaded) -> Margin:
+    """The torque at the bit at which the first section reaches a limit, under the tension that it has."""
+    used, capacity = first_limit(loaded.free), _weakest(loaded.laid, "torsion")
+
+    def excess(torque: float) -> float:
+        return _excess(loaded.pressed(0.0, torque))
+
+    found = _root(excess, capacity)
+    if not np.isfinite(found):
+        return Margin(TORQUE, used.code, used.part, used.md, used.share, reason=_why(used, excess, capacity))
+    return _at_torque(loaded, found, first_limit(loaded.pressed(0.0, found)), used.share)
+
+
+def _driven(loaded: Loaded, capacity: float) -> Margin:
+    """The torque at the bit at which the drive has no more."""
+
+    def excess(torque: float) -> float:
+        return loaded.pressed(0.0, torque).drive_torque / capacity - 1
+
+    share = loaded.free.drive_torque / capacity
+    used = First("drive", share, "none", NAN)
+    found = _root(excess, capacity)
+    if not np.isfinite(found):
+        return Margin(TORQUE, "drive", share=share, reason=_why(used, excess, capacity))
+    return _at_torque(loaded, found, used, share)
+
+
+def _at_torque(loaded: Loaded, torque: float, reached: First, share: float) -> Margin:
+    at_surface = loaded.pressed(0.0, torque).surface_torque
+    return Margin(
+        TORQUE, reached.code, reached.part, reached.md, share, torque=torque, surface_torque=at_surface,
+        surface_torque_left=at_surface - loaded.free.surface_torque,
+    )  # fmt: skip
+
+
+def _bent_to_and_fro(point: Equilibrium, spin: float) -> Margin:
+    """The largest amplitude of the bending stress of a string that turns, and how often the steel is bent so."""
+    string, profile = point._shape.laid.string, point.profile
+    outer, inner = (np.append(string.of(name)[0], string.of(name)) for name in ("outer", "inner"))
+    stress = profile["bending_moment_N_m"].to_numpy() * outer / (np.pi / 4 * (outer**4 - inner**4))
+    row = int(np.argmax(stress))
+    part = point.case.string.components[int(string.component[max(row - 1, 0)])].name
+    return Margin(
+        FATIGUE, FATIGUE, part, float(profile["md_m"].iloc[row]), bending_stress=float(stress[row]),
+        cycles_per_hour=3600 * spin / (2 * np.pi),
+    )  # fmt: skip
+
+
+def _in_slips(point: Equilibrium, length: float) -> Margin:
+    """What the slips bear beyond the string that hangs in them."""
+    string = point._shape.laid.string
+    top = string.sections[string.component[0]]
+    capacity = crushed_at(top, length)
+    part = point.case.string.components[int(string.component[0])].name
+    return Margin(
+        SLIPS, SLIPS, part, string.top_md, point.hookload / capacity, hookload=capacity,
+        hookload_left=capacity - point.hookload, reason="tests of slips find up to a fifth less",
+    )  # fmt: skip
+
+
+def _excess(point: Equilibrium) -> float:
+    """By which the share of the first limit exceeds 1, NaN of a string without loads."""
+    return first_limit(point).share - 1 if point.answered else NAN
+
+
+def _weakest(laid: LaidString, load: str) -> float:
+    """The least capacity of the string's sections, of tension [N] or torsion [N m]."""
+    found = []
+    for of in laid.string.sections:
+        steel, polar = np.pi * (of.outer**2 - of.inner**2), np.pi / 2 * (of.outer**4 - of.inner**4)
+        found.append(of.yield_strength * (steel if load == "tension" else polar / of.outer / np.sqrt(3.0)))
+    return float(min(found))
+
+
+def _root(excess: Callable[[float], float], scale: float) -> float:
+    """The least load at which an excess is 0, NaN where it is above 0 from the start, or no string is found."""
+    low, high = 0.0, FIRST * scale
+    if not excess(0.0) < 0:
+        return NAN
+    while high <= MOST_CAPACITY * scale:
+        value = excess(high)
+        if value >= 0:
+            return float(brentq(excess, low, high, xtol=EXACT * scale, rtol=EXACT))
+        if not np.isfinite(value):
+            return NAN
+        low, high = high, 2 * high
+    return NAN
+
+
+def _why(used: First, excess: Callable[[float], float], scale: float) -> str:
+    """Why no load was found."""
+    if used.share >= 1:
+        return f"beyond it already: {100 * used.share:.0f} % of what may be used"
+    return "no steady string was found on the way to the limit"
+
+
+def _last(holds: Callable[[float], bool], high: float) -> float:
+    """The largest load, within ``CLOSE``, up to which something holds; NaN where it does up to ``high``."""
+    if holds(high):
+        return NAN
+    low = 0.0
+    if not holds(low):
+        return low
+    while high - low > CLOSE * high:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if holds(middle) else (low, middle)
+    return low
