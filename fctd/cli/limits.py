@@ -1,7 +1,7 @@
 """``fctd limits CASE``: how far the string is from its limits, per operation and bit depth."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Final
+from typing import TYPE_CHECKING, Annotated, Any, Final, cast
 
 import numpy as np
 import typer
@@ -137,7 +137,7 @@ def _print(table: "pd.DataFrame", name: str, units: System) -> None:
         span = depths[0] if len(depths) == 1 else f"{depths[0]} to {depths[-1]}"
         at = f"{operation} at {span} {metre.label} ({len(of)} of {table['bit_depth_m'].nunique()})"
         what = "" if limit == "none" else f", {limit}"
-        screen.print(f"{at}{what}: {reworded(reason, units)}", soft_wrap=True)
+        screen.print(f"{at}{what}: {reworded(str(reason), units)}", soft_wrap=True)
 
 
 def _table(of: "pd.DataFrame", columns: tuple[str, str, str], units: System) -> Table:
@@ -153,7 +153,7 @@ def _table(of: "pd.DataFrame", columns: tuple[str, str, str], units: System) -> 
         *(Column(name, justify="right", no_wrap=True, min_width=len(name)) for name in numbers),
         Column("where", no_wrap=True, overflow="ellipsis"), box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
     )  # fmt: skip
-    for row in of[of["bit_depth_m"].isin(picked)].to_dict("records"):
+    for row in _rows(of[of["bit_depth_m"].isin(picked)]):
         place = "" if np.isnan(row["md_m"]) else f"{row['md_m'] * metre.factor:.0f} {metre.label}"
         part = "" if row["part"] == "none" else printable(row["part"])
         table.add_row(
@@ -163,6 +163,10 @@ def _table(of: "pd.DataFrame", columns: tuple[str, str, str], units: System) -> 
             ", ".join(text for text in (place, part) if text),
         )  # fmt: skip
     return table
+
+
+def _rows(table: "pd.DataFrame") -> list[dict[str, Any]]:
+    return cast("list[dict[str, Any]]", table.to_dict("records"))
 
 
 def _cell(row: dict[str, Any], column: str, units: System) -> str:
@@ -176,7 +180,7 @@ def _bending(table: "pd.DataFrame", units: System) -> list[str]:
     lines = []
     metre, stress = shown("bit_depth_m", units), shown("bending_stress_Pa", units)
     for operation, of in table[table["margin"] == FATIGUE].groupby("operation", sort=False):
-        worst = max(of.to_dict("records"), key=lambda row: row["bending_stress_Pa"])
+        worst = max(_rows(of), key=lambda row: row["bending_stress_Pa"])
         amplitude, often = worst["bending_stress_Pa"] * stress.factor, worst["cycles_per_hour"]
         place, bit = worst["md_m"] * metre.factor, worst["bit_depth_m"] * metre.factor
         lines.append(

@@ -27,6 +27,8 @@ from fctd.steady.steady_string import Equilibrium
 EXACT, CLOSE = 1e-9, 2e-3
 # Overpull and torque grow from this share of the weakest section's capacity on, by doubling, up to its multiple.
 FIRST, MOST_CAPACITY = 1 / 64, 4.0
+# Where no string is found in the middle of an interval, these shares of it are tried.
+WITHIN = (0.5, 0.4, 0.6, 0.25, 0.75, 0.1, 0.9)
 # No more than so many weights of the string are set down.
 MOST_WEIGHT = 2.0
 SNAKING, HELIX, SLACK_OFF, LOCK_UP = "snaking", "helix", "slack_off", "lock_up"
@@ -168,7 +170,7 @@ def _overpull(loaded: Loaded) -> Margin:
 
     found = _root(excess, capacity)
     if not np.isfinite(found):
-        return Margin(OVERPULL, used.code, used.part, used.md, used.share, reason=_why(used, excess, capacity))
+        return Margin(OVERPULL, used.code, used.part, used.md, used.share, reason=_why(used))
     return _at_pull(loaded, found, first_limit(loaded.pulled(found)), used.share)
 
 
@@ -182,7 +184,7 @@ def _hoisted(loaded: Loaded, capacity: float) -> Margin:
     used = First("hoist", share, "none", NAN)
     found = _root(excess, capacity)
     if not np.isfinite(found):
-        return Margin(OVERPULL, "hoist", share=share, reason=_why(used, excess, capacity))
+        return Margin(OVERPULL, "hoist", share=share, reason=_why(used))
     return _at_pull(loaded, found, used, share)
 
 
@@ -256,7 +258,7 @@ def _turned(loaded: Loaded) -> Margin:
 
     found = _root(excess, capacity)
     if not np.isfinite(found):
-        return Margin(TORQUE, used.code, used.part, used.md, used.share, reason=_why(used, excess, capacity))
+        return Margin(TORQUE, used.code, used.part, used.md, used.share, reason=_why(used))
     return _at_torque(loaded, found, first_limit(loaded.pressed(0.0, found)), used.share)
 
 
@@ -270,7 +272,7 @@ def _driven(loaded: Loaded, capacity: float) -> Margin:
     used = First("drive", share, "none", NAN)
     found = _root(excess, capacity)
     if not np.isfinite(found):
-        return Margin(TORQUE, "drive", share=share, reason=_why(used, excess, capacity))
+        return Margin(TORQUE, "drive", share=share, reason=_why(used))
     return _at_torque(loaded, found, used, share)
 
 
@@ -329,14 +331,28 @@ def _root(excess: Callable[[float], float], scale: float) -> float:
     while high <= MOST_CAPACITY * scale:
         value = excess(high)
         if value >= 0:
-            return float(brentq(excess, low, high, xtol=EXACT * scale, rtol=EXACT))
+            try:
+                return float(brentq(excess, low, high, xtol=EXACT * scale, rtol=EXACT))
+            except ValueError:  # from NaN: no steady string at a load on the way
+                return _between(excess, low, high, EXACT * scale)
         if not np.isfinite(value):
             return NAN
         low, high = high, 2 * high
     return NAN
 
 
-def _why(used: First, excess: Callable[[float], float], scale: float) -> str:
+def _between(excess: Callable[[float], float], low: float, high: float, apart: float) -> float:
+    """The largest load below the root at which a string was found, where some between have none."""
+    while high - low > apart:
+        tried = (low + share * (high - low) for share in WITHIN)
+        known = next(((load, value) for load in tried if np.isfinite(value := excess(load))), None)
+        if known is None:
+            break
+        low, high = (low, known[0]) if known[1] >= 0 else (known[0], high)
+    return low
+
+
+def _why(used: First) -> str:
     """Why no load was found."""
     if used.share >= 1:
         return f"beyond it already: {100 * used.share:.0f} % of what may be used"

@@ -1,0 +1,88 @@
+"""``fctd limits``: the tables on the screen, the file, refusals, exit codes."""
+
+import json
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from fctd.cli.options import screen
+from tests.commands import Command
+
+WELL = """
+name = "tiny"
+[wellbore]
+stations = [[0, 0, 0], [300, 0, 0], [700, 50, 30], [1000, 50, 30]]
+[[wellbore.intervals]]
+to_md = 1000
+diameter = "8.5 in"
+friction = 0.25
+[string]
+[[string.components]]
+name = "pipe"
+pipe = "5 in 19.5 S-135 NC50"
+segment_length = "20 m"
+[mud]
+density = "1.2 sg"
+[rig]
+hoist_capacity = "900 kN"
+largest_torque = "20 kN*m"
+slip_length = "400 mm"
+[limits]
+design_factor = 1.2
+overpull_margin = "2 MN"
+"""
+
+
+@pytest.fixture
+def well(tmp_path: Path) -> Path:
+    path = tmp_path / "well.toml"
+    path.write_text(WELL)
+    return path
+
+
+def test_margins_stand_on_the_screen_and_in_a_file(cli: Command, well: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(screen, "_width", 100)
+    out = well.with_suffix(".csv")
+    said = cli("limits", well, "--out", out)
+    for words in ("trip_out: pull on a stuck bit, kN", "hoist", "make up", "slack off", "weight in the slips"):
+        assert words in said.out
+    assert "less than limits.overpull_margin = 2000 kN at the hook" in said.out
+    assert "turning bends the steel to and fro by ±" in said.out
+    table = pd.read_csv(out)
+    assert {"yield", "hoist", "make_up", "drive", "slips"} <= set(table["limit"])
+    about = json.loads(Path(f"{out}.json").read_text())
+    assert about["limits"]["hoist"] == "the hoist lifts no more"
+
+
+def test_several_depths_and_field_units(cli: Command, well: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(screen, "_width", 100)
+    said = cli("limits", well, "--operation", "trip_out", "--depths", "2000:3000:500", "--units", "field")
+    assert "pull on a stuck bit, klbf" in said.out
+    assert [line.split()[1] for line in said.out.splitlines() if line.strip().startswith("yield")] == [
+        "3000",
+        "2500",
+        "2000",
+    ][::-1]
+    assert "449.6 klbf at the hook" in said.out
+
+
+def test_a_string_beyond_its_limit_fails_only_where_strict(cli: Command, well: Path) -> None:
+    weak = ("limits", well, "--operation", "trip_out", "--set", "rig.hoist_capacity=100 kN")
+    assert "beyond it already" in cli(*weak).out
+    assert "beyond it already" in cli(*weak, "--strict", code=1).out
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (("--depths", "4 km"), "--depths"),
+        (("--depths", "900:800:10"), "--depths"),
+        (("--operation", "pull"), "operation"),
+        (("--set", "limits.design_factor=0.5"), "limits.design_factor"),
+        (("--set", "limits.torque_share=110"), "limits.torque_share"),
+        (("--out", "x.png"), "--out"),
+    ],
+)
+def test_wrong_input_is_told_in_a_line(cli: Command, well: Path, options: tuple[str, str], told: str) -> None:
+    assert told in cli("limits", well, *options, code=2).err
