@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 import fctd
 from fctd import plots
+from fctd.plots.loads import ChartLook
 from fctd.store.parquet import read_frame
 from fctd.sweep.dataset import open_dataset
 from fctd.sweep.run import sweep
@@ -51,6 +52,15 @@ def chart() -> Figure:
     case = fctd.load_case(PAPER)
     kinds = ["trip_in", "rotate_off_bottom", "trip_out"]
     return plots.chart_figure(fctd.torque_drag(case, kinds, range(1750, 2451, 25)), "si", case)
+
+
+def limits() -> Figure:
+    """The example well with the limits of its string and of a rig."""
+    rig = {"block_weight": "200 kN", "hoist_capacity": "2000 kN"}
+    case = fctd.load_case(WELL, {f"rig.{key}": value for key, value in rig.items()})
+    kinds, depths = ["trip_in", "trip_out", "rotate_off_bottom"], [*range(1500, 3001, 250)]
+    look = ChartLook(margins=fctd.margin_table(case, kinds, depths))
+    return plots.chart_figure(fctd.torque_drag(case, kinds, depths), "si", case, look)
 
 
 def feeding() -> Figure:
@@ -109,7 +119,7 @@ def _tables(*names: str) -> dict[str, pd.DataFrame]:
 
 
 PICTURES: dict[str, Callable[[], Figure]] = {
-    "overview": overview, "chart": chart, "feeding": feeding, "monitor": monitor, "run": run,
+    "overview": overview, "chart": chart, "limits": limits, "feeding": feeding, "monitor": monitor, "run": run,
     "public_well": public_well, "judged_rows": judged_rows,
     "bands": bands, "stick_slip": stick_slip,
 }  # fmt: skip

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 from uuid import uuid4
 
+import numpy as np
 import typer
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
@@ -75,6 +76,7 @@ from fctd.results.notes import meanings_of
 from fctd.results.status import SteadyStatus
 from fctd.steady.chart_saver import ChartSaver
 from fctd.steady.equilibrium import Solver
+from fctd.steady.margin_table import margin_table
 from fctd.steady.torque_drag import Row, chart_rows, with_friction
 from fctd.store.limits import LimitReached
 from fctd.store.tables import write_table
@@ -87,6 +89,7 @@ DEPTHS_HELP = (
     "always among them."
 )
 PROGRAM = "fctd chart"
+LIMIT_DEPTHS = 13  # at most so many depths of a chart have their limits: a line needs no more
 
 
 def chart_command(
@@ -126,6 +129,9 @@ def chart_command(
         Path | None,
         file_option("--measured", "Rows to draw, .csv: bit_depth_m, operation, hookload_kN (block included), …"),
     ] = None,
+    limits: Annotated[
+        bool, typer.Option("--limits", help="Draw the limits of fctd limits as lines, with the first friction factors.")
+    ] = False,
     units: Units = "si",
     checkpoint_every: CheckpointEvery = None,
     resume: Resume = None,
@@ -142,6 +148,7 @@ def chart_command(
         "CASE": case_file, "--operation": operations or None, "--depths": depths, "--friction": frictions or None,
         "--speed": speed, "--rpm": rpm, "--set": overrides or None, "--resolve-buckling": resolve_buckling,
         "--out": out, "--plot": plot, "--plot-profile": plot_profile, "--measured": measured,
+        "--limits": limits or None,
     })  # fmt: skip
     if resume is not None:
         with resumed_folder(resume, PROGRAM, accept_changes=accept_changes) as (folder, about):
@@ -152,7 +159,7 @@ def chart_command(
     if case_file is None or depths is None:
         raise InputError("a case file, or --resume with an unfinished chart", key="CASE")
     files = {"out": out, "plot": plot, "plot_profile": plot_profile, "measured": measured}
-    asked = ChartRequest(operations, depths, frictions, speed, rpm, load, side_force, units, strict, **files)
+    asked = ChartRequest(operations, depths, frictions, speed, rpm, load, side_force, limits, units, strict, **files)
     check_targets(out, plot, {"--plot-profile": plot_profile})
     case = read_case(case_file, changes_of(overrides, resolve=resolve_buckling))
     target = out or plot or plot_profile
@@ -182,6 +189,7 @@ class ChartRequest:
     rpm: str | None
     load: ShownLoad
     side_force: ShownSideForce
+    limits: bool
     units: Units
     strict: bool
     out: Path | None
@@ -219,6 +227,8 @@ def _chart(
     kinds = list(dict.fromkeys(kind for name in names for kind in (KINDS if name == "all" else [name])))
     if points_measured is not None:
         _tell_not_drawn(points_measured["operation"], kinds)
+    if asked.limits and plot is None:
+        raise InputError("--plot beside it, the picture to draw them in", key="--limits", value=True)
     factors = parse_frictions(asked.frictions, "--friction")
     drive = read_drive(asked.speed, asked.rpm, units)
     gauge = asked.load == "indicator" or points_measured is not None
@@ -242,6 +252,18 @@ def _chart(
             if kept is not None:
                 keep = {"known": kept.known, "above": kept.above, "keep": lambda rows: kept.keep(rows, total)}
             rows = chart_rows(case, kinds, bit_depths, factors or None, **drive, progress=show, **keep)
+            margins = None
+            if asked.limits:
+                spread = np.linspace(0, len(bit_depths) - 1, min(LIMIT_DEPTHS, len(bit_depths))).round().astype(int)
+                depths = [bit_depths[k] for k in np.unique(spread)]
+
+                def show_limits(done: int, total: int) -> None:
+                    bar.update(task, description="limits", completed=done, total=total)
+                    limits.check()
+
+                margins = margin_table(
+                    case, kinds, depths, factors[0] if factors else None, **drive, progress=show_limits
+                )
 
         # The last depth at which string and hole fit.
         possible = [row["bit_depth_m"] for row in rows if row["status"] != SteadyStatus.NOT_POSSIBLE]
@@ -253,7 +275,7 @@ def _chart(
                 metadata = metadata_of(case, units, kinds, drive, warnings) | {"notes": meanings}
                 written += write_table(rows if units == "si" else in_units(units, _frame(rows)), out, metadata)
             if plot is not None:
-                look = ChartLook(asked.load, rates_of_all(case, kinds, **drive), points_measured, told)
+                look = ChartLook(asked.load, rates_of_all(case, kinds, **drive), points_measured, told, margins)
                 written += draw_chart(plot, _frame(rows), units, case, look)
             if plot_profile is not None:
                 one = with_friction(case, factors[0]) if factors else case

@@ -29,6 +29,8 @@ from fctd.plots.curves import (
     is_cut,
 )
 from fctd.plots.facts import heading_of_chart
+from fctd.plots.limit_lines import WIDTH as LIMIT_WIDTH
+from fctd.plots.limit_lines import limit_lines
 from fctd.plots.loads import (
     LOAD_COLUMNS,
     NAMES,
@@ -107,7 +109,12 @@ class _View:
         self.widths, self.height = (ALONE if alone else AMONG)[:2], (ALONE if alone else AMONG)[2]
         self.depth = shown(DEPTH.name, units)
         column = LOAD_COLUMNS[load]
-        limits = limits_of_load(chart, case, load, units, measured), limits_of_torque(chart, units, measured)
+        self.lines = [limit_lines(look.margins, case, load, name) for name in (column, TORQUE)]
+        values = [[line.value for line in lines] for lines in self.lines]
+        limits = (
+            limits_of_load(chart, case, load, units, measured, values[0]),
+            limits_of_torque(chart, units, measured, values[1]),
+        )
         self.drawn = [
             Drawn(name, shown(name, units).factor, self.depth.factor, limit)
             for name, limit in zip((column, TORQUE), limits, strict=True)
@@ -215,6 +222,13 @@ class _Pair:
         if view.look.measured is not None:
             for kind in dict.fromkeys(one.operation for one in self.group):
                 draw_measured(ax, view.look.measured, kind, drawn)
+        kinds = {one.operation for one in self.group}
+        for line in view.lines[k]:
+            if line.operation in kinds:
+                ax.plot(
+                    line.value * drawn.factor, line.depth * view.depth.factor, linestyle=line.dash[0],
+                    color=LOOKS[line.operation][0], linewidth=LIMIT_WIDTH,
+                )  # fmt: skip
         limits = drawn.limits
         ax.set_xlim(limits.low, limits.high)
         ax.xaxis.set_major_locator(MaxNLocator(6 - 2 * k))
@@ -292,6 +306,10 @@ def _handles(view: _View, series: list[Series], unnamed: list[_Pair]) -> list[Ar
         handles.append(Patch(color=LOOKS[banded.operation][0], label="hook loads of both shapes", **BAND))
     if any(((one.rows["status"] != "converged") & one.rows["hookload_N"].notna()).any() for one in series):
         handles.append(Line2D([], [], color=QUIET, marker="o", label="not converged: see state", **OPEN))
+    dashes = {line.name: line.dash[0] for lines in view.lines for line in lines}
+    handles += [
+        Line2D([], [], color=QUIET, linestyle=dash, linewidth=LIMIT_WIDTH, label=name) for name, dash in dashes.items()
+    ]
     if view.look.measured is not None:
         handles.append(Line2D([], [], marker="o", label=view.look.measured_label, **MEASURED_LOOK))
         if view.look.has_ranges_alone:

@@ -47,13 +47,15 @@ class ChartLook:
     """What a chart shows beside its rows, in a picture and on a page.
 
     load : hook load of the string, or the reading of the weight indicator.  rates : of the operations, else the case's
-    own.  measured : of ``read_measured``.  warnings : lines below the title, before the notes of the chart.
+    own.  measured : of ``read_measured``.  warnings : lines below the title, before the notes of the chart.  margins :
+    of ``margin_table``, whose limits are drawn as lines.
     """
 
     load: Load = "string"
     rates: Mapping[str, SteadyRates] | None = None
     measured: pd.DataFrame | None = None
     warnings: Sequence[str] = ()
+    margins: pd.DataFrame | None = None
 
     @property
     def measured_label(self) -> str:
@@ -140,12 +142,16 @@ def spent_at(case: Case | None, load: Load) -> float:
 
 
 def limits_of_load(
-    chart: pd.DataFrame, case: Case | None, load: Load, units: System, measured: pd.DataFrame | None
-) -> Limits:
-    """Limits of the axis of hook loads; the pushes of locked-up strings do not set them."""
+    chart: pd.DataFrame, case: Case | None, load: Load, units: System, measured: pd.DataFrame | None,
+    lines: Sequence[Array] = (),
+) -> Limits:  # fmt: skip
+    """Limits of the axis of hook loads; the pushes of locked-up strings do not set them.
+
+    lines : other loads that it shows [N].
+    """
     column = LOAD_COLUMNS[load]
     locked = _locked(chart)
-    visible = [chart.loc[~locked, column].to_numpy(float), *_measured(measured, column)]
+    visible = [chart.loc[~locked, column].to_numpy(float), *_measured(measured, column), *lines]
     for kind, rows in chart[~locked].groupby("operation"):
         ends = rows[["hookload_low_N", "hookload_high_N"]].to_numpy(float).ravel()
         visible.append(as_load(case, str(kind), ends[np.isfinite(ends)], load))
@@ -161,11 +167,17 @@ def limits_of_load(
     return _span(visible, LEAST_SHARE * largest, shown(column, units).factor, cut=bool(locked.any()))
 
 
-def limits_of_torque(chart: pd.DataFrame, units: System, measured: pd.DataFrame | None) -> Limits:
-    """Limits of the axis of torques, from 0: noise of the solver and strings that lock up do not set them."""
+def limits_of_torque(
+    chart: pd.DataFrame, units: System, measured: pd.DataFrame | None, lines: Sequence[Array] = ()
+) -> Limits:
+    """Limits of the axis of torques, from 0: noise of the solver and strings that lock up do not set them.
+
+    lines : other torques that it shows [N m].
+    """
     locked = _locked(chart)
     least = LEVER * _largest(chart, ["hookload_N", "total_contact_force_N"])
     visible = [np.array([0.0, least]), chart.loc[~locked, TORQUE].to_numpy(float), *_measured(measured, TORQUE)]
+    visible += lines
     factor = shown(TORQUE, units).factor
     limits = _span(visible, least, factor, cut=False)
     below = bool((chart.loc[locked, TORQUE] * factor < limits.low).any())

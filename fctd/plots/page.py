@@ -18,6 +18,7 @@ from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.case.text import printable
 from fctd.plots.facts import heading_of_chart, heading_of_profile
+from fctd.plots.limit_lines import LimitLine, limit_lines
 from fctd.plots.loads import (
     LOAD_COLUMNS,
     NAMES,
@@ -90,8 +91,13 @@ def chart_page(
 ) -> go.Figure:
     """The chart of ``chart_figure`` as a page, with the same arguments; the pointer shows each row with its reason."""
     groups, load, measured = groups_of(series_of(chart, units)), look.load, look.measured
-    limits = limits_of_load(chart, case, load, units, measured), limits_of_torque(chart, units, measured)
     columns = LOAD_COLUMNS[load], TORQUE
+    drawn = [limit_lines(look.margins, case, load, column) for column in columns]
+    values = [[line.value for line in lines] for lines in drawn]
+    limits = (
+        limits_of_load(chart, case, load, units, measured, values[0]),
+        limits_of_torque(chart, units, measured, values[1]),
+    )
     titles = [words for name, _ in groups for words in (name, "")]
     figure = make_subplots(
         rows=len(groups), cols=2, shared_yaxes=True, column_widths=[0.58, 0.42], horizontal_spacing=0.04,
@@ -115,6 +121,9 @@ def chart_page(
                 has_points = set(measured["operation"])
                 for kind in dict.fromkeys(one.operation for one in group if one.operation in has_points):
                     figure.add_trace(_measured(look, kind, column, units, named), **place)
+            for line in drawn[col - 1]:
+                if line.operation in {one.operation for one in group}:
+                    figure.add_trace(_limit(line, column, units, named), **place)
             label = f"{NAMES[column]}, {shown(column, units).label}"
             figure.update_xaxes(title_text=label, range=[limit.low, limit.high], **place)
             for shoe in [] if case is None else case.shoes:
@@ -257,6 +266,18 @@ def _measured(chosen: ChartLook, kind: str, column: str, units: System, named: s
         marker=look,
         error_x={"array": high - middle, "arrayminus": middle - low, "color": "black"},
         hovertemplate=f"%{{y:.1f}}: %{{x:.4g}} {unit}<extra>measured, {KINDS[kind].label}</extra>",
+    )  # fmt: skip
+
+
+def _limit(line: LimitLine, column: str, units: System, named: set[str]) -> go.Scatter:
+    """A limit of an operation; the legend has each limit once."""
+    unit = shown(column, units)
+    words = f"{line.name}, {KINDS[line.operation].label}"
+    return go.Scatter(
+        x=line.value * unit.factor, y=line.depth * shown(DEPTH.name, units).factor, mode="lines", name=line.name,
+        legendgroup=line.name, showlegend=_new(line.name, named),
+        line={"color": LOOKS[line.operation][0], "dash": line.dash[1], "width": 1.5},
+        hovertemplate=f"%{{y:.1f}}: %{{x:.4g}} {unit.label}<extra>{words}</extra>",
     )  # fmt: skip
 
 

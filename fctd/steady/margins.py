@@ -224,12 +224,17 @@ def _set_down(loaded: Loaded) -> Iterator[Margin]:
         return
     locks = _last(lambda weight: arrives(weight, -np.inf), most)
     spent = _last(lambda weight: arrives(weight, -push), locks if np.isfinite(locks) else most)
-    spent = spent if np.isfinite(spent) else locks
     # No rig pushes on from there.
-    bears = _last(lambda weight: first_limit(pushed(weight)).share < 1, spent if np.isfinite(spent) else most)
+    farthest = next((weight for weight in (spent, locks) if np.isfinite(weight)), most)
+    bears = _last(lambda weight: first_limit(pushed(weight)).share < 1, farthest)
     if np.isfinite(bears):
         yield _at_weight(loaded, first_limit(pushed(bears)).code, bears, helical_force="analytic")
-    yield _at_weight(loaded, SLACK_OFF, spent, helical_force="analytic")
+    at_slack_off = _at_weight(loaded, SLACK_OFF, spent, helical_force="analytic")
+    if np.isfinite(spent):  # the hook load falls steeply with the weight there
+        at_slack_off = at_slack_off._replace(hookload=-push, hookload_left=loaded.free.hookload + push)
+    elif np.isfinite(locks):
+        at_slack_off = at_slack_off._replace(reason="the string locks up before")
+    yield at_slack_off
     yield _at_weight(loaded, LOCK_UP, locks, helical_force="analytic")
 
 

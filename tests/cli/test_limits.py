@@ -86,3 +86,14 @@ def test_a_string_beyond_its_limit_fails_only_where_strict(cli: Command, well: P
 )
 def test_wrong_input_is_told_in_a_line(cli: Command, well: Path, options: tuple[str, str], told: str) -> None:
     assert told in cli("limits", well, *options, code=2).err
+
+
+def test_a_chart_draws_the_limits(cli: Command, well: Path) -> None:
+    plot = well.with_suffix(".svg")
+    cli("chart", well, "--operation", "trip_out", "--depths", "800:950:150", "--limits", "--plot", plot)
+    assert all(f"limit: {name}" in plot.read_text() for name in ("yield", "hoist"))
+
+
+def test_limits_of_a_chart_need_a_picture(cli: Command, well: Path) -> None:
+    said = cli("chart", well, "--operation", "trip_out", "--depths", "800:900:50", "--limits", code=2)
+    assert "--limits = true: expected --plot beside it" in said.err

@@ -181,6 +181,7 @@ CROSSED: dict[str, Crossed] = {
         ),
         "surface_torque_max_N_m",
     ),
+    "overpull": Crossed(lambda on: case(bit={"overpull": 1e5} if on else {}), "hookload_N"),
     "helical_force": Crossed(
         lambda on: case(contact={"helical_force": "analytic"} if on else {}), "total_contact_force_N"
     ),
