@@ -21,6 +21,8 @@ from fctd.results.limits import LIMITS, Place
 from fctd.results.profile import place_in_words
 
 FULL: Final = LimitsSpec()  # all of each capacity may be used
+# Codes of notes on what string and rig bear, whose probability a sweep tells.
+BORNE: Final = (*(limit.code for limit in LIMITS), "hoist", "drive", "slips")
 
 
 class Meaning(NamedTuple):

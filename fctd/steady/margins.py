@@ -7,7 +7,7 @@ those of the string under that load.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any, Final, NamedTuple
 
@@ -27,8 +27,8 @@ from fctd.steady.steady_string import Equilibrium
 EXACT, CLOSE = 1e-9, 2e-3
 # Overpull and torque grow from this share of the weakest section's capacity on, by doubling, up to its multiple.
 FIRST, MOST_CAPACITY = 1 / 64, 4.0
-# Where no string is found in the middle of an interval, these shares of it are tried.
-WITHIN = (0.5, 0.4, 0.6, 0.25, 0.75, 0.1, 0.9)
+# Where no string is found in the middle of an interval, other shares of it are tried; and others of a larger load.
+WITHIN, NEARBY = (0.5, 0.4, 0.6, 0.25, 0.75, 0.1, 0.9), (1.0, 0.9, 1.1, 0.8)
 # No more than so many weights of the string are set down.
 MOST_WEIGHT = 2.0
 SNAKING, HELIX, SLACK_OFF, LOCK_UP = "snaking", "helix", "slack_off", "lock_up"
@@ -230,7 +230,7 @@ def _set_down(loaded: Loaded) -> Iterator[Margin]:
     if np.isfinite(bears):
         yield _at_weight(loaded, first_limit(pushed(bears)).code, bears, helical_force="analytic")
     at_slack_off = _at_weight(loaded, SLACK_OFF, spent, helical_force="analytic")
-    if np.isfinite(spent):  # the hook load falls steeply with the weight there
+    if spent > 0:  # the hook load falls steeply with the weight there
         at_slack_off = at_slack_off._replace(hookload=-push, hookload_left=loaded.free.hookload + push)
     elif np.isfinite(locks):
         at_slack_off = at_slack_off._replace(reason="the string locks up before")
@@ -334,7 +334,7 @@ def _root(excess: Callable[[float], float], scale: float) -> float:
     if not excess(0.0) < 0:
         return NAN
     while high <= MOST_CAPACITY * scale:
-        value = excess(high)
+        high, value = _known(excess, (share * high for share in NEARBY))
         if value >= 0:
             try:
                 return float(brentq(excess, low, high, xtol=EXACT * scale, rtol=EXACT))
@@ -349,12 +349,16 @@ def _root(excess: Callable[[float], float], scale: float) -> float:
 def _between(excess: Callable[[float], float], low: float, high: float, apart: float) -> float:
     """The largest load below the root at which a string was found, where some between have none."""
     while high - low > apart:
-        tried = (low + share * (high - low) for share in WITHIN)
-        known = next(((load, value) for load in tried if np.isfinite(value := excess(load))), None)
-        if known is None:
+        load, value = _known(excess, (low + share * (high - low) for share in WITHIN))
+        if not np.isfinite(value):
             break
-        low, high = (low, known[0]) if known[1] >= 0 else (known[0], high)
+        low, high = (low, load) if value >= 0 else (load, high)
     return low
+
+
+def _known(excess: Callable[[float], float], loads: Iterable[float]) -> tuple[float, float]:
+    """The first of several loads with a steady string, and its excess; NaN of none."""
+    return next(((load, value) for load in loads if np.isfinite(value := excess(load))), (NAN, NAN))
 
 
 def _why(used: First) -> str:

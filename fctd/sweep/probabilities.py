@@ -1,6 +1,6 @@
 """Probabilities over the samples: of lock-up, of buckling, of no or a doubtful answer, and of exceeding limits.
 
-A limit of the string is an event where a sample has its note; other limits stand in the sweep file.
+A limit of string or rig is an event where a sample has its note; other limits stand in the sweep file.
 
 Intervals of 95 % are Wilson's (1927), which are sound for no and for few events, too.
 """
@@ -14,7 +14,7 @@ import numpy as np
 from scipy import stats
 
 from fctd.results.buckling import BUCKLED, HELICAL, MODES
-from fctd.results.limits import LIMITS
+from fctd.results.notes import BORNE
 from fctd.results.status import ACCEPTABLE
 from fctd.sweep.limits import LimitSpec
 from fctd.sweep.percentiles import columns_of, places_of
@@ -69,7 +69,7 @@ def _events(rows: pd.DataFrame, limits: Sequence[LimitSpec]) -> Mapping[str, pd.
             IS_HELICAL: rows["buckling"] == MODES[HELICAL],
         }
     if "notes" in rows:
-        noted = {limit.code: rows["notes"].astype(str).str.contains(rf"\b{limit.code}\b") for limit in LIMITS}
+        noted = {code: rows["notes"].astype(str).str.contains(rf"\b{code}\b") for code in BORNE}
         events |= {f"beyond {code.replace('_', ' ')}": beyond for code, beyond in noted.items() if beyond.any()}
     for i, limit in enumerate(limits):
         columns_of(rows, [limit.column], f"uncertainty.limits[{i}].column")

@@ -20,7 +20,8 @@ MARGINS = pd.DataFrame(
         {"operation": kind, "limit": limit, "bit_depth_m": depth, "hookload_N": load, "surface_torque_N_m": torque}
         for kind, limit, load, torque in (
             ("trip_out", "yield", 3e6, np.nan), ("trip_out", "hoist", 2e6, np.nan),
-            ("trip_in", "lock_up", np.nan, np.nan), ("rotate_off_bottom", "drive", np.nan, 60e3), ("back_ream", "yield", 9e6, np.nan),
+            ("trip_in", "lock_up", np.nan, np.nan), ("rotate_off_bottom", "drive", np.nan, 60e3),
+            ("back_ream", "yield", 9e6, np.nan),
         )
         for depth in (1000.0, 1500.0, 2000.0)
     ]

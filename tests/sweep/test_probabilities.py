@@ -54,11 +54,11 @@ def test_answers_that_are_to_be_doubted_are_events() -> None:
     assert "inaccurate" not in counts
 
 
-def test_limits_of_the_string_are_events_where_a_sample_has_their_note() -> None:
-    noted = ROWS.assign(notes=["none", "yield, buckling", "tensile_capacity", "none", "yield", "none", None])
+def test_limits_of_string_and_rig_are_events_where_a_sample_has_their_note() -> None:
+    noted = ROWS.assign(notes=["none", "yield, buckling", "tensile_capacity, hoist", "none", "yield", "none", None])
     table = probability_table(noted, [], 4)
     counts = table[table["bit_depth_m"].isna()].set_index("event")["count"]
-    assert (counts["beyond yield"], counts["beyond tensile capacity"]) == (2, 1)
+    assert (counts["beyond yield"], counts["beyond tensile capacity"], counts["beyond hoist"]) == (2, 1, 1)
     assert not {"beyond penetration", "beyond buckling"} & set(counts.index)
 
 
