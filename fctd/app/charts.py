@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
+from fctd.plots.limit_lines import LimitLine, limit_lines
 from fctd.plots.loads import LOAD_COLUMNS, NAMES, TORQUE, measured_columns, push_of
 from fctd.plots.page import SYMBOLS, plain
 from fctd.plots.palette import BUCKLED, EDGE, LOOKS, MEASURED, QUIET
@@ -22,7 +23,7 @@ Change = tuple[list[str | int], Any]
 COLUMNS: Final = (LOAD_COLUMNS["string"], TORQUE)
 FONT: Final = 'system-ui, "Segoe UI", "Noto Sans", "Liberation Sans", sans-serif'
 LONGEST_REASON: Final = 160  # characters under the pointer
-ROWS: Final = ("line", "measured")  # traces of each operation in each panel, after those of all operations
+ROWS: Final = ("line", "measured", "limit")  # traces of each operation in each panel, after those of all operations
 LOST: Final = "no loads"
 ALL: Final = ("buckled", LOST)
 
@@ -70,13 +71,18 @@ def skeleton(case: Case, depths: Sequence[float], units: System) -> dict[str, An
                 "error_x": {"array": [], "arrayminus": [], "color": "black", "symmetric": False},
                 "hovertemplate": f"%{{y:.1f}}: %{{x:.4g}} {unit}<extra>measured, {of.label}</extra>",
             })  # fmt: skip
+            data.append({
+                **empty, **at, "mode": "lines", "line": {"color": colour, "width": 1.3, "dash": "dash"}, "text": [],
+                "hovertemplate": f"%{{y:.1f}}: %{{x:.4g}} {unit}<extra>%{{text}}, {of.label}</extra>",
+            })  # fmt: skip
     return {"data": data, "layout": _layout(case, depths, units)}
 
 
 def changes_of(
-    rows: Sequence[dict[str, Any]], kinds: Sequence[str], case: Case, units: System, measured: pd.DataFrame | None
-) -> list[Change]:
-    """New data for the rows of a chart; kinds : of the operations that are shown."""
+    rows: Sequence[dict[str, Any]], kinds: Sequence[str], case: Case, units: System, measured: pd.DataFrame | None,
+    margins: pd.DataFrame | None = None,
+) -> list[Change]:  # fmt: skip
+    """New data for the rows of a chart; kinds : of the operations that are shown; margins : of ``margin_table``."""
     # A data frame of the rows would take longer than the rest of the chart.
     depth = np.array([row["bit_depth_m"] for row in rows]) * shown(DEPTH.name, units).factor
     keys = "status", "operation", "buckling"
@@ -86,7 +92,12 @@ def changes_of(
     found: list[Change] = []
     for panel, column in enumerate(COLUMNS):
         value = np.array([row[column] for row in rows], float) * shown(column, units).factor
-        low, high = _limits(column, value[status != SteadyStatus.LOCKED_UP], case, units, measured)
+        lines = limit_lines(margins, case, "string", column)
+        factor = shown(column, units).factor
+        shown_values = np.concatenate(
+            [value[status != SteadyStatus.LOCKED_UP], *(line.value * factor for line in lines)]
+        )
+        low, high = _limits(column, shown_values, case, units, measured)
         at = np.isin(modes, list(BUCKLED)) & np.isfinite(value)
         k = place_of("buckled", column)
         found += _points(k, value[at], depth[at])
@@ -102,8 +113,21 @@ def changes_of(
             found.append((["data", k, "text"], texts[here].tolist()))
             found.append((["data", k, "showlegend"], panel == 0 and kind in kinds))
             found += _measured(place_of("measured", column, kind), measured, kind, kind in kinds, column, units)
+            found += _limit_lines(
+                place_of("limit", column, kind), [of for of in lines if of.operation == kind], column, units
+            )
         found.append((["layout", f"xaxis{panel + 1 if panel else ''}", "range"], [low, high]))
     return found
+
+
+def _limit_lines(k: int, lines: Sequence[LimitLine], column: str, units: System) -> list[Change]:
+    """The limits of an operation in one trace, with gaps between them."""
+    gap = np.array([np.nan])
+    value = np.concatenate([part for line in lines for part in (line.value, gap)] or [gap])
+    depth = np.concatenate([part for line in lines for part in (line.depth, gap)] or [gap])
+    texts = [text for line in lines for text in [line.name] * (len(line.value) + 1)]
+    factors = shown(column, units).factor, shown(DEPTH.name, units).factor
+    return [*_points(k, value * factors[0], depth * factors[1]), (["data", k, "text"], texts)]
 
 
 def _limits(

@@ -6,6 +6,7 @@ from typing import Any, Final
 from dash import dcc, html
 
 from fctd.app.downloads import FILES
+from fctd.app.well import LIMITS as SHOW_LIMITS
 from fctd.case.operations import KINDS
 from fctd.case.text import counted
 from fctd.view.quantities import QUANTITIES
@@ -16,6 +17,7 @@ CONFIG: Final[Any] = {
     "displaylogo": False, "responsive": True, "modeBarButtonsToRemove": ["sendChartToCloud", "lasso2d", "select2d"],
 }  # fmt: skip
 EMPTY: Final[dict[str, Any]] = {"data": [], "layout": {"xaxis": {"visible": False}, "yaxis": {"visible": False}}}
+LIMITS: Final = {"label": "limits of string and rig", "value": SHOW_LIMITS}
 TICK: Final = 1000  # between two questions of a page about what goes on [ms]
 
 
@@ -51,7 +53,7 @@ def _controls(kinds: Sequence[Mapping[str, str]]) -> list[Any]:
             html.Div(id="warnings"),
             html.A("a page for another well", href="../../new", target="_blank", className="another"),
         ]),
-        _group("Operations", [dcc.Checklist(id="operations", options=list(kinds), value=[])]),
+        _group("Operations", [dcc.Checklist(id="operations", options=[*kinds, LIMITS], value=[])]),
         _group("Loads", [
             html.Div(id="sliders"),
             html.Button("back to the case", id="reset", className="quiet"),

@@ -5,6 +5,7 @@ This runs in the process of its own that worker.py is.
 
 import json
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -28,6 +29,7 @@ from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.plots.palette import BUCKLED
 from fctd.results.unit_systems import System, reworded, shown
 from fctd.steady.equilibrium import Solver
+from fctd.steady.margin_table import COLUMNS, margin_rows
 from fctd.steady.torque_drag import chart_rows
 from fctd.view.hole import drawn_hole
 from fctd.view.quantities import QUANTITIES, quantity_of
@@ -40,6 +42,8 @@ USUAL: Final = ("trip_out", "rotate_off_bottom", "trip_in")
 DEPTHS: Final = 70
 EVERY: Final = 3  # of the depths while a slider moves
 MOST_MEASURED: Final = 5_000  # rows
+# Among the operations of the chart: whether it shows limits; and depths that have them.
+LIMITS, LIMIT_DEPTHS = "limits", 5
 
 
 class Well:
@@ -97,8 +101,9 @@ class Well:
     ) -> dict[str, Any]:  # fmt: skip
         """Changes of the three figures for sliders at values.
 
-        operations : of the chart; operation, depth [shown unit] : of the string in its hole; coarse : whether every
-        third depth is enough; hole : whether the hole is drawn anew; measured : text of measured rows.
+        operations : of the chart, and ``LIMITS`` for the limits in it; operation, depth [shown unit] : of the string in
+        its hole; coarse : whether every third depth is enough; hole : whether the hole is drawn anew; measured : text
+        of measured rows.
         """
         kinds = [kind for kind in KINDS if kind in operations]
         if operation not in KINDS:
@@ -108,7 +113,8 @@ class Well:
         depths = self.depths[::-1][::EVERY][::-1] if coarse else self.depths
         rows = self._rows.solve(case, self._last[2], kinds, depths) if kinds else []
         points = self.measured(measured)
-        loads = charts.changes_of(rows, kinds, case, self.units, points) if rows else []
+        margins = self.margins_of(case, kinds) if LIMITS in operations and kinds and not coarse else None
+        loads = charts.changes_of(rows, kinds, case, self.units, points, margins) if rows else []
         factor, unit = shown("bit_depth_m", self.units)
         at = self.within(depth / factor)
         strings = self._strings(case, operation, at, self._last[2])
@@ -119,6 +125,17 @@ class Well:
         return {
             "loads": loads, "scene": scene, "panels": panels, "where": where, "words": words, "note": self._note(rows),
         }  # fmt: skip
+
+    def margins_of(self, case: Case, kinds: Sequence[str]) -> "pd.DataFrame":
+        """The margins of the operations at some depths of the chart, up to buckling; of none where nothing fits."""
+        import pandas as pd
+
+        solver, rates = self._rows.solver(case, self._last[2]), rates_of_all(case, kinds)
+        rows = []
+        for depth in np.linspace(self.depths[0], self.depths[-1], LIMIT_DEPTHS):
+            with suppress(InputError):  # string and hole do not fit, as the chart says
+                rows += margin_rows(solver, kinds, rates, float(depth), beyond_buckling=False)
+        return pd.DataFrame(rows, columns=["operation", "bit_depth_m", *COLUMNS.values()])
 
     def chart(self, values: Mapping[str, object], operations: Sequence[str]) -> list[dict[str, Any]]:
         """All rows of the chart for the sliders at values."""

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, Final
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Final
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case, naming_file
 from fctd.case.units import LENGTH, argument
-from fctd.model.operations import rates_of_all
+from fctd.model.operations import SteadyRates, rates_of_all
 from fctd.steady.equilibrium import Solver
 from fctd.steady.margins import Margin, margins
-from fctd.steady.torque_drag import FrictionChoice, with_friction
+from fctd.steady.torque_drag import FrictionChoice, Row, with_friction
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -58,21 +58,33 @@ def margin_table(
         depths = [argument(depth, LENGTH, "bit_depths") for depth in bit_depths] or [case.depths[1]]
         rates = rates_of_all(case, kinds, speed, rpm)
         solver = Solver(case if friction is None else with_friction(case, friction))
-        rows: list[dict[str, Any]] = []
+        rows: list[Row] = []
         unfit: list[InputError] = []
         for done, depth in enumerate(depths):
             try:
-                laid = solver.lay_out(depth)
+                rows += margin_rows(solver, kinds, rates, depth)
             except InputError as error:
                 unfit.append(error)
-                found = [(kind, Margin("none", "none", reason=f"not_possible: {error}")) for kind in kinds]
-            else:
-                found = [(kind, one) for kind in kinds for one in margins(solver, kind, rates[kind], laid)]
-            for kind, one in found:
-                named = {COLUMNS[name]: value for name, value in one._asdict().items()}
-                rows.append({"operation": kind, "bit_depth_m": depth, **named})
+                none = Margin("none", "none", reason=f"not_possible: {error}")
+                rows += [_row(kind, depth, none) for kind in kinds]
             if progress is not None:
                 progress(done + 1, len(depths))
         if len(unfit) == len(depths):
             raise unfit[0]
     return pd.DataFrame(rows)
+
+
+def margin_rows(
+    solver: Solver, kinds: Sequence[str], rates: Mapping[str, SteadyRates], depth: float, **options: bool
+) -> list[Row]:
+    """The rows of ``margin_table`` at a bit depth [m]; options : of ``margins``.
+
+    Raises InputError where string and hole do not fit.
+    """
+    laid = solver.lay_out(depth)
+    return [_row(kind, depth, one) for kind in kinds for one in margins(solver, kind, rates[kind], laid, **options)]
+
+
+def _row(kind: str, depth: float, margin: Margin) -> Row:
+    named = {COLUMNS[name]: value for name, value in margin._asdict().items()}
+    return {"operation": kind, "bit_depth_m": depth, **named}

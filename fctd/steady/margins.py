@@ -134,11 +134,14 @@ class Loaded:
         return solver.solve_string(operation, self.rates, self.laid)
 
 
-def margins(solver: Solver, operation: str, rates: SteadyRates, laid: LaidString) -> Iterator[Margin]:
+def margins(
+    solver: Solver, operation: str, rates: SteadyRates, laid: LaidString, *, beyond_buckling: bool = True
+) -> Iterator[Margin]:
     """The margins of a string in an operation.
 
     The overpull of one that moves up, the weight that can be set down by one that moves down, the torque and the
-    bending to and fro of one that turns, and what slips bear of one that stands still.
+    bending to and fro of one that turns, and what slips bear of one that stands still.  beyond_buckling : whether to
+    set down more weight than the helix has, which takes a hundred times as long.
     """
     loaded, kind, rig = Loaded(solver, operation, rates, laid), KINDS[operation], solver.case.rig
     if not loaded.free.answered:
@@ -149,7 +152,7 @@ def margins(solver: Solver, operation: str, rates: SteadyRates, laid: LaidString
         if rig.hoist_capacity is not None:
             yield _hoisted(loaded, rig.hoist_capacity)
     if kind.direction > 0:
-        yield from _set_down(loaded)
+        yield from _set_down(loaded, beyond_buckling)
     if rates.spin > 0:
         if kind.direction >= 0:
             yield _turned(loaded)
@@ -198,7 +201,7 @@ def _at_pull(loaded: Loaded, overpull: float, reached: First, share: float) -> M
     )  # fmt: skip
 
 
-def _set_down(loaded: Loaded) -> Iterator[Margin]:
+def _set_down(loaded: Loaded, beyond_buckling: bool) -> Iterator[Margin]:
     """The weights at which a string snakes, winds itself into a helix, yields, leaves no weight at the hook, locks up.
 
     Beyond buckling its waves have the wall force of the closed forms, and not their bending.  What becomes of a string
@@ -220,7 +223,7 @@ def _set_down(loaded: Loaded) -> Iterator[Margin]:
 
     yield _at_weight(loaded, SNAKING, _last(lambda weight: mode(weight) <= NEITHER, most))
     yield _at_weight(loaded, HELIX, _last(lambda weight: mode(weight) <= SINUSOIDAL, most))
-    if loaded.rates.spin:
+    if loaded.rates.spin or not beyond_buckling:
         return
     locks = _last(lambda weight: arrives(weight, -np.inf), most)
     spent = _last(lambda weight: arrives(weight, -push), locks if np.isfinite(locks) else most)

@@ -23,6 +23,7 @@ def test_every_trace_has_its_place() -> None:
             for kind in KINDS
             for column in charts.COLUMNS
         },
+        **{charts.place_of("limit", column, kind): KINDS[kind].label for kind in KINDS for column in charts.COLUMNS},
     }
     assert places == {k: trace["name"] for k, trace in enumerate(data)}
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 import fctd
 from fctd.app.charts import LOST, place_of
 from fctd.app.sessions import Source
-from fctd.app.well import DEPTHS, EVERY, Well
+from fctd.app.well import DEPTHS, EVERY, LIMIT_DEPTHS, LIMITS, Well
 from fctd.case.errors import InputError
 from fctd.model.depths import usual_depths
 from fctd.model.summary import summarise
@@ -146,3 +146,17 @@ def test_depths_end_where_the_string_does(tmp_path: Path) -> None:
     assert case.deepest == pytest.approx(2450.0)
     well = Well(Source(path.read_text(encoding="utf-8")), tmp_path, "si")
     assert well.opened()["depth"]["high"] == pytest.approx(case.deepest)
+
+
+def test_limits_are_drawn_where_they_are_asked_for_and_no_slider_moves(well: Well) -> None:
+    """Those of the command, at some depths."""
+    k = place_of("limit", "hookload_N", "trip_out")
+    found = {
+        (asked, coarse): unpacked(of(solved(well, operations=asked, coarse=coarse)["loads"], "data", k, "x"))
+        for asked, coarse in (((*KINDS, LIMITS), False), ((*KINDS, LIMITS), True), (tuple(KINDS), False))
+    }
+    assert not np.isfinite(found[(*KINDS, LIMITS), True]).any()
+    assert not np.isfinite(found[tuple(KINDS), False]).any()
+    drawn = found[(*KINDS, LIMITS), False]
+    table = fctd.margin_table(well.case, "trip_out", [well.depths[0], well.depths[-1]])
+    assert drawn[[0, LIMIT_DEPTHS - 1]] == pytest.approx(table["hookload_N"] / 1e3, rel=1e-5)
