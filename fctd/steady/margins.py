@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from functools import cache
 from typing import Any, Final, NamedTuple
 
 import numpy as np
@@ -210,10 +211,12 @@ def _set_down(loaded: Loaded, beyond_buckling: bool) -> Iterator[Margin]:
     push, string = loaded.solver.case.rig.push, loaded.laid.string
     most = MOST_WEIGHT * float(string.of("weight") @ string.length)
 
+    @cache
     def mode(weight: float) -> int:
         point = loaded.pressed(weight, 0.0)
         return MODES.index(point.buckling.mode) if point.answered else HELICAL
 
+    @cache
     def pushed(weight: float) -> Equilibrium:
         return loaded.pressed(weight, 0.0, helical_force="analytic")
 
@@ -371,13 +374,18 @@ def _why(used: First) -> str:
     return "no steady string was found on the way to the limit"
 
 
-def _last(holds: Callable[[float], bool], high: float) -> float:
-    """The largest load, within ``CLOSE``, up to which something holds; NaN where it does up to ``high``."""
-    if holds(high):
-        return NAN
-    low = 0.0
+def _last(holds: Callable[[float], bool], most: float) -> float:
+    """The largest load, within ``CLOSE``, up to which something holds; NaN where it does up to ``most``.
+
+    It grows from a small one: strings far beyond buckling take longest.
+    """
+    low, high = 0.0, FIRST * most
     if not holds(low):
         return low
+    while holds(high):
+        if high >= most:
+            return NAN
+        low, high = high, min(2 * high, most)
     while high - low > CLOSE * high:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if holds(middle) else (low, middle)
