@@ -16,7 +16,10 @@ import numpy as np
 from scipy.optimize import brentq
 
 from fctd.case.operations import KINDS
+from fctd.case.string import ComponentSpec
+from fctd.model.fatigue import dogleg_of, endless_amplitude
 from fctd.model.operations import SteadyRates, bit_loads
+from fctd.model.section import Section
 from fctd.results.buckling import HELICAL, MODES, NEITHER, SINUSOIDAL
 from fctd.results.limits import LIMITS, ROW, SHARE
 from fctd.results.notes import crushed_at
@@ -301,11 +304,26 @@ def _bent_to_and_fro(point: Equilibrium, spin: float) -> Margin:
     outer, inner = (np.append(string.of(name)[0], string.of(name)) for name in ("outer", "inner"))
     stress = profile["bending_moment_N_m"].to_numpy() * outer / (np.pi / 4 * (outer**4 - inner**4))
     row = int(np.argmax(stress))
-    part = point.case.string.components[int(string.component[max(row - 1, 0)])].name
+    k = int(string.component[max(row - 1, 0)])
+    tension = float(profile["effective_tension_N"].iloc[row])
+    part = point.case.string.components[k]
     return Margin(
-        FATIGUE, FATIGUE, part, float(profile["md_m"].iloc[row]), bending_stress=float(stress[row]),
-        cycles_per_hour=3600 * spin / (2 * np.pi),
+        FATIGUE, FATIGUE, part.name, float(profile["md_m"].iloc[row]), bending_stress=float(stress[row]),
+        cycles_per_hour=3600 * spin / (2 * np.pi), reason=_endless(part, string.sections[k], tension),
     )  # fmt: skip
+
+
+def _endless(part: ComponentSpec, section: Section, tension: float) -> str:
+    """What RP 7G has of drill pipe that is bent to and fro under a tension [N], and the dog-leg that does so."""
+    steel = np.pi * (section.outer**2 - section.inner**2)
+    stress = endless_amplitude(section.yield_strength, max(tension, 0.0) / steel)
+    if part.joint is None or stress is None:
+        return "none"
+    bend = dogleg_of(stress, tension, 2 * section.outer, section.EI, part.youngs_modulus, part.joint.length)
+    return (
+        f"RP 7G bears ±{stress / 1e6:.0f} MPa without end in air under that tension, a dog-leg of "
+        f"{np.degrees(30 * bend):.3g}°/30 m"
+    )
 
 
 def _in_slips(point: Equilibrium, length: float) -> Margin:
