@@ -145,6 +145,8 @@ LIMITS: Final[tuple[Limit, ...]] = (
         "design_factor", of_steel=True,
     ),
 )  # fmt: skip
+# A place farther down counts where its share is larger by more than rounding: a torque is the same along vertical hole.
+FARTHER: Final = 1 + 1e-9
 # Columns of the largest shares (len(LIMITS), WORST): the share, the row of its place, 0 for the top, and the place.
 SHARE, ROW, PLACE = 0, 1, 2
 WORST = PLACE + len(Place._fields)
@@ -161,7 +163,7 @@ def _comparison(limits: tuple[Limit, ...]) -> Any:
     def compare(at, section, row, worst):
         others(at, section, row, worst)
         share = load_of(at, section) / capacity_of(at, section)
-        if share > worst[k, SHARE]:
+        if share > worst[k, SHARE] * FARTHER:
             worst[k, SHARE], worst[k, ROW] = share, row
             worst[k, PLACE:] = at
 

@@ -7,13 +7,12 @@ those of the string under that load.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, Final, NamedTuple
 
 import numpy as np
-from scipy.optimize import brentq
 
 from fctd.case.operations import KINDS
 from fctd.case.string import ComponentSpec
@@ -25,14 +24,9 @@ from fctd.results.limits import LIMITS, ROW, SHARE
 from fctd.results.notes import crushed_at
 from fctd.steady.equilibrium import Solver
 from fctd.steady.laid_string import LaidString
+from fctd.steady.limit_search import CLOSE, NAN, last_of, root_of
 from fctd.steady.steady_string import Equilibrium
 
-# A margin is known within this share of the load, and a load at which the string buckles or stops within the next.
-EXACT, CLOSE = 1e-9, 2e-3
-# Overpull and torque grow from this share of the weakest section's capacity on, by doubling, up to its multiple.
-FIRST, MOST_CAPACITY = 1 / 64, 4.0
-# Where no string is found in the middle of an interval, other shares of it are tried; and others of a larger load.
-WITHIN, NEARBY = (0.5, 0.4, 0.6, 0.25, 0.75, 0.1, 0.9), (1.0, 0.9, 1.1, 0.8)
 # No more than so many weights of the string are set down.
 MOST_WEIGHT = 2.0
 SNAKING, HELIX, SLACK_OFF, LOCK_UP = "snaking", "helix", "slack_off", "lock_up"
@@ -49,7 +43,6 @@ MEANINGS: Final = {
     LOCK_UP: "no push moves the bit",
     FATIGUE: "turning bends the steel to and fro",
 }
-NAN: Final = float("nan")
 
 
 class Margin(NamedTuple):
@@ -175,7 +168,7 @@ def _overpull(loaded: Loaded) -> Margin:
     def excess(overpull: float) -> float:
         return _excess(loaded.pulled(overpull))
 
-    found = _root(excess, capacity)
+    found = root_of(excess, capacity)
     if not np.isfinite(found):
         return Margin(OVERPULL, used.code, used.part, used.md, used.share, reason=_why(used))
     return _at_pull(loaded, found, first_limit(loaded.pulled(found)), used.share)
@@ -189,7 +182,7 @@ def _hoisted(loaded: Loaded, capacity: float) -> Margin:
 
     share = loaded.free.weight_indicator / capacity
     used = First("hoist", share, "none", NAN)
-    found = _root(excess, capacity)
+    found = root_of(excess, capacity)
     if not np.isfinite(found):
         return Margin(OVERPULL, "hoist", share=share, reason=_why(used))
     return _at_pull(loaded, found, used, share)
@@ -227,15 +220,15 @@ def _set_down(loaded: Loaded, beyond_buckling: bool) -> Iterator[Margin]:
         point = pushed(weight)
         return point.answered and point.hookload >= hookload
 
-    yield _at_weight(loaded, SNAKING, _last(lambda weight: mode(weight) <= NEITHER, most))
-    yield _at_weight(loaded, HELIX, _last(lambda weight: mode(weight) <= SINUSOIDAL, most))
+    yield _at_weight(loaded, SNAKING, last_of(lambda weight: mode(weight) <= NEITHER, most))
+    yield _at_weight(loaded, HELIX, last_of(lambda weight: mode(weight) <= SINUSOIDAL, most))
     if loaded.rates.spin or not beyond_buckling:
         return
-    locks = _last(lambda weight: arrives(weight, -np.inf), most)
-    spent = _last(lambda weight: arrives(weight, -push), locks if np.isfinite(locks) else most)
+    locks = last_of(lambda weight: arrives(weight, -np.inf), most)
+    spent = last_of(lambda weight: arrives(weight, -push), locks if np.isfinite(locks) else most)
     # No rig pushes on from there.
     farthest = next((weight for weight in (spent, locks) if np.isfinite(weight)), most)
-    bears = _last(lambda weight: first_limit(pushed(weight)).share < 1, farthest)
+    bears = last_of(lambda weight: first_limit(pushed(weight)).share < 1, farthest)
     if np.isfinite(bears):
         yield _at_weight(loaded, first_limit(pushed(bears)).code, bears, helical_force="analytic")
     at_slack_off = _at_weight(loaded, SLACK_OFF, spent, helical_force="analytic")
@@ -270,7 +263,7 @@ def _turned(loaded: Loaded) -> Margin:
     def excess(torque: float) -> float:
         return _excess(loaded.pressed(0.0, torque))
 
-    found = _root(excess, capacity)
+    found = root_of(excess, capacity)
     if not np.isfinite(found):
         return Margin(TORQUE, used.code, used.part, used.md, used.share, reason=_why(used))
     return _at_torque(loaded, found, first_limit(loaded.pressed(0.0, found)), used.share)
@@ -284,7 +277,7 @@ def _driven(loaded: Loaded, capacity: float) -> Margin:
 
     share = loaded.free.drive_torque / capacity
     used = First("drive", share, "none", NAN)
-    found = _root(excess, capacity)
+    found = root_of(excess, capacity)
     if not np.isfinite(found):
         return Margin(TORQUE, "drive", share=share, reason=_why(used))
     return _at_torque(loaded, found, used, share)
@@ -352,59 +345,8 @@ def _weakest(laid: LaidString, load: str) -> float:
     return float(min(found))
 
 
-def _root(excess: Callable[[float], float], scale: float) -> float:
-    """The least load at which an excess is 0, NaN where it is above 0 from the start, or no string is found."""
-    low, high = 0.0, FIRST * scale
-    if not excess(0.0) < 0:
-        return NAN
-    while high <= MOST_CAPACITY * scale:
-        high, value = _known(excess, (share * high for share in NEARBY))
-        if value >= 0:
-            try:
-                return float(brentq(excess, low, high, xtol=EXACT * scale, rtol=EXACT))
-            except ValueError:  # from NaN: no steady string at a load on the way
-                return _between(excess, low, high, EXACT * scale)
-        if not np.isfinite(value):
-            return NAN
-        low, high = high, 2 * high
-    return NAN
-
-
-def _between(excess: Callable[[float], float], low: float, high: float, apart: float) -> float:
-    """The largest load below the root at which a string was found, where some between have none."""
-    while high - low > apart:
-        load, value = _known(excess, (low + share * (high - low) for share in WITHIN))
-        if not np.isfinite(value):
-            break
-        low, high = (low, load) if value >= 0 else (load, high)
-    return low
-
-
-def _known(excess: Callable[[float], float], loads: Iterable[float]) -> tuple[float, float]:
-    """The first of several loads with a steady string, and its excess; NaN of none."""
-    return next(((load, value) for load in loads if np.isfinite(value := excess(load))), (NAN, NAN))
-
-
 def _why(used: First) -> str:
     """Why no load was found."""
     if used.share >= 1:
         return f"beyond it already: {100 * used.share:.0f} % of what may be used"
     return "no steady string was found on the way to the limit"
-
-
-def _last(holds: Callable[[float], bool], most: float) -> float:
-    """The largest load, within ``CLOSE``, up to which something holds; NaN where it does up to ``most``.
-
-    It grows from a small one: strings far beyond buckling take longest.
-    """
-    low, high = 0.0, FIRST * most
-    if not holds(low):
-        return low
-    while holds(high):
-        if high >= most:
-            return NAN
-        low, high = high, min(2 * high, most)
-    while high - low > CLOSE * high:
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if holds(middle) else (low, middle)
-    return low
