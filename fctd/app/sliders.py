@@ -5,13 +5,15 @@ from dataclasses import dataclass
 from math import ceil, isfinite
 from typing import Any, Final
 
+import numpy as np
+
 from fctd.case.errors import MISSING, InputError
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.case.raw_case import scaled_static
 from fctd.case.units import conversion
 from fctd.model.drillstring import lay_out
-from fctd.model.layouts import is_long
+from fctd.model.layouts import is_cut
 from fctd.results.unit_systems import System
 
 RPM: Final = "rpm"
@@ -110,7 +112,7 @@ def changes(
                     found[f"operations[{i}].rpm"] = value
         elif name == "segment":
             for i, part in enumerate(case.string.components):
-                if not is_long(part):
+                if is_cut(part):
                     found[f"string.components[{i}].segments"] = None
                     found[f"string.components[{i}].segment_length"] = value
         else:
@@ -143,8 +145,12 @@ def _lacks_kinds(case: Case) -> bool:
 
 
 def _segment_length(case: Case) -> float:
-    """Mean length [m] of the segments below a long one, with the bit where operations, hole or string end."""
+    """Mean length [m] of the segments below a long one, with the bit where operations, hole or string end.
+
+    Those of components that resolve their joints, which the slider leaves alone, do not count where there are others.
+    """
     deepest = max((operation.end_md for operation in case.operations), default=case.deepest)
     string = lay_out(case, deepest)
     lengths = string.length[1:] if string.long_segment and string.segments > 1 else string.length
-    return float(lengths.mean())
+    cut = np.array([is_cut(case.string.components[k]) for k in string.origin[-len(lengths) :]])
+    return float(lengths[cut].mean() if cut.any() else lengths.mean())

@@ -15,8 +15,8 @@ from fctd.case.errors import InputError
 from fctd.case.friction import table_of
 from fctd.case.load import Case
 from fctd.case.rig import RigSpec
+from fctd.model.joints import sections_of
 from fctd.model.operations import drive_torque, rad_per_s, weight_indicator
-from fctd.model.section import section_of
 from fctd.results.status import SteadyStatus
 from fctd.steady.equilibrium import Solver
 from fctd.steady.laid_string import LaidString
@@ -128,8 +128,7 @@ class Forward:
     def length_in_hole(self, name: str, row: Row) -> float:
         """Length of the components that an unknown ``mass.NAME`` names in the string of a row [m]."""
         string = self._laid[row.string, row.bit_depth].string
-        parts = self.strings[row.string].string.components
-        named = [k for k, part in enumerate(parts) if f"mass.{part.name}" == name]
+        named = [k for k, part in enumerate(string.parts) if f"mass.{part.component.name}" == name]
         return float(string.length[np.isin(string.component, named)].sum())
 
     def evaluate(self, values: Array) -> Evaluation:
@@ -218,10 +217,11 @@ class Forward:
         of_case = self._laid[row.string, row.bit_depth]
         strings: list[LaidString] = []
         for solver in solvers:
-            parts = solver.case.string.components[: len(of_case.string.sections)]
-            sections = tuple(section_of(part, solver.case.mud.density) for part in parts)
+            components = solver.case.string.components
+            parts = tuple(part._replace(component=components[part.origin]) for part in of_case.string.parts)
+            sections = sections_of(parts, solver.case.mud.density)
             same = [laid for laid in (of_case, *strings[:1]) if laid.string.sections == sections]
-            other = replace(of_case.string, sections=sections)
+            other = replace(of_case.string, sections=sections, parts=parts)
             strings.append(same[0] if same else LaidString(solver.case, solver.hole, other))
         changes = [Changed(solver, laid) for solver, laid in zip(solvers[1:], strings[1:], strict=True)]
         try:

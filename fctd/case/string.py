@@ -52,7 +52,9 @@ class ComponentSpec(Table):
     may be a grade, "S-135".
 
     With `joint` the largest bending moment of the pipe, at its tool joints or between them, is computed from the
-    string's curvature, and mass and stiffnesses that are not given are those of body and tool joints together.
+    string's curvature, and mass and stiffnesses that are not given are those of body and tool joints together. With
+    `joint_segments` the string is laid joint by joint: its tool joints touch, and each body between them is cut into so
+    many segments, shorter towards the tool joints.
 
     A bent housing has its `bend` [rad] at the upper end, where the component is tilted against the one above
     it towards `toolface` [rad], which counts from the high side clockwise looking downhole.
@@ -80,6 +82,7 @@ class ComponentSpec(Table):
     )
     segments: units.Count | None = None
     segment_length: units.PositiveLength | None = None
+    joint_segments: units.SeveralCount | None = None
     linear_mass: units.PositiveLinearMass | None = None
     youngs_modulus: units.PositiveStress = 206.8e9
     poisson_ratio: units.PoissonRatio = 0.3
@@ -101,6 +104,11 @@ class ComponentSpec(Table):
     @model_validator(mode="after")
     def _check(self) -> Self:
         exclusive(self, "segments", "segment_length")
+        if self.joint_segments is not None:
+            if self.joint is None:
+                raise InputError("a component with joint, whose bodies are cut", key="joint_segments")
+            exclusive(self, "segments", "joint_segments")
+            exclusive(self, "segment_length", "joint_segments")
         if self.inner_diameter >= self.outer_diameter:
             raise InputError("a diameter below outer_diameter", key="inner_diameter")
         if self.eccentricity >= 0.5 * self.outer_diameter:
@@ -118,8 +126,8 @@ class ComponentSpec(Table):
 
     @property
     def cut_by_default(self) -> bool:
-        """Whether neither `segments` nor `segment_length` is given."""
-        return self.segments is None and self.segment_length is None
+        """Whether neither `segments` nor `segment_length` nor `joint_segments` is given."""
+        return self.segments is None and self.segment_length is None and self.joint_segments is None
 
     @property
     def long_segment(self) -> bool:

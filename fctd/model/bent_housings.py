@@ -1,5 +1,7 @@
 """Bent housings: each tilts the end of the body above it towards its tool face, and turns with that body."""
 
+from itertools import pairwise
+
 import numpy as np
 
 from fctd.arrays import Array
@@ -10,11 +12,13 @@ from fctd.model.drillstring import String
 from fctd.model.wellbore import Wellbore, hole_frame
 
 
-def bent_joints(case: Case, string: String) -> dict[int, ComponentSpec]:
+def bent_joints(string: String) -> dict[int, ComponentSpec]:
     """The joints above bent housings, with their components; the joint at the top drive has no bend."""
-    parts = case.string.components[: len(string.sections)]
-    joints = {int(np.argmax(string.component == k)) + 1: part for k, part in enumerate(parts) if part.bend}
-    return {j: part for j, part in joints.items() if j > 1}
+    joints = {}
+    for k, (part, above) in enumerate(pairwise(string.parts)):
+        if part.component.bend and above.origin != part.origin:
+            joints[int(np.argmax(string.component == k)) + 1] = part.component
+    return joints
 
 
 def kink_of(part: ComponentSpec, above: Array, direction: Array) -> tuple[float, float]:
@@ -43,7 +47,7 @@ def put_bends(S: Array, case: Case, string: String, hole: Wellbore | None = None
     that are still to come.
     """
     joint_md = string.top_md + np.append(0.0, np.cumsum(string.length))
-    for j, part in bent_joints(case, string).items():
+    for j, part in bent_joints(string).items():
         if hole is None:
             kink = _half_turn(part.bend, np.cos(part.toolface), np.sin(part.toolface))
         else:

@@ -12,7 +12,8 @@ from fctd.case.load import Case
 from fctd.case.string import ComponentSpec
 from fctd.mechanics import state
 from fctd.model.default_layout import DefaultLayout
-from fctd.model.section import Section, section_of
+from fctd.model.joints import Part, Pieces, cut_joints, joint_of, joints_in, sections_of, segments_in
+from fctd.model.section import Section
 from fctd.model.string_rows import find_contacts, find_stiffness
 
 # A long segment must be this long [m].
@@ -35,8 +36,9 @@ class String:
     """A laid-out string, arrays from the top segment to the bit, shape (n,).
 
     bit_depth : unstretched length below the rotary table [m]; length [m]; component : index into ``sections`` and
-    the case's components; long_segment : whether the top segment is the paper's long one, whose length may change
-    while the string moves.  Raises AssertionError where these disagree, which is a defect of the program.
+    ``parts``, the case's components or parts of them (joints.py); long_segment : whether the top segment is the paper's
+    long one, whose length may change while the string moves.  Raises AssertionError where these disagree, which is a
+    defect of the program.
     """
 
     top_md: float
@@ -44,6 +46,7 @@ class String:
     length: Array
     component: NDArray[np.int64]
     sections: tuple[Section, ...]
+    parts: tuple[Part, ...]
     long_segment: bool
 
     def __post_init__(self) -> None:
@@ -55,6 +58,7 @@ class String:
         # From the top down the components follow each other in reverse order of the list, without a gap.
         steps = self.component[:-1] - self.component[1:]
         ends = self.component[0] == len(self.sections) - 1 and self.component[-1] == 0
+        ends &= len(self.parts) == len(self.sections)
         if len(self.component) != len(self.length) or not (ends and set(steps.tolist()) <= {0, 1}):
             raise AssertionError("the segments do not follow the order of the components")
 
@@ -62,6 +66,15 @@ class String:
     def segments(self) -> int:
         """Number of segments."""
         return len(self.length)
+
+    @property
+    def origin(self) -> NDArray[np.int64]:
+        """Indices (n,) of the case's components that the segments are of."""
+        return np.array([part.origin for part in self.parts])[self.component]
+
+    def key_of(self, segment: int) -> str:
+        """The key of the case's component that a segment is of."""
+        return f"string.components[{int(self.origin[segment])}]"
 
     def of(self, name: str) -> Array:
         """A section property of every segment, shape (n,), in the unit that `Section` gives."""
@@ -114,7 +127,8 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
     """Segments of the string that is in the hole with the bit at ``bit_depth`` [m].
 
     Components are laid from the bit up until the depth is reached; the topmost piece takes the remainder.  A component
-    without ``segments`` and ``segment_length`` has those of ``DefaultLayout``.
+    without ``segments`` and ``segment_length`` has those of ``DefaultLayout``; one with ``joint_segments`` is laid
+    joint by joint, below a long segment of whole pipe where it is fed.
     deepest : greatest bit depth [m] of the run; pipe is fed to reach it, which needs a long segment at the top.
     Raises InputError when the string is too short, a long segment does not fit, or more than the topmost
     component would have to be fed.
@@ -130,22 +144,29 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
         )
     lengths: list[float] = []
     owner: list[int] = []
+    parts: list[Part] = []
     taken: list[float] = []
     by_default = None
-    if any(part.cut_by_default for part in components):
+    if any(component.cut_by_default for component in components):
         by_default = DefaultLayout(case, bit_depth, deepest)
-    for k, part in enumerate(components):
-        take = remaining if part.length is None else min(part.length, remaining)
-        if by_default is not None and part.cut_by_default:
-            start = bit_depth - case.string.top_md - remaining
-            check_segments(by_default.count(start, start + take))
-            pieces = by_default.lengths(start, start + take)
+    for k, component in enumerate(components):
+        take = remaining if component.length is None else min(component.length, remaining)
+        if component.joint_segments is not None:
+            cut = _joint_by_joint(component, k, take, fed and remaining - take <= 1e-9)
         else:
-            pieces = _divide(part, take)
-        if part.contact == "point":
-            pieces = [take / len(pieces)] * len(pieces)  # its middle is that of a segment, or a joint
-        lengths += pieces
-        owner += [k] * len(pieces)
+            if by_default is not None and component.cut_by_default:
+                start = bit_depth - case.string.top_md - remaining
+                check_segments(by_default.count(start, start + take))
+                pieces = by_default.lengths(start, start + take)
+            else:
+                pieces = _divide(component, take)
+            if component.contact == "point":
+                pieces = [take / len(pieces)] * len(pieces)  # its middle is that of a segment, or a joint
+            cut = [(Part(component, k), pieces)]
+        for part, pieces in cut:
+            lengths += pieces
+            owner += [len(parts)] * len(pieces)
+            parts.append(part)
         taken.append(take)
         remaining -= take
         if remaining <= 1e-9:
@@ -157,25 +178,27 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
             value=Computed(f"{sum(c.length or 0 for c in components):g} m of string"),
         )
     while fed and lengths[-1] < SHORTEST_LONG_SEGMENT and owner[-2:] == owner[-1:] * 2:
-        top = lengths.pop()  # before the line below indexes the list: `a[-2] += a.pop()` reads one item, writes another
-        lengths[-1] += top
+        uppermost = lengths.pop()  # before the line below: `a[-2] += a.pop()` reads one item, writes another
+        lengths[-1] += uppermost
         owner.pop()
-    long_segment = fed or components[owner[-1]].long_segment
+    top = parts[-1]
+    long_segment = fed or top.component.long_segment
     if long_segment and lengths[-1] < SHORTEST_LONG_SEGMENT - 1e-9:
         raise LongSegmentError(
             f"at least {SHORTEST_LONG_SEGMENT:g} m at every bit depth, as the top segment's length changes",
-            key=f"string.components[{owner[-1]}]",
+            key=f"string.components[{top.origin}]",
             value=f"{lengths[-1]:.3g} m of it at the top",
         )
     if deepest is not None:
-        _check_feed(case, owner[-1], deepest)
+        _check_feed(case, top.origin, deepest)
     check_segments(len(lengths))
     string = String(
         top_md=case.string.top_md,
         bit_depth=bit_depth,
         length=np.array(lengths[::-1]),
         component=np.array(owner[::-1], dtype=np.int64),
-        sections=tuple(section_of(c, case.mud.density) for c in components[: len(taken)]),
+        sections=sections_of(parts, case.mud.density),
+        parts=tuple(parts),
         long_segment=long_segment,
     )
     check_lengths(string, taken)
@@ -210,8 +233,19 @@ def check_lengths(string: String, taken: list[float]) -> None:
 
     Otherwise mass and weight of the string would be wrong.
     """
-    if np.abs(np.bincount(string.component, string.length) - taken).max() > SAME_LENGTH:
+    if np.abs(np.bincount(string.origin, string.length) - taken).max() > SAME_LENGTH:
         raise AssertionError(f"the segments of a component do not add up to its length in the hole, {taken} m")
+
+
+def _joint_by_joint(component: ComponentSpec, origin: int, take: float, fed: bool) -> Pieces:
+    """Joints of ``take`` metres of a component from the bit up; below a long segment of it, where it is fed."""
+    joint = joint_of(component).length
+    count = max(int((take - SHORTEST_LONG_SEGMENT) / joint), 0) if fed else joints_in(component, take)
+    check_segments(segments_in(component, count))  # before a list of them fills the memory
+    if not fed:
+        return cut_joints(component, origin, take, count, joint)
+    below = cut_joints(component, origin, count * joint, count, joint) if count else []
+    return [*below, (Part(component, origin), [take - count * joint])]
 
 
 def _divide(part: ComponentSpec, take: float) -> list[float]:

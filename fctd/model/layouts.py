@@ -16,6 +16,7 @@ from fctd.case.load import Case
 from fctd.case.string import ComponentSpec
 from fctd.model import survey
 from fctd.model.default_layout import AT_MOVING_BIT, DefaultLayout
+from fctd.model.joints import joints_in, longest_segment, segments_in
 from fctd.model.section import section_of
 
 Components = tuple[ComponentSpec, ...]
@@ -55,7 +56,7 @@ def graded(case: Case, bit_depth: float, length: float, least: int = 1) -> Compo
     start, total = 0.0, bit_depth - case.string.top_md
     for part in case.string.components:
         end = total if part.length is None else min(start + part.length, total)
-        if start >= total - 1e-9 or is_long(part):
+        if start >= total - 1e-9 or not is_cut(part):
             pieces.append(part)
         elif part.contact == "point":
             pieces.append(_cut(part, length, least))
@@ -70,7 +71,8 @@ def graded(case: Case, bit_depth: float, length: float, least: int = 1) -> Compo
 def resolved(case: Case, bit_depth: float, md: Array, needed: Array) -> Components:
     """Segments of at most ``needed`` (n,) [m] beside the measured depths ``md`` (n,) [m], rising; else the case's own.
 
-    A component is cut where that changes by a factor of two; the paper's long segment stays.
+    A component is cut where that changes by a factor of two; the paper's long segment stays.  Of one that resolves its
+    joints all bodies are cut alike.
     """
     pieces: list[ComponentSpec] = []
     start, total = 0.0, bit_depth - case.string.top_md
@@ -82,6 +84,9 @@ def resolved(case: Case, bit_depth: float, md: Array, needed: Array) -> Componen
         inside = (above_bit >= start) & (above_bit <= end)
         if start >= total or is_long(part) or (shortest[inside] >= own[inside]).all():
             pieces.append(part)
+        elif part.joint_segments is not None:
+            finer = np.ceil(part.joint_segments * own[0] / shortest[inside].min())
+            pieces.append(part.model_copy(update={"joint_segments": int(finer)}))
         elif part.contact == "point":
             pieces.append(_cut(part, float(np.minimum(shortest, own)[inside].min())))
         else:
@@ -98,8 +103,8 @@ def resolved(case: Case, bit_depth: float, md: Array, needed: Array) -> Componen
 
 
 def by_default(case: Case) -> Components:
-    """Segments as a case has them that gives no lengths; a long segment stays."""
-    none = {"segments": None, "segment_length": None}
+    """Segments as a case has them that gives no lengths and resolves no joints; a long segment stays."""
+    none = {"segments": None, "segment_length": None, "joint_segments": None}
     return tuple(part if is_long(part) else part.model_copy(update=none) for part in case.string.components)
 
 
@@ -151,6 +156,8 @@ def segments_in_hole(case: Case, bit_depth: float) -> int:
         if part.cut_by_default:
             start = bit_depth - case.string.top_md - remaining
             count += DefaultLayout(case, bit_depth).count(start, start + take)
+        elif part.joint_segments is not None:
+            count += segments_in(part, joints_in(part, take))
         else:
             nominal = part.segment_length or (take if part.length is None else part.length) / (part.segments or 1)
             count += max(take / nominal, 1)
@@ -179,7 +186,9 @@ def has_short(case: Case) -> bool:
 
 
 def _nominal(part: ComponentSpec, in_hole: float) -> float:
-    """Length of a component's segments [m]."""
+    """Length of a component's segments [m], of the longest where it resolves its joints."""
+    if part.joint_segments is not None:
+        return longest_segment(part)
     if part.segment_length is not None:
         return part.segment_length
     assert part.segments is not None  # the caller has taken out those that are cut by default
@@ -191,13 +200,18 @@ def is_long(part: ComponentSpec) -> bool:
     return part.length is None and part.segments == 1
 
 
+def is_cut(part: ComponentSpec) -> bool:
+    """Whether a layout cuts a component: neither the paper's long segment nor one that resolves its joints."""
+    return not is_long(part) and part.joint_segments is None
+
+
 def _at_least(part: ComponentSpec, least: int) -> int:
     """The least number of segments of a component, in which none is shorter than ``SHORTEST``."""
     return 1 if part.length is None else max(min(least, int(part.length / SHORTEST)), 1)
 
 
 def _cut(part: ComponentSpec, length: float, least: int = 1) -> ComponentSpec:
-    if is_long(part):
+    if not is_cut(part):
         return part
     if part.length is None:
         return part.model_copy(update={"segments": None, "segment_length": length})

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fctd.case.pipes.catalogue import pipe_named
-from fctd.case.string import ComponentSpec
+from fctd.case.string import ComponentSpec, JointSpec
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.connection import make_up_torque
 
@@ -20,7 +20,10 @@ class Section(NamedTuple):
     a component that touches at a point, 0 for a sleeve; compressibility : strain along by pressure on all sides [1/Pa];
     joint, tool_joint : lengths of a joint of pipe and of its tool joint [m], 0 where they are not given; make_up :
     largest make-up torque of its tool joints [N m], infinite where it is not known; body_weight : of its body alone,
-    buoyed [N/m].
+    buoyed [N/m]; wave_weight [N/m], wave_stiffness [N m^2], wave_radius [m] : with which pipe buckles as a whole.
+
+    A resolved tool joint has a ``tool_joint`` and no ``joint``, and a body neither: what they do to the bending of the
+    pipe is computed.  Outer and inner radius of the tool joint are those of its body, whose end is stressed most.
     """
 
     mass: float
@@ -42,6 +45,9 @@ class Section(NamedTuple):
     tool_joint: float = 0.0
     make_up: float = math.inf
     body_weight: float = 0.0
+    wave_weight: float = 0.0
+    wave_stiffness: float = 0.0
+    wave_radius: float = 0.0
 
 
 def shear_coefficient(outer: float, inner: float, poisson: float) -> float:
@@ -68,13 +74,7 @@ def section_of(component: ComponentSpec, outside: float, inside: float | None = 
     modulus = component.youngs_modulus
     shear_modulus = modulus / (2 * (1 + component.poisson_ratio))
     kappa = shear_coefficient(b, a, component.poisson_ratio)
-    joint = component.joint
-    # Tool joints add steel, and are so many times as stiff, along and about the axis, as the body.
-    share, larger, stiffer = 0.0, 1.0, 1.0
-    if joint is not None:
-        d, c = 0.5 * joint.tool_joint_diameter, a if joint.tool_joint_inner is None else 0.5 * joint.tool_joint_inner
-        share = joint.tool_joint_length / joint.length
-        larger, stiffer = (d * d - c * c) / (b * b - a * a), (d**4 - c**4) / (b**4 - a**4)
+    share, larger, stiffer = _of_tool_joints(component)
     mass = component.linear_mass
     if mass is None:
         mass = component.density * area * (1 + share * (larger - 1))
@@ -102,11 +102,73 @@ def section_of(component: ComponentSpec, outside: float, inside: float | None = 
         eccentricity=component.eccentricity,
         point=float(component.contact == "point"),
         compressibility=(1 - 2 * component.poisson_ratio) / modulus,
-        joint=0.0 if joint is None else joint.length,
-        tool_joint=0.0 if joint is None else joint.tool_joint_length,
+        joint=0.0 if component.joint is None else component.joint.length,
+        tool_joint=0.0 if component.joint is None else component.joint.tool_joint_length,
         make_up=_make_up(component),
         body_weight=weight_of(min(component.density * area, mass)),
+        wave_weight=weight_of(mass),
+        wave_stiffness=given(component.bending_stiffness, modulus * second),
     )
+
+
+def body_of(component: ComponentSpec, outside: float) -> Section:
+    """Properties of the body of a component with ``joint``, in fluid of a density [kg/m³].
+
+    With those of ``tool_joint_of`` they make up those of the component: mass and weight in all, the compliance along
+    and about the axis in series.
+    """
+    whole, (share, larger, stiffer) = section_of(component, outside), _of_tool_joints(component)
+    b, a = whole.outer, whole.inner
+    mass = min(component.density * np.pi * (b * b - a * a), whole.mass)
+    return whole._replace(
+        mass=mass, weight=whole.body_weight, axial_inertia=0.5 * mass * (a * a + b * b),
+        tilt_inertia=0.25 * mass * (a * a + b * b), EA=whole.EA * (1 - share * (1 - 1 / larger)),
+        GJ=whole.GJ * (1 - share * (1 - 1 / stiffer)), contact_radius=b, point=0.0, joint=0.0, tool_joint=0.0,
+        wave_radius=whole.contact_radius,
+    )  # fmt: skip
+
+
+def tool_joint_of(component: ComponentSpec, outside: float) -> Section:
+    """Properties of the tool joint of a component with ``joint``, in fluid of a density [kg/m³].
+
+    It weighs what the component does beyond its body.  A stiffness that is given for the component is that of its body;
+    the tool joint's is as much larger as their diameters make it.
+    """
+    whole, body, (share, larger, stiffer) = (
+        section_of(component, outside),
+        body_of(component, outside),
+        _of_tool_joints(component),
+    )
+    assert component.joint is not None  # the caller has one
+    (d, c), poisson = _radii(component.joint, whole.inner), component.poisson_ratio
+    mass = (whole.mass - (1 - share) * body.mass) / share
+    wider = shear_coefficient(d, c, poisson) / shear_coefficient(whole.outer, whole.inner, poisson)
+    return body._replace(
+        mass=mass, weight=(whole.weight - (1 - share) * body.weight) / share,
+        axial_inertia=0.5 * mass * (c * c + d * d), tilt_inertia=0.25 * mass * (c * c + d * d), EA=body.EA * larger,
+        GJ=body.GJ * stiffer, EI=body.EI * stiffer, shear=body.shear * larger * wider,
+        contact_radius=whole.contact_radius, point=1.0, tool_joint=component.joint.tool_joint_length,
+    )  # fmt: skip
+
+
+def _radii(joint: JointSpec, bore: float) -> tuple[float, float]:
+    """Outer and inner radius of a tool joint [m]; bore : inner radius of the body."""
+    inner = bore if joint.tool_joint_inner is None else 0.5 * joint.tool_joint_inner
+    return 0.5 * joint.tool_joint_diameter, inner
+
+
+def _of_tool_joints(component: ComponentSpec) -> tuple[float, float, float]:
+    """Share of tool joints in the length, and how many times as large their area and second moment are as the body's.
+
+    Without tool joints nothing is added to the body.
+    """
+    joint = component.joint
+    if joint is None:
+        return 0.0, 1.0, 1.0
+    b, a = 0.5 * component.outer_diameter, 0.5 * component.inner_diameter
+    d, c = _radii(joint, a)
+    share = joint.tool_joint_length / joint.length
+    return share, (d * d - c * c) / (b * b - a * a), (d**4 - c**4) / (b**4 - a**4)
 
 
 def _make_up(component: ComponentSpec) -> float:

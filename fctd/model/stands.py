@@ -14,7 +14,7 @@ from fctd.mechanics import state
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.default_layout import DefaultLayout
 from fctd.model.drillstring import String, check_lengths, check_segments
-from fctd.model.section import section_of
+from fctd.model.joints import Part, Pieces, cut_joints, joint_of, sections_of, segments_in
 from fctd.model.string_in_hole import check_clearance
 from fctd.model.wellbore import Wellbore
 
@@ -65,6 +65,7 @@ class Tally:
             length=length,
             component=component,
             sections=self.whole.sections[: int(component[0]) + 1],
+            parts=self.whole.parts[: int(component[0]) + 1],
             long_segment=False,
         )
 
@@ -106,6 +107,7 @@ def lay_out_stands(case: Case, shallowest: float, deepest: float) -> Tally:
         )
     if ends[-1] < rig.stand_length:
         raise InputError(f"at most the string, {ends[-1]:g} m", key="rig.stand_length", value=f"{rig.stand_length:g} m")
+    _check_joints(case)
     reach = _stand_ends(components, ends, rig.stand_length, deepest)
     longest = float(np.diff(reach).max())
     if longest > rig.derrick_height:
@@ -120,22 +122,16 @@ def lay_out_stands(case: Case, shallowest: float, deepest: float) -> Tally:
         layout = DefaultLayout(case, shallowest, deepest, total)
     lengths: list[float] = []
     owner: list[int] = []
+    parts: list[Part] = []
     count = [0]
     start = 0.0
     for end in np.union1d(reach[1:], ends[ends < total - 1e-9]).tolist():
         k = int(np.searchsorted(ends, 0.5 * (start + end)))
-        part = components[k]
-        if layout is not None and part.cut_by_default:
-            check_segments(len(lengths) + layout.count(start, end))
-            pieces = layout.lengths(start, end)
-        else:
-            shares = (end - start) / _nominal(part)
-            check_segments(len(lengths) + shares)
-            pieces = [(end - start) / max(round(shares), 1)] * max(round(shares), 1)
-        if part.contact == "point":
-            pieces = [(end - start) / len(pieces)] * len(pieces)
-        lengths += pieces
-        owner += [k] * len(pieces)
+        for part, pieces in _cut(components[k], k, start, end, layout, len(lengths)):
+            if not parts or parts[-1][1:] != part[1:]:  # a component goes on from one stand to the next
+                parts.append(part)
+            lengths += pieces
+            owner += [len(parts) - 1] * len(pieces)
         if np.abs(reach - end).min() < 1e-9:
             count.append(len(lengths))
         start = end
@@ -145,15 +141,57 @@ def lay_out_stands(case: Case, shallowest: float, deepest: float) -> Tally:
         bit_depth=deepest,
         length=np.array(lengths[::-1]),
         component=np.array(owner[::-1], dtype=np.int64),
-        sections=tuple(section_of(part, case.mud.density) for part in components[: owner[-1] + 1]),
+        sections=sections_of(parts, case.mud.density),
+        parts=tuple(parts),
         long_segment=False,
     )
-    check_lengths(whole, np.diff(np.append(0.0, np.minimum(ends, total)))[: owner[-1] + 1].tolist())
+    check_lengths(whole, np.diff(np.append(0.0, np.minimum(ends, total)))[: parts[-1].origin + 1].tolist())
     return Tally(whole, np.array(count, dtype=np.int64), reach)
 
 
+def _cut(
+    component: ComponentSpec, origin: int, start: float, end: float, layout: DefaultLayout | None, before: int
+) -> Pieces:
+    """Segments of a component between two distances above the bit [m], in one stand.
+
+    before : number of those below.  Joints are made to fit: a stand has whole ones.
+    """
+    if layout is not None and component.cut_by_default:
+        check_segments(before + layout.count(start, end))
+        pieces = layout.lengths(start, end)
+    else:
+        shares = (end - start) / _nominal(component)
+        count = max(round(shares), 1)
+        if component.joint_segments is not None:
+            check_segments(before + segments_in(component, count))
+            return cut_joints(component, origin, end - start, count, (end - start) / count)
+        check_segments(before + shares)
+        pieces = [(end - start) / count] * count
+    if component.contact == "point":
+        pieces = [(end - start) / len(pieces)] * len(pieces)
+    return [(Part(component, origin), pieces)]
+
+
+def _check_joints(case: Case) -> None:
+    """Raise InputError where resolved joints would have to be much longer or shorter to fit into stands."""
+    stand = case.rig.stand_length
+    for component in case.string.components:
+        if component.joint_segments is None or (component.length or np.inf) < stand:
+            continue
+        joint = joint_of(component).length
+        count = max(round(stand / joint), 1)
+        if abs(stand / count - joint) > UNEVEN * joint:
+            raise InputError(
+                f"a whole number of joints of {joint:.4g} m within a tenth, as their tool joints are resolved",
+                key="rig.stand_length",
+                value=f"{stand:g} m",
+            )
+
+
 def _nominal(part: ComponentSpec) -> float:
-    """Nominal length of a component's segments [m]; infinite where one segment shall reach the table."""
+    """Nominal length of a component's segments or joints [m]; infinite where one segment shall reach the table."""
+    if part.joint_segments is not None:
+        return joint_of(part).length
     if part.segment_length is not None:
         return part.segment_length
     assert part.segments is not None  # ``lay_out_stands`` cuts a component that has neither

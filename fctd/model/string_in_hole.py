@@ -29,7 +29,7 @@ def check_fit(string: String, hole: Wellbore, deepest: float) -> None:
     if string.length[shortest] < SHORTEST_SEGMENT:
         raise InputError(
             f"segments of at least {SHORTEST_SEGMENT:g} m",
-            key=f"string.components[{int(string.component[shortest])}]",
+            key=string.key_of(shortest),
             value=f"{string.length[shortest]:.3g} m of it in one segment",
         )
     fed = deepest - string.bit_depth if string.long_segment else 0.0
@@ -45,7 +45,7 @@ def check_fit(string: String, hole: Wellbore, deepest: float) -> None:
         if tilt > LONG_SEGMENT_TILT:
             raise LongSegmentError(
                 "a hole within 1 deg of vertical along the top segment (a shorter trip, or more segments)",
-                key=f"string.components[{int(string.component[0])}]",
+                key=string.key_of(0),
                 value=f"{length:.4g} m at the top, in a hole of up to {np.degrees(tilt):.2f} deg",
             )
 
@@ -63,7 +63,7 @@ def check_clearance(string: String, hole: Wellbore, top: Array, bottom: Array) -
             k = int(np.argmax(tight))
             raise InputError(
                 f"at most the hole's {2e3 * wall:.6g} mm",
-                key=f"string.components[{int(string.component[k])}].contact_diameter",
+                key=f"{string.key_of(k)}.contact_diameter",
                 value=f"{2e3 * radius[k]:.6g} mm",
             )
 

@@ -11,6 +11,7 @@ from fctd.mechanics.topdrive import PerMetre, set_long_segment
 # Columns of a table of sections: the fields of ``section.Section``.
 MASS, WEIGHT, AXIAL_INERTIA, TILT_INERTIA, EA, GJ, EI, SHEAR, OUTER, INNER, CONTACT_RADIUS, YIELD_STRENGTH = range(12)
 ECCENTRICITY, POINT, COMPRESSIBILITY, JOINT, TOOL_JOINT, MAKE_UP, BODY_WEIGHT = range(12, 19)
+WAVE_WEIGHT, WAVE_STIFFNESS, WAVE_RADIUS = range(19, 22)
 
 
 @rounded

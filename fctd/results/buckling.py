@@ -78,7 +78,8 @@ UNKNOWN: Final = Buckling("unknown")
 class Pipe(NamedTuple):
     """What buckling depends on, of the n segments: EI [N m²], buoyed weight [N/m], contact radius, length [m].
 
-    middle : whether a segment touches at its middle.
+    Where tool joints and bodies are segments of their own, they are those of the pipe as a whole.  middle : whether a
+    segment touches at its middle.
     """
 
     EI: Array
@@ -90,8 +91,8 @@ class Pipe(NamedTuple):
 
 def pipe_of(string: String) -> Pipe:
     """The pipe of a string."""
-    radius = string.contact_radius()
-    return Pipe(string.of("EI"), string.of("weight"), radius, string.length, string.mid_contact())
+    radius = np.maximum(string.contact_radius(), string.of("wave_radius"))
+    return Pipe(string.of("wave_stiffness"), string.of("wave_weight"), radius, string.length, string.mid_contact())
 
 
 def buckling_along(

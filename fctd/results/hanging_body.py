@@ -6,7 +6,9 @@ K = √(|T|/EI) and L half of a joint.  Its lateral weight bends it as a beam th
 does not bend: the body between them, of half length l, has all of the turn, and factors of Kl with L/l in front.
 
 A coarse string, whose contact points lie where its segments end, knows the mean curvature alone; these closed forms
-correct its bending moment.  They hold while the body does not touch the wall.
+correct its bending moment.  They hold while the body does not touch the wall.  Of a string that resolves its joints
+(``model.joints``) the moment is computed: nothing is corrected, and a tool joint has the larger one of its ends, where
+bodies begin.
 """
 
 import math
@@ -154,6 +156,8 @@ def find_hanging(bends, top_md, md, in_hole, tension, bit_tension, bending, midd
         row = sections[component[j]]
         joint, tool_joint, room = row[JOINT], row[TOOL_JOINT], row[CONTACT_RADIUS] - row[OUTER]
         given = joint > 0
+        if tool_joint > 0 and not given and i and middle[j]:  # a segment of its own: at its ends those of two bodies
+            rows[i, MOMENT] = max(bending[j], bending[j + 1])
         if not in_hole or room <= 0 or row[POINT] != 0 or not (given or may_yield(row, pull, own)):
             continue
         s = md[j] if i else top_md

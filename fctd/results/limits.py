@@ -179,7 +179,7 @@ def _section(table, k):
     return Section(
         table[k, 0], table[k, 1], table[k, 2], table[k, 3], table[k, 4], table[k, 5], table[k, 6], table[k, 7],
         table[k, 8], table[k, 9], table[k, 10], table[k, 11], table[k, 12], table[k, 13], table[k, 14], table[k, 15],
-        table[k, 16], table[k, 17], table[k, 18],
+        table[k, 16], table[k, 17], table[k, 18], table[k, 19], table[k, 20], table[k, 21],
     )  # fmt: skip
 
 

@@ -14,6 +14,7 @@ from fctd.case.errors import InputError, Table
 from fctd.case.solver import SolverSpec
 from fctd.mechanics.law_names import STICKING
 from fctd.mechanics.rock import NO_ROCK
+from fctd.model.joints import Kind
 from fctd.simulation.run import Run
 
 # Key and value of a case that use a feature, or None where it is not used.
@@ -102,7 +103,12 @@ def _cake(run: Run) -> Use:
 
 def _touches_at_middle(run: Run) -> Use:
     middle = np.flatnonzero(run.string.mid_contact())
-    return (f"string.components[{int(run.string.component[middle[0]])}].contact", "point") if len(middle) else None
+    if not len(middle):
+        return None
+    key, part = run.string.key_of(middle[0]), run.string.parts[run.string.component[middle[0]]]
+    if part.kind == Kind.WHOLE:
+        return f"{key}.contact", "point"
+    return f"{key}.joint_segments", part.component.joint_segments
 
 
 def _bit_loads(run: Run) -> Use:
@@ -243,9 +249,9 @@ EVERYWHERE: Final = frozenset({
     *(
         f"string.components.{key}" for key in (
             "name", "pipe", "length", "outer_diameter", "inner_diameter", "contact_diameter", "segments",
-            "segment_length", "linear_mass", "youngs_modulus", "poisson_ratio", "density", "yield_strength",
-            "axial_stiffness", "bending_stiffness", "torsional_stiffness", "shear_stiffness", "joint.length",
-            "joint.tool_joint_length", "joint.tool_joint_diameter", "joint.tool_joint_inner",
+            "segment_length", "joint_segments", "linear_mass", "youngs_modulus", "poisson_ratio", "density",
+            "yield_strength", "axial_stiffness", "bending_stiffness", "torsional_stiffness", "shear_stiffness",
+            "joint.length", "joint.tool_joint_length", "joint.tool_joint_diameter", "joint.tool_joint_inner",
         )
     ),
     "limits.design_factor", "limits.torque_share", "limits.overpull_margin",

@@ -20,7 +20,7 @@ from fctd.mechanics import state
 from fctd.mechanics.jit import entry, inlined, kernel
 from fctd.model.operations import SteadyRates, bit_loads
 from fctd.model.string_in_hole import damping_of, pressure_of
-from fctd.model.string_rows import EI, WEIGHT, fill_rows, find_contacts
+from fctd.model.string_rows import WAVE_RADIUS, WAVE_STIFFNESS, WAVE_WEIGHT, fill_rows, find_contacts
 from fctd.model.wellbore import Wellbore
 from fctd.results.buckling import Pipe
 from fctd.steady.balance import ATTEMPTS, LARGEST_TURN
@@ -186,7 +186,7 @@ def solve_rows(hole, strings, which, loads, w, answers, joints, contacts, walls)
     kinks = np.zeros((most, 4))
     kinks[:, 0] = 1.0
     middle, radius, tributary = np.empty(most, np.bool_), np.empty(most), np.empty(most)
-    stiffness, weight = np.empty(most), np.empty(most)
+    stiffness, weight, clearing = np.empty(most), np.empty(most), np.empty(most)
     for r in range(len(which)):
         k = which[r, 0]
         first, last = strings.first[k], strings.first[k + 1]
@@ -196,18 +196,20 @@ def solve_rows(hole, strings, which, loads, w, answers, joints, contacts, walls)
         fed = fill_rows(w.S, length, component, strings.sections, long_segment, damping, pressure, strings.per_metre)
         find_contacts(length, component, strings.sections, long_segment, middle, radius, tributary)
         for j in range(n):
-            stiffness[j], weight[j] = strings.sections[component[j], EI], strings.sections[component[j], WEIGHT]
-        pipe = Pipe(stiffness[:n], weight[:n], radius[:n], length, middle[:n])
+            section = strings.sections[component[j]]
+            stiffness[j], weight[j] = section[WAVE_STIFFNESS], section[WAVE_WEIGHT]
+            clearing[j] = max(radius[j], section[WAVE_RADIUS])
+        pipe = Pipe(stiffness[:n], weight[:n], clearing[:n], length, middle[:n])
         solve_row(
-            w, n, kinks, hole.pieces[which[r, 1]], hole, pipe, fed, length[0] if long_segment else 0.0, strings.top_md,
-            strings.bit_depth[k], strings.sections, component, loads[r], answers[r], joints[r, : n + 1],
-            contacts[r, : n + 1], walls[r, 1 : n + 1],
+            w, n, kinks, hole.pieces[which[r, 1]], hole, pipe, radius[:n], fed, length[0] if long_segment else 0.0,
+            strings.top_md, strings.bit_depth[k], strings.sections, component, loads[r], answers[r],
+            joints[r, : n + 1], contacts[r, : n + 1], walls[r, 1 : n + 1],
         )  # fmt: skip
 
 
 @kernel
 def solve_row(
-    w, n, kinks, C, hole, pipe, fed, top_length, top_md, bit_depth, sections, component, loads, answer, joints,
+    w, n, kinks, C, hole, pipe, radius, fed, top_length, top_md, bit_depth, sections, component, loads, answer, joints,
     contacts, walls,
 ):  # fmt: skip
     """Fill the answer of one string, whose constants are in the workspace; its pose is then there too."""
@@ -218,7 +220,7 @@ def solve_row(
     bit = -pressing * bx, -pressing * by, -pressing * bz
     laws = laws_of(hole, 1.0, loads[SPEED], loads[SPIN], *bit, torque, 0)
     _, allowed = limits(S, n, bit_depth, pressing, fed, top_length)
-    guess(S, n, C, laws, top_md, -pressing, SEED, G, P)
+    guess(S, n, C, laws, top_md, -pressing, pipe.radius, SEED, G, P)
     find_owners(C, n, G, owner)
     pace = Pace(ITERATIONS, TAU, GROWTH, SHRINK, SHIFT, LARGEST_TURN, allowed, allowed)
     code, steps, _ = converge(w, n, kinks, C, laws, pace, TAU)
@@ -235,6 +237,6 @@ def solve_row(
     answer[HOOKLOAD], answer[TORQUE], answer[IMBALANCE] = hookload, reaction, imbalance
     answer[TOP], answer[TOP + 1], answer[TOP + 2] = P[0, 0], P[0, 1], P[0, 2]
     read_shape(
-        C, hole.geometry, hole.with_wall != state.OPEN, hole.bends, top_md, pipe, sections, component, -pressing,
-        torque, hookload, owner[1 : n + 1], joints[1:], contacts[1:], walls, answer[SHAPE:],
+        C, hole.geometry, hole.with_wall != state.OPEN, hole.bends, top_md, pipe, radius, sections, component,
+        -pressing, torque, hookload, owner[1 : n + 1], joints[1:], contacts[1:], walls, answer[SHAPE:],
     )  # fmt: skip

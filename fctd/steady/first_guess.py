@@ -75,8 +75,12 @@ def axis_at(C, geometry, i, md):
 
 
 @kernel
-def soft_string(S, n, C, laws, top_md, bit_tension, G):
-    """Fill G (n + 1, NODE) with tension, torque and offset of a soft string, node by node from the bit up."""
+def soft_string(S, n, C, laws, top_md, bit_tension, radius, G):
+    """Fill G (n + 1, NODE) with tension, torque and offset of a soft string, node by node from the bit up.
+
+    radius (n,) : that of the pipe as a whole [m].  Bodies laid on the wall between their tool joints would begin as a
+    zigzag, which takes an iteration for each of their segments to straighten.
+    """
     md = top_md
     G[0, MD] = md
     for j in range(1, n + 1):
@@ -114,7 +118,7 @@ def soft_string(S, n, C, laws, top_md, bit_tension, G):
             cx, cy, cz = cross(tx, ty, tz, ux, uy, uz)
             ux, uy, uz = ux - climb * cx, uy - climb * cy, uz - climb * cz
             side *= norm
-        out = C[i, HOLE_RADIUS] - S[RADIUS + j] + side / (C[i, STIFFNESS] * S[TRIBUTARY + j])
+        out = C[i, HOLE_RADIUS] - radius[j - 1] + side / (C[i, STIFFNESS] * S[TRIBUTARY + j])
         G[j, OFFSET], G[j, OFFSET + 1], G[j, OFFSET + 2] = out * ux, out * uy, out * uz
         tension -= along * side
         torque += around * side * S[RADIUS + j] + S[MUD_SPIN + j] * laws.spin
@@ -179,9 +183,9 @@ def lay_chain(S, n, C, geometry, G, seed, P):
 
 
 @entry
-def guess(S, n, C, laws, top_md, bit_tension, seed, G, P):
+def guess(S, n, C, laws, top_md, bit_tension, radius, seed, G, P):
     """Fill nodes G (n + 1, NODE) and pose P (n + 1, POSE) with a first guess of the steady string."""
-    soft_string(S, n, C, laws, top_md, bit_tension, G)
+    soft_string(S, n, C, laws, top_md, bit_tension, radius, G)
     lay_chain(S, n, C, laws.geometry, G, seed, P)
 
 

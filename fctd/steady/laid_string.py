@@ -29,7 +29,7 @@ class LaidString:
     @cached_property
     def is_bent(self) -> bool:
         """Whether a housing in it is bent."""
-        return any(component.bend != 0 for component in self.case.string.components[: len(self.string.sections)])
+        return any(part.component.bend != 0 for part in self.string.parts)
 
     @cached_property
     def pipe(self) -> Pipe:

@@ -218,9 +218,10 @@ class Problem:
 
     def lay_guess(self, share: Share = FULL, above: float = 0.0) -> None:
         """Lay the string where a soft string would press on the hole; above [m] : its top is above where it will be."""
-        w, string = self.work, self.string
-        tension = self.bit_tension(share)
-        guess(w.S, self.n, self.hole.pieces, self.laws(share), string.top_md - above, tension, SEED, w.G, w.P)
+        w, top_md, tension = self.work, self.string.top_md - above, self.bit_tension(share)
+        guess(
+            w.S, self.n, self.hole.pieces, self.laws(share), top_md, tension, self.laid.pipe.radius, SEED, w.G, w.P
+        )  # fmt: skip
         self._bend()
         self._find_owners()
 
@@ -293,8 +294,8 @@ class Problem:
         walls = np.empty((n, WALL_COLUMNS))
         read_shape(
             hole.pieces, hole.geometry, self.case.contact.enabled, hole.bends, float(string.top_md), self.laid.pipe,
-            string.table, string.component, self.bit_tension(), self.bit_torque, found.hookload,
-            self.work.owner[1 : n + 1], found.joints, found.contacts, walls, numbers[SHAPE:],
+            string.contact_radius(), string.table, string.component, self.bit_tension(), self.bit_torque,
+            found.hookload, self.work.owner[1 : n + 1], found.joints, found.contacts, walls, numbers[SHAPE:],
         )  # fmt: skip
         if self.settle is not None:
             numbers[SHAPE + LONGEST] = 0.0  # its segments need not bend
@@ -335,7 +336,7 @@ class Problem:
 
     def _bend(self) -> None:
         """Write the bent housings into ``kinks``; the workspace must contain the first guess."""
-        for j, part in bent_joints(self.case, self.string).items():
+        for j, part in bent_joints(self.string).items():
             _, (direction,) = self.hole.at(self.work.G[j - 1 : j, MD])
             x, y = kink_of(part, self.work.P[j - 1, QUATERNION], direction)
             self.kinks[j] = np.cos(0.5 * part.bend), x, y, 0.0

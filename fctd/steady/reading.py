@@ -72,13 +72,13 @@ def read_top(S, n, P, kinks, C, owner, laws, R, pipe, top_length, axis, joints, 
 
 @entry
 def read_shape(
-    C, geometry, in_hole, bends, top_md, pipe, sections, component, bit_tension, bit_torque, hookload, owner, joints,
-    contacts, walls, numbers,
+    C, geometry, in_hole, bends, top_md, pipe, radius, sections, component, bit_tension, bit_torque, hookload, owner,
+    joints, contacts, walls, numbers,
 ):  # fmt: skip
     """Fill walls (n, WALL_COLUMNS) and numbers (NUMBERS,) of a string with loads joints (n, ...), contacts (n, ...).
 
-    bends : of the hole; pipe : ``buckling.Pipe``; sections : a row for each component, component (n,) : that of each
-    segment; owner (n,) : pieces of the hole near the contact points.
+    bends : of the hole; pipe : ``buckling.Pipe``; radius (n,) : at the contact points [m]; sections : a row for each
+    part of the string, component (n,) : that of each segment; owner (n,) : pieces of the hole near the contact points.
     """
     n = len(joints)
     query_walls(C, geometry, contacts[:, :3].copy(), owner.copy(), walls)
@@ -90,7 +90,7 @@ def read_shape(
         numbers[SUM_R_MU_FN] += contacts[j, R_MU_FN]
         offset = np.sqrt(walls[j, 0] ** 2 + walls[j, 1] ** 2 + walls[j, 2] ** 2)
         # The limit of a string in motion (faults.py): deeper in the wall than the hole's radius.
-        if numbers[OUTSIDE] == 0 and offset + pipe.radius[j] > 2 * walls[j, 3]:
+        if numbers[OUTSIDE] == 0 and offset + radius[j] > 2 * walls[j, 3]:
             numbers[OUTSIDE] = j + 1
         least = min(least, joints[j, JOINT_TENSION])
     rows, md, hanging = np.empty((n + 1, ROW_COLUMNS)), walls[:, 6].copy(), np.empty((n + 1, HANGING_COLUMNS))
@@ -100,7 +100,7 @@ def read_shape(
     )  # fmt: skip
     numbers[NOTED] = find_shares(
         joints[:, JOINT_TENSION], joints[:, JOINT_TORQUE], hanging, bit_tension, bit_torque, hookload, walls[:, :3],
-        walls[:, 3], pipe.radius, in_hole, pipe.middle, component, sections, numbers[SHARES:].reshape(-1, WORST),
+        walls[:, 3], radius, in_hole, pipe.middle, component, sections, numbers[SHARES:].reshape(-1, WORST),
     )  # fmt: skip
     if not in_hole or least >= 0:
         return

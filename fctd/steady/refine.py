@@ -263,6 +263,13 @@ def _check(case: Case, tolerance: float, most: int, depth: float) -> None:
         raise InputError("a share above 0 and below 1, such as 0.01", key="tolerance", value=tolerance)
     if not FIRST <= bare(most, "most", "a number of segments") <= MAX_SEGMENTS:
         raise InputError(f"{FIRST} to {MAX_SEGMENTS} segments", key="most", value=most)
+    for k, component in enumerate(case.string.components):
+        if component.joint_segments is not None:
+            raise InputError(
+                "none in a refinement, which cuts whole components: refine without it, then add it",
+                key=f"string.components[{k}].joint_segments",
+                value=component.joint_segments,
+            )
     if case.contact.helical_force != "none":
         raise InputError('"none" in a refinement', key="contact.helical_force", value=case.contact.helical_force)
     check_bit_depth(depth, *case.depths, "bit_depth", f"{depth:g} m")

@@ -33,7 +33,7 @@ class Shape:
     @property
     def radius(self) -> Array:
         """Radii (n,) at the contact points [m]."""
-        return self.laid.pipe.radius
+        return self.laid.string.contact_radius()
 
     @property
     def walls(self) -> Walls:

@@ -83,7 +83,7 @@ def pipe_and_hole(case: Case) -> tuple[Section, Surroundings]:
     """The section of a case's only pipe, and its hole and mud; raises InputError as ``beam_of``."""
     parts, hole = case.string.components, case.wellbore
     sections = {section_of(part, case.mud.density) for part in parts}
-    if len(sections) > 1:
+    if len(sections) > 1 or any(part.joint_segments is not None for part in parts):
         raise InputError("components of one section, for planar finite elements", key="string.components")
     if len(hole.intervals) > 1:
         raise InputError("one interval, for planar finite elements", key="wellbore.intervals")

@@ -57,7 +57,7 @@ def test_a_string_at_rest_presses_as_the_steady_one(toolface: float) -> None:
 def test_a_free_string_takes_the_shape_of_its_housing() -> None:
     """Hanging vertically without a wall, in mud so heavy that its weight hardly bends it back."""
     run = settled(bent(inclination=0.0, contact={"enabled": False}, mud={"density": 7000.0}), 1e-5)
-    (joint,) = bent_joints(run.case, run.string)
+    (joint,) = bent_joints(run.string)
     axes = np.array([[run.S[row + j] for row in (state.AX, state.AY, state.AZ)] for j in (joint - 1, joint)])
     assert np.arccos(axes[0] @ axes[1]) == pytest.approx(BEND, rel=1e-2)
     # Towards the high side, north in a vertical hole.

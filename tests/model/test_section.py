@@ -36,7 +36,7 @@ def test_the_weight_is_that_of_steel_and_fluid_inside_less_the_fluid_displaced()
         assert section.weight == pytest.approx(9.80665 * (90.0 + inside * bore - outside * displaced))
         body = section.weight - (90.0 - section.EA / 206.8e9 * 7850) * 9.80665 * (1 - outside / 7850)
         assert section.body_weight == pytest.approx(body)
-        weightless = {"weight": 0.0, "body_weight": 0.0}
+        weightless = {"weight": 0.0, "body_weight": 0.0, "wave_weight": 0.0}
         assert section._replace(**weightless) == section_of(component, 0.0)._replace(**weightless)
     assert section_of(component, 1570.0, 1570.0) == section_of(component, 1570.0)
 
