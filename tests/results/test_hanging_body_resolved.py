@@ -1,0 +1,168 @@
+"""Strings laid joint by joint bend as beams between tool joints do: in tension, compression, by weight, on the wall."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from fctd import Case, equilibrium, torque_drag
+from tests.cases import make_case, pipe
+from tests.results.test_hanging_body import DOGLEG, EI, FOOT, HALF, INCH, POUND, ROOM, SHORT_JOINT, bar, factor, joints
+
+TENSION = 200e3 * POUND
+# Segments of a body, by how much its largest moment and that in its middle may be off.  The first falls fourfold.
+FINER = {8: (0.07, 0.06), 16: (0.02, 0.02), 32: (0.006, 0.01), 64: (0.0025, 0.006)}
+
+
+def dogleg(
+    segments: int | None, rate: float = 3.25, tool_joint: float = SHORT_JOINT, wall: float = 1e9, **more: Any
+) -> Case:
+    """Pipe that carries 200,000 lbf round a bend [°/100 ft], in air and without friction; the bit is at its end.
+
+    wall : stiffness per length [N/m/m].
+    """
+    bend = 24 / rate * 100 * FOOT
+    joint = {"length": 2 * HALF, "tool_joint_length": tool_joint, "tool_joint_diameter": 6.625 * INCH} | more
+    cut: dict[str, Any] = {"segment_length": 3.0} if segments is None else {"joint_segments": segments}
+    hole: dict[str, Any] = {"geometry": "arcs", "stiffness_per_length": wall}
+    hole["intervals"] = [{"to_md": bend + 80, "diameter": 8.5 * INCH, "friction": 0.0}]
+    stations = [[0, 24, 0], [20, 24, 0], [20 + bend, 0, 0], [80 + bend, 0, 0]]
+    return make_case(stations, [bar(20.0), joints(joint=joint, **cut)], wellbore=hole)
+
+
+def in_bend(case: Case, kind: str = "rotate_off_bottom") -> pd.DataFrame:
+    """The profile of the middle half of the bend."""
+    (_, first, last, end) = case.wellbore.trajectory[:, 0]
+    profile = equilibrium(case, kind, end - 20).profile
+    quarter = 0.25 * (last - first)
+    return profile[(profile["md_m"] > first + quarter) & (profile["md_m"] < last - quarter)]
+
+
+def by_obstacle(load: float, tension: float, length: float, room: float, n: int = 600) -> tuple[float, float]:
+    """Moments that a lateral load [N/m] adds at the end and in the middle of a clamped beam [N m], up to a wall.
+
+    EI u'''' − T u'' = load − p by finite differences, with the wall's pressure p ≥ 0 where u is all of the room.
+    """
+    h = length / n
+    fourth = np.zeros((n + 1, n + 1))
+    for k, (bending, pull) in {0: (6, 2), 1: (-4, -1), -1: (-4, -1), 2: (1, 0), -2: (1, 0)}.items():
+        fourth += np.diag(np.full(n + 1 - abs(k), EI * bending / h**4 + tension * pull / h**2), k)
+    fourth[1, 1] += EI / h**4  # u(−h) = u(h): the end does not turn
+    fourth[-2, -2] += EI / h**4
+    inner, touching = np.arange(1, n), np.zeros(n + 1, bool)
+    u = np.zeros(n + 1)
+    for _ in range(200):
+        free = inner[~touching[1:-1]]
+        u[:] = np.where(touching, room, 0.0)
+        right = np.full(n + 1, load) - fourth[:, touching] @ u[touching]
+        u[free] = np.linalg.solve(fourth[np.ix_(free, free)], right[free])
+        pressure = load - fourth @ u
+        changed = (touching & (pressure >= 0)) | (u > room * (1 + 1e-12))
+        changed[[0, -1]] = False
+        if (changed == touching).all():
+            return 2 * EI * u[1] / h**2, EI * (u[n // 2 - 1] - 2 * u[n // 2] + u[n // 2 + 1]) / h**2
+        touching = changed
+    raise AssertionError("the stretch on the wall is not found")
+
+
+@pytest.mark.parametrize("segments", FINER)
+def test_moments_in_lubinskis_dog_leg_converge_with_the_square_of_the_segments(segments: int) -> None:
+    """3.894 times the hole's bending at a tool joint (of 20 mm), 0.159 in the middle, and 15.14 kN on the wall."""
+    profile = in_bend(dogleg(segments))
+    bending = profile["bending_moment_N_m"] / (EI * DOGLEG)
+    at_joint, in_middle = FINER[segments]
+    assert bending.max() == pytest.approx(3.894, rel=at_joint)
+    x = HALF * math.sqrt(TENSION / EI)
+    assert bending.min() == pytest.approx(x / math.sinh(x), rel=in_middle)
+    touching = profile[profile["contact_force_N"] > 100]
+    np.testing.assert_allclose(touching["contact_force_N"], 15.14e3, rtol=0.01)
+    # A row of a tool joint has the moment of its ends.
+    np.testing.assert_allclose(touching["bending_moment_N_m"] / (EI * DOGLEG), 3.894, rtol=at_joint)
+
+
+def test_the_coarse_string_agrees_and_neither_is_corrected_twice() -> None:
+    """Within 3 %, with tool joints of 20 mm; real ones give way by themselves, which the closed form leaves out."""
+    for tool_joint, apart in ((SHORT_JOINT, 0.03), (21 * INCH, 0.05)):
+        fine, coarse = (in_bend(dogleg(n, tool_joint=tool_joint, tool_joint_inner=3.25 * INCH)) for n in (32, None))
+        assert coarse["bending_moment_N_m"].max() == pytest.approx(fine["bending_moment_N_m"].max(), rel=apart)
+        assert coarse["bending_moment_N_m"].max() >= fine["bending_moment_N_m"].max()
+        assert coarse["von_mises_Pa"].max() == pytest.approx(fine["von_mises_Pa"].max(), rel=apart)
+
+
+def test_no_closed_form_speaks_of_resolved_joints() -> None:
+    """Beyond the yield strength that is said, and nothing is assumed of tool joints."""
+    case = dogleg(16)
+    (heavy, part) = case.string.components
+    for strength, codes in ((320e6, ["yield"]), (931e6, [])):
+        components = (heavy, part.model_copy(update={"yield_strength": strength}))
+        weak = case.model_copy(update={"string": case.string.model_copy(update={"components": components})})
+        point = equilibrium(weak, "rotate_off_bottom", 260.0)
+        assert [note.code for note in point.notes] == codes
+
+
+def test_compression_bends_the_middle_of_the_body_most() -> None:
+    """KL = 1 without weight: 1.188 times the hole's bending there, 0.642 at the tool joint."""
+    depth = 50 / 3.25 * 100 * FOOT
+    hole: dict[str, Any] = {"geometry": "arcs", "stiffness_per_length": 1e9}
+    hole["intervals"] = [{"to_md": depth, "diameter": 8.5 * INCH, "friction": 0.0}]
+    joint = {"length": 2 * HALF, "tool_joint_length": SHORT_JOINT, "tool_joint_diameter": 6.625 * INCH}
+    part = joints(joint=joint, joint_segments=32, linear_mass=0.05)
+    bit = {"weight_on_bit": EI / HALF**2}
+    case = make_case([[0, 20, 0], [depth, 70, 0]], [part], wellbore=hole, bit=bit)
+    profile = equilibrium(case, "drill_sliding", depth).profile
+    profile = profile[(profile["md_m"] > 0.3 * depth) & (profile["md_m"] < 0.7 * depth)]
+    bending = profile["bending_moment_N_m"] / (EI * DOGLEG)
+    assert bending.max() == pytest.approx(1.188, rel=0.02)
+    assert bending[profile["contact_force_N"] > 100].max() == pytest.approx(0.642, rel=0.02)
+    assert bending.min() == pytest.approx(0.642, rel=0.02)
+
+
+@pytest.mark.parametrize("rate", [5.0, 9.0, 14.0])
+def test_a_body_that_touches_bends_as_a_beam_on_a_wall(rate: float) -> None:
+    """From 6.8°/100 ft on; the load that presses it there is tension times the curvature of the hole."""
+    curvature = math.radians(rate) / (100 * FOOT)
+    profile = in_bend(dogleg(32, rate, wall=2e10))  # in which a tool joint of 20 mm sinks by a tenth of a millimetre
+    at_end, in_middle = by_obstacle(TENSION * curvature, TENSION, 2 * HALF - SHORT_JOINT, ROOM)
+    assert profile["bending_moment_N_m"].max() == pytest.approx(EI * curvature + at_end, rel=0.02)
+    body = profile[profile["clearance_m"] > 0.5 * (8.5 - 6) * INCH]
+    assert (body["contact_force_N"].max() > 100) == (rate > 6.8)
+    if rate < 6.8:
+        assert profile["bending_moment_N_m"].min() == pytest.approx(EI * curvature + in_middle, rel=0.03)
+
+
+def test_the_weight_of_the_body_bends_it_in_level_hole() -> None:
+    """As the beam's closed form says; the string turns down at its end, where a bar hangs from it."""
+    stations = [[0, 90, 0], [150, 90, 0], [450, 0, 0], [550, 0, 0]]
+    low = pipe(330, 66, outer=5 * INCH, inner=4.276 * INCH, linear_mass=0.1)
+    joint = {"length": 2 * HALF, "tool_joint_length": SHORT_JOINT, "tool_joint_diameter": 6.625 * INCH}
+    hole: dict[str, Any] = {"geometry": "arcs", "stiffness_per_length": 1e9}
+    hole["intervals"] = [{"to_md": 550, "diameter": 8.5 * INCH, "friction": 0.0}]
+    part = joints(joint=joint, joint_segments=32, linear_mass=25.0)
+    case = make_case(stations, [bar(20.0), low, part], wellbore=hole)
+    profile = equilibrium(case, "rotate_off_bottom", 490.0).profile
+    profile = profile[(profile["md_m"] > 40) & (profile["md_m"] < 110)]
+    expected, taken = factor(profile["effective_tension_N"].mean(), 0.0, SHORT_JOINT, 25.0 * 9.80665)
+    assert profile["bending_moment_N_m"].max() == pytest.approx(expected, rel=0.02)
+    assert 0 < taken < 1
+
+
+def test_loads_of_a_well_are_those_of_the_coarse_string() -> None:
+    """2,950 m with a build and a hold, some 300 joints: within 0.2 %; a chart's rows are those of single strings."""
+    stations = [[0, 0, 0], [600, 0, 0], [1500, 60, 0], [3000, 60, 0]]
+    hole = {"intervals": [{"to_md": 3000, "diameter": 8.5 * INCH, "friction": 0.25}]}
+    below = [pipe(0.3, 1, outer=8.5 * INCH, inner=0.06, name="bit"), pipe(80, 16, outer=0.165, inner=0.0714)]
+    coarse, fine = (
+        make_case(stations, [*below, {"pipe": "5 in 19.5 S-135 NC50"} | cut], wellbore=hole, mud={"density": 1200.0})
+        for cut in ({"segment_length": 10.0}, {"joint_segments": 4})
+    )
+    kinds, depths = ["trip_in", "trip_out", "rotate_off_bottom"], [2700.0, 2803.0, 2950.0]
+    rows, finer = (torque_drag(case, kinds, depths) for case in (coarse, fine))
+    np.testing.assert_allclose(finer["hookload_N"], rows["hookload_N"], rtol=2e-3)
+    torque = rows["surface_torque_N_m"].abs().max()
+    np.testing.assert_allclose(finer["surface_torque_N_m"], rows["surface_torque_N_m"], atol=2e-3 * torque)
+    point = equilibrium(fine, "trip_out", 2803.0)
+    row = finer[(finer["operation"] == "trip_out") & (finer["bit_depth_m"] == 2803.0)].iloc[0]
+    assert row["hookload_N"] == pytest.approx(point.hookload, rel=1e-9)
+    assert row["notes"] == "none"
