@@ -84,6 +84,14 @@ def segments_of(component: ComponentSpec, length: float) -> tuple[float, tuple[f
     return tool_joint, tuple(np.diff(ends).tolist())
 
 
+def finer(component: ComponentSpec, longest: float) -> ComponentSpec:
+    """A component that resolves its joints with segments of at most ``longest`` [m], no fewer than it has."""
+    joint = joint_of(component)
+    # In the middle of a body the ends of segments are furthest apart: half of an equal share and π/4 of one.
+    needed = (0.5 + 0.25 * math.pi) * (joint.length - joint.tool_joint_length) / longest
+    return component.model_copy(update={"joint_segments": max(math.ceil(needed), component.joint_segments or 0)})
+
+
 def longest_segment(component: ComponentSpec) -> float:
     """The longest segment of a component that resolves its joints [m]."""
     return max(segments_of(component, joint_of(component).length)[1])

@@ -16,7 +16,7 @@ from fctd.case.load import Case
 from fctd.case.string import ComponentSpec
 from fctd.model import survey
 from fctd.model.default_layout import AT_MOVING_BIT, DefaultLayout
-from fctd.model.joints import joints_in, longest_segment, segments_in
+from fctd.model.joints import finer, joints_in, longest_segment, segments_in
 from fctd.model.section import section_of
 
 Components = tuple[ComponentSpec, ...]
@@ -85,8 +85,7 @@ def resolved(case: Case, bit_depth: float, md: Array, needed: Array) -> Componen
         if start >= total or is_long(part) or (shortest[inside] >= own[inside]).all():
             pieces.append(part)
         elif part.joint_segments is not None:
-            finer = np.ceil(part.joint_segments * own[0] / shortest[inside].min())
-            pieces.append(part.model_copy(update={"joint_segments": int(finer)}))
+            pieces.append(finer(part, float(shortest[inside].min())))
         elif part.contact == "point":
             pieces.append(_cut(part, float(np.minimum(shortest, own)[inside].min())))
         else:

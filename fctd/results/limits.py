@@ -111,7 +111,7 @@ LIMITS: Final[tuple[Limit, ...]] = (
     ),
     Limit(
         "body", "the pipe's body touches the wall between its tool joints, or buckles there",
-        "give tool joints and body as components of their own where the moment matters", "",
+        "give the component joint_segments, with which the bending of its body is computed", "",
         lambda at, section: at.taken,
         lambda at, section: 1.0,
         lambda share, at, section, where: (

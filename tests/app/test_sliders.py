@@ -70,6 +70,18 @@ def test_every_slider_changes_its_keys(read: SourceCase) -> None:
     assert steady_rates(turned, "back_ream").speed == pytest.approx(-0.1)  # the kind's own
 
 
+def test_resolved_joints_keep_their_segments() -> None:
+    joint = {"length": 10.0, "tool_joint_length": 0.5, "tool_joint_diameter": 0.165}
+    part = pipe(None, None, joint=joint, joint_segments=4)
+    case = make_case(components=[pipe(100, 5), part], operations=[])
+    found = changes(case, {}, sliders_of(case, "si"), {"segment": 12})
+    assert found == {"string.components[0].segments": None, "string.components[0].segment_length": 12}
+    by_name = {slider.name: slider.value for slider in sliders_of(case, "si")}
+    assert by_name["segment"] == pytest.approx(20.0)
+    alone = {slider.name: slider.value for slider in sliders_of(make_case(components=[part]), "si")}
+    assert alone["segment"] == pytest.approx(2.0)
+
+
 @given(
     st.floats() | st.integers() | st.text(max_size=3) | st.none() | st.booleans() | st.lists(st.floats(), max_size=2)
 )

@@ -34,6 +34,22 @@ def test_readings_are_those_of_the_engine() -> None:
         assert value == pytest.approx(expected, rel=1e-9)
 
 
+def test_a_mass_is_that_of_resolved_joints() -> None:
+    """Tool joints and bodies weigh together what the unknown says."""
+    joint = {"length": 10.0, "tool_joint_length": 0.5, "tool_joint_diameter": 0.165}
+    parts = [pipe(100, 4, name="collars"), pipe(None, None, joint=joint, joint_segments=2, name="drill pipe")]
+    case = make_case(components=parts, rig={"block_weight": 250e3})
+    (row,) = [one for one in blank_rows(case) if one.operation == "trip_in" and one.bit_depth == 700]
+    names = ["mass.drill pipe"]
+    forward = Forward([row], {"": case}, find_unknowns(parse_fits(names), Setup(), [case]), Setup())
+    assert forward.length_in_hole("mass.drill pipe", row) == pytest.approx(600.0)
+    found = forward.evaluate(np.array([40.0]))
+    k = [reading.load for reading in forward.readings].index("hookload")
+    assert found.slopes[k, 0] == pytest.approx(600 * 9.80665, rel=1e-3)
+    heavier = forward.evaluate(np.array([41.0])).value[k] - found.value[k]
+    assert heavier == pytest.approx(600 * 9.80665, rel=1e-3)
+
+
 def test_in_slips_the_block_hangs_alone_and_a_tare_turns_the_free_drive() -> None:
     rows = [replace(row, source="DDR") for row in blank_rows(well())[-2:]]
     forward = forward_of(rows, ALL)

@@ -54,6 +54,12 @@ speed = "30 m/min"
 """
 OPTIONS: Final = {"--operation": "trip_in", "--depths": "1000:1000:1"}
 
+JOINT: Final = {"length": "9.6 m", "tool_joint_length": "0.5 m", "tool_joint_diameter": "6 5/8 in"}
+RESOLVED: Final = {
+    "string.components[2].joint": JOINT,
+    "string.components[2].segment_length": None,
+    "string.components[2].joint_segments": 4,
+}
 LENGTHS: Final = "a length such as '12 m' or '40 ft' (units: m, cm, mm, km, ft, in)"
 DENSITIES: Final = "a density such as '1200 kg/m^3' or '10 ppg' (units: kg/m^3, g/cm^3, sg, ppg, lb/gal, lb/ft^3)"
 FORCES: Final = "a force such as '50 kN' or '12 klbf' (units: N, daN, kN, MN, kgf, t, lbf, klbf, kip)"
@@ -192,6 +198,21 @@ REFUSED_TOGETHER: Final[list[tuple[dict[str, Any], dict[str, str], str]]] = [
         {"string.components[2].segments": 10},
         {},
         'well.toml: string.components[2].segment_length = "50 m": expected segments or segment_length, not both',
+    ),
+    (
+        {"string.components[2].joint_segments": 4},
+        {},
+        "well.toml: string.components[2].joint_segments = 4: expected a component with joint, whose bodies are cut",
+    ),
+    (
+        {"string.components[2].joint": JOINT, "string.components[2].joint_segments": 4},
+        {},
+        "well.toml: string.components[2].joint_segments = 4: expected segment_length or joint_segments, not both",
+    ),
+    (
+        RESOLVED | {"string.components[2].joint_segments": 200},
+        {},
+        'well.toml: string.components = "18894 segments": expected at most 10000 segments in all',
     ),
     (
         {"string.components[2].segment_length": "1 mm"},

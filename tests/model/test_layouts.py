@@ -19,8 +19,10 @@ from fctd.model.layouts import (
     _least,
     _walk,
     _wave,
+    by_default,
     coarseness,
     graded,
+    resolved,
     segments_in_hole,
     uniform,
     with_components,
@@ -285,6 +287,24 @@ def test_how_many_segments_by_hand(bit: float, count: int) -> None:
     assert segments_in_hole(make_case(components=components), bit) == count
     assert segments_in_hole(make_case(components=components, top_md=20.0), bit + 20.0) == count
     assert segments_in_hole(make_case(components=[pipe(None, 8)]), bit) == 8
+
+
+def test_resolved_joints_stay_or_become_finer() -> None:
+    """Uniform and graded layouts leave them alone; a buckled stretch cuts all bodies alike; the default has none."""
+    joint = {"length": 10.0, "tool_joint_length": 0.5, "tool_joint_diameter": 0.165}
+    part = pipe(None, None, joint=joint, joint_segments=4)
+    case = make_case(BUILD, [pipe(100, 10, outer=0.159), part])
+    jointed = case.string.components[1]
+    assert uniform(case, 900.0, 23.0)[-1] == graded(case, 900.0, 23.0)[-1] == jointed
+    (plain,) = by_default(case)[1:]
+    assert (plain.joint_segments, plain.cut_by_default, plain.joint) == (None, True, jointed.joint)
+    assert segments_in_hole(case, 900.0) == lay_out(case, 900.0).segments == 10 + 80 * 5
+    md = np.linspace(0.0, 900.0, 100)
+    assert resolved(case, 900.0, md, np.full(100, 20.0))[-1] == jointed
+    finer = resolved(case, 900.0, md, np.where(md < 500, 1.0, 20.0))
+    string = lay_out(with_components(case, finer), 900.0)
+    assert string.length[string.origin == 1].max() <= 1.0
+    assert finer[-1].joint_segments == 13
 
 
 def test_a_component_is_cut_by_hand() -> None:

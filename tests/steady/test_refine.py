@@ -205,6 +205,13 @@ def test_bad_input_is_refused(call: dict[str, Any], expected: str) -> None:
     assert expected.lower() in str(error.value).lower()
 
 
+def test_resolved_joints_are_refused() -> None:
+    joint = {"length": 10.0, "tool_joint_length": 0.5, "tool_joint_diameter": 0.165}
+    case = make_case(components=[pipe(20, 4), pipe(None, None, joint=joint, joint_segments=4)])
+    with pytest.raises(InputError, match=r"string.components\[1\].joint_segments = 4: expected none in a refinement"):
+        fctd.refine(case, 0.01, "trip_in", 300.0)
+
+
 def test_a_long_segment_alone_cannot_be_cut() -> None:
     case = make_case([[0, 0, 0], [300, 0, 0]], [pipe(None, 1)])
     with pytest.raises(InputError, match=r"string.components .*: expected a component that can be cut"):
