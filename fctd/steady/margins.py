@@ -89,7 +89,7 @@ def first_limit(point: Equilibrium) -> First:
         if limit.of_steel and share > worst:
             worst, row, code = share, int(found[ROW]), limit.code
     md = float(shape.walls.md[row - 1]) if row else string.top_md
-    part = point.case.string.components[int(string.component[max(row - 1, 0)])]
+    part = string.parts[string.component[max(row - 1, 0)]].component
     return First(code, worst, part.name, md)
 
 
@@ -299,7 +299,7 @@ def _bent_to_and_fro(point: Equilibrium, spin: float) -> Margin:
     row = int(np.argmax(stress))
     k = int(string.component[max(row - 1, 0)])
     tension = float(profile["effective_tension_N"].iloc[row])
-    part = point.case.string.components[k]
+    part = string.parts[k].component
     return Margin(
         FATIGUE, FATIGUE, part.name, float(profile["md_m"].iloc[row]), bending_stress=float(stress[row]),
         cycles_per_hour=3600 * spin / (2 * np.pi), reason=_endless(part, string.sections[k], tension),
@@ -312,7 +312,7 @@ def _endless(part: ComponentSpec, section: Section, tension: float) -> str:
     stress = endless_amplitude(section.yield_strength, max(tension, 0.0) / steel)
     if part.joint is None or stress is None:
         return "none"
-    bend = dogleg_of(stress, tension, 2 * section.outer, section.EI, part.youngs_modulus, part.joint.length)
+    bend = dogleg_of(stress, tension, 2 * section.outer, section.wave_stiffness, part.youngs_modulus, part.joint.length)
     return (
         f"RP 7G bears ±{stress / 1e6:.0f} MPa without end in air under that tension, a dog-leg of "
         f"{np.degrees(30 * bend):.3g}°/30 m"
@@ -324,7 +324,7 @@ def _in_slips(point: Equilibrium, length: float) -> Margin:
     string = point._shape.laid.string
     top = string.sections[string.component[0]]
     capacity = crushed_at(top, length)
-    part = point.case.string.components[int(string.component[0])].name
+    part = string.parts[string.component[0]].component.name
     return Margin(
         SLIPS, SLIPS, part, string.top_md, point.hookload / capacity, hookload=capacity,
         hookload_left=capacity - point.hookload, reason="tests of slips find up to a fifth less",
