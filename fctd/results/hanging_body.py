@@ -6,9 +6,11 @@ K = √(|T|/EI) and L half of a joint.  Its lateral weight bends it as a beam th
 does not bend: the body between them, of half length l, has all of the turn, and factors of Kl with L/l in front.
 
 A coarse string, whose contact points lie where its segments end, knows the mean curvature alone; these closed forms
-correct its bending moment.  They hold while the body does not touch the wall.  Of a string that resolves its joints
-(``model.joints``) the moment is computed: nothing is corrected, and a tool joint has the larger one of its ends, where
-bodies begin.
+correct its bending moment.  They hold while the body does not touch the wall.
+
+Of a string that resolves its joints (``model.joints``) the moment is computed, and a tool joint has the larger one of
+its ends, where bodies begin.  A body of few segments is too soft there: under tension it turns as if its end gave way
+along half of the first segment.  The moment is that of the beam which the same turn of the tool joint bends.
 """
 
 import math
@@ -16,7 +18,7 @@ from typing import Final
 
 import numpy as np
 
-from fctd.mechanics.jit import entry, inlined
+from fctd.mechanics.jit import entry, inlined, kernel
 from fctd.model.string_rows import (
     BODY_WEIGHT,
     CONTACT_RADIUS,
@@ -140,12 +142,47 @@ def beside(joints, end, middle, j):
     return 0.5 * (joints[j] + below) if middle[j] else below
 
 
+@inlined
+def is_tool_joint(row):
+    """Whether a section is that of a tool joint which is a segment of its own."""
+    return row[TOOL_JOINT] > 0 and row[JOINT] == 0
+
+
+@kernel
+def stiffer(tension, length, component, sections, j, up):
+    """Moment of a beam at the end of the body above or below tool joint j, over that of its segments [1].
+
+    tension [N]; length, component (n,), sections : of the string; up : 1 for the body below, −1 for that above.  Both
+    are turned at their ends by the same angle, about their middle; the tool joint gives way by half of its own length.
+    """
+    first, n = j + up, 0
+    body = component[first]
+    total = 0.0
+    while 0 <= first + up * n < len(length) and component[first + up * n] == body:
+        total += length[first + up * n]
+        n += 1
+    x = 0.5 * total * math.sqrt(max(tension, 0.0) / sections[body, EI])
+    if x < SMALL:
+        return 1.0
+    own = 0.5 * length[j] / sections[component[j], EI]
+    beam = 0.5 * total * math.tanh(x) / (x * sections[body, EI])
+    # From the middle outwards: what the part within turns by for a moment at its end.
+    turn = 0.0 if n % 2 else 0.5 * length[first + up * (n // 2)] / sections[body, EI]
+    for i in range((n - 1) // 2 if n % 2 else n // 2 - 1, -1, -1):
+        h = length[first + up * i]
+        if not (n % 2 and i == n // 2):  # the middle one of an odd number does not turn
+            turn = turn / (1 + tension * h * turn)
+        outer = length[first + up * (i - 1)] if i else 0.0
+        turn += 0.5 * (h + outer) / sections[body, EI]
+    return (own + turn) / (own + beam)
+
+
 @entry
-def find_hanging(bends, top_md, md, in_hole, tension, bit_tension, bending, middle, component, sections, rows):
+def find_hanging(bends, top_md, md, in_hole, tension, bit_tension, bending, length, middle, component, sections, rows):
     """Update rows (n + 1, HANGING_COLUMNS) of the top and the n contact points given hole, string and loads.
 
     bends : of the hole, md (n,) [m] : of the contact points; tension (effective) [N], bending [N m] : of the n joints;
-    middle, component (n,), sections : of the string.
+    length [m], middle, component (n,), sections : of the string.
     """
     k = 0
     for i in range(len(md) + 1):
@@ -156,8 +193,12 @@ def find_hanging(bends, top_md, md, in_hole, tension, bit_tension, bending, midd
         row = sections[component[j]]
         joint, tool_joint, room = row[JOINT], row[TOOL_JOINT], row[CONTACT_RADIUS] - row[OUTER]
         given = joint > 0
-        if tool_joint > 0 and not given and i and middle[j]:  # a segment of its own: at its ends those of two bodies
-            rows[i, MOMENT] = max(bending[j], bending[j + 1])
+        if is_tool_joint(row) and i and middle[j]:
+            below = bending[j + 1] * stiffer(tension[j + 1], length, component, sections, j, 1)
+            above = bending[j] * stiffer(tension[j], length, component, sections, j, -1) if j else 0.0
+            rows[i, MOMENT] = max(above, below)
+        elif i and j + 1 < len(component) and is_tool_joint(sections[component[j + 1]]) and not given and not middle[j]:
+            rows[i, MOMENT] = own * stiffer(pull, length, component, sections, j + 1, -1)
         if not in_hole or room <= 0 or row[POINT] != 0 or not (given or may_yield(row, pull, own)):
             continue
         s = md[j] if i else top_md

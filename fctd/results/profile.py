@@ -65,7 +65,7 @@ def hanging_along(hole: Wellbore, string: String, loads: Loads, md: Array, in_ho
     # Columns of tables are compiled for separately; copied, all callers share one function.
     md, tension, bending = (np.ascontiguousarray(values) for values in (md, loads.tension, loads.bending))
     find_hanging(
-        hole.bends, float(string.top_md), md, in_hole, tension, float(loads.bit_tension), bending,
+        hole.bends, float(string.top_md), md, in_hole, tension, float(loads.bit_tension), bending, string.length,
         string.mid_contact(), string.component, string.table, rows,
     )  # fmt: skip
     return rows

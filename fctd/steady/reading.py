@@ -96,7 +96,7 @@ def read_shape(
     rows, md, hanging = np.empty((n + 1, ROW_COLUMNS)), walls[:, 6].copy(), np.empty((n + 1, HANGING_COLUMNS))
     find_hanging(
         bends, top_md, md, in_hole, joints[:, JOINT_TENSION].copy(), bit_tension, joints[:, JOINT_BENDING].copy(),
-        pipe.middle, component, sections, hanging,
+        pipe.length, pipe.middle, component, sections, hanging,
     )  # fmt: skip
     numbers[NOTED] = find_shares(
         joints[:, JOINT_TENSION], joints[:, JOINT_TORQUE], hanging, bit_tension, bit_torque, hookload, walls[:, :3],
