@@ -74,7 +74,7 @@ def test_a_row_is_that_of_the_methods_in_python() -> None:
 def test_a_bent_housing_is_left_to_python_without_its_neighbours() -> None:
     case = case_of(bend="1 deg")
     solver, rows = rows_of(case)
-    straight = Row(LaidString(case_of(), solver.hole, rows[0].laid.string), *rows[0][1:])
+    straight = Row(LaidString(case_of(), solver.hole, rows_of(case_of())[1][0].laid.string), *rows[0][1:])
     mixed = solve_batch(case, hole_of(case, [solver.hole] * 2), [rows[0], straight], Workspace(60))
     assert [answer.numbers[SOLVED] for answer in mixed] == [0.0, 1.0]
 

@@ -41,12 +41,13 @@ class Chain:
         case = make_case([[0, 5, 0], [60, 5, 0]], [pipe(60, SEGMENTS)], contact={"enabled": False})
         self.hole = Solver(case).hole
         self.work = Workspace(SEGMENTS)
-        fill(self.work.S, lay_out(case, 60.0), case, build_wellbore(case))
+        string = lay_out(case, 60.0)
+        fill(self.work.S, string, case, build_wellbore(case))
         self.laws = Steady(state.OPEN, CODES["coulomb"], 1.0, 0.3, 0.0, 0.0, 0.0, 0.0, 0.0)
         self.kinks = np.zeros((SEGMENTS + 2, 4))
         self.kinks[:, 0] = 1.0
         w = self.work
-        guess(w.S, SEGMENTS, self.hole.pieces, self.laws, 0.0, 0.0, 0.0, w.G, w.P)
+        guess(w.S, SEGMENTS, self.hole.pieces, self.laws, 0.0, 0.0, string.contact_radius(), 0.0, w.G, w.P)
 
     def soften(self) -> None:
         """Give the joints a tension and shear stiffness of 100 kN/m."""

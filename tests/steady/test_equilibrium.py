@@ -260,7 +260,8 @@ def test_steps_by_the_other_solver_lead_to_the_same_balance() -> None:
     law = CODES[solver.case.contact.friction_law]
     laws = Steady(solver.geometry, law, 1.0, rates.speed, rates.spin, 0.0, 0.0, 0.0, 0.0)
     kinks = np.tile([1.0, 0.0, 0.0, 0.0], (n + 2, 1))
-    guess(w.S, n, pieces, laws, 0.0, 0.0, 1e-4, w.G, w.P)
+    radius = solver.lay_out(1300.0).string.contact_radius()
+    guess(w.S, n, pieces, laws, 0.0, 0.0, radius, 1e-4, w.G, w.P)
     w.owner[1 : n + 1] = np.searchsorted(pieces[:, 10], w.G[1 : n + 1, MD], side="right") - 1
     tau = 0.2
     for _ in range(25):

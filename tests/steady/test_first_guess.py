@@ -35,11 +35,13 @@ def guessed(
 ) -> Workspace:
     """A solver's arrays with the guess of a whole string in its hole; given : to the tenth segment [N], [N m]."""
     solver, work = Solver(case), Workspace(SEGMENTS)
-    fill(work.S, lay_out(case, LENGTH), case, build_wellbore(case))
+    string = lay_out(case, LENGTH)
+    fill(work.S, string, case, build_wellbore(case))
     work.S[state.GIVEN_FORCE + 10], work.S[state.GIVEN_TORQUE + 10] = given
     rates = steady_rates(case, kind)
     laws = Steady(solver.geometry, CODES[case.contact.friction_law], 1.0, rates.speed, rates.spin, 0.0, 0.0, 0.0, 0.0)
-    guess(work.S, SEGMENTS, solver.hole.pieces, laws, 0.0, bit_tension, seed, work.G, work.P)
+    radius = string.contact_radius()
+    guess(work.S, SEGMENTS, solver.hole.pieces, laws, 0.0, bit_tension, radius, seed, work.G, work.P)
     return work
 
 
@@ -111,3 +113,15 @@ def test_a_hanging_string_is_seeded_to_the_side() -> None:
         axes = Rotation.from_quat(P[:, 3:7], scalar_first=True).apply([0, 0, 1])
         ends = P[:, :3] + state.row(work.S, state.ARM_BOTTOM, SEGMENTS)[:, None] * axes
         np.testing.assert_allclose(np.hypot(ends[:, 0], ends[:, 1]), aside, rtol=1e-6, atol=1e-12)
+
+
+def test_bodies_begin_on_the_line_of_their_tool_joints() -> None:
+    """Laid on the wall between them they would be a zigzag; the tool joints touch, the bodies are as far aside."""
+    joint = {"length": 10.0, "tool_joint_length": 0.5, "tool_joint_diameter": 0.165}
+    stations, hole = [[0, 40, 90], [LENGTH, 40, 90]], {"geometry": "arcs", "stiffness_per_length": 1e9}
+    case = make_case(stations, [pipe(None, None, joint=joint, joint_segments=6)], wellbore=hole)
+    solver = Solver(case)
+    problem = solver.problem("trip_in", steady_rates(case, "trip_in"), solver.lay_out(LENGTH))
+    problem.lay_guess()
+    offset = np.linalg.norm(problem.work.G[1 : problem.n + 1, OFFSET : OFFSET + 3], axis=1)
+    np.testing.assert_allclose(offset, 0.5 * (0.2159 - 0.165), atol=1e-5)
