@@ -54,7 +54,7 @@ class ComponentSpec(Table):
     With `joint` the largest bending moment of the pipe, at its tool joints or between them, is computed from the
     string's curvature, and mass and stiffnesses that are not given are those of body and tool joints together. With
     `joint_segments` the string is laid joint by joint: its tool joints touch, and each body between them is cut into so
-    many segments, shorter towards the tool joints.
+    many segments, shorter towards the tool joints; what `contact` says does not matter.
 
     A bent housing has its `bend` [rad] at the upper end, where the component is tilted against the one above
     it towards `toolface` [rad], which counts from the high side clockwise looking downhole.

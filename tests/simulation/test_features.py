@@ -7,9 +7,10 @@ import pytest
 from pydantic import BaseModel
 
 from fctd import Case, InputError, simulate
-from fctd.simulation.features import ASKED, EVERYWHERE, FEATURES, OWN, UNKNOWN_KEYS
+from fctd.simulation.features import ASKED, EVERYWHERE, FEATURES, OWN, UNKNOWN_KEYS, refuse
 from fctd.simulation.preparation import prepare
 from references import contact
+from tests.cases import make_case, pipe, rotation
 from tests.simulation.features import CROSSED, shown
 
 # No key of a case gives loads yet; tests/mechanics/test_given_loads.py has their effect with another contact method.
@@ -47,6 +48,16 @@ def test_every_feature_has_a_case() -> None:
 
 def test_a_simulation_refuses_what_only_the_steady_solver_has() -> None:
     assert set(FEATURES) ^ OWN == {"helical_force", "overpull", UNKNOWN_KEYS}
+
+
+def test_resolved_joints_are_refused_where_contact_at_the_middle_is_left_out() -> None:
+    joint = {"length": 10.0, "tool_joint_length": 0.5, "tool_joint_diameter": 0.165}
+    parts = [pipe(20, 2), pipe(None, None, joint=joint, joint_segments=4)]
+    run, _ = prepare(make_case(components=parts, operations=[rotation(200, 1)]))
+    with pytest.raises(
+        InputError, match=r"string.components\[1\].joint_segments = 4: expected .* since the engine leaves out"
+    ):
+        refuse(run, OWN - {"middle_contact"}, "the engine")
 
 
 @pytest.mark.parametrize("name", CROSSED)
