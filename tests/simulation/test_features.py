@@ -54,9 +54,7 @@ def test_resolved_joints_are_refused_where_contact_at_the_middle_is_left_out() -
     joint = {"length": 10.0, "tool_joint_length": 0.5, "tool_joint_diameter": 0.165}
     parts = [pipe(20, 2), pipe(None, None, joint=joint, joint_segments=4)]
     run, _ = prepare(make_case(components=parts, operations=[rotation(200, 1)]))
-    with pytest.raises(
-        InputError, match=r"string.components\[1\].joint_segments = 4: expected .* since the engine leaves out"
-    ):
+    with pytest.raises(InputError, match=r"\[1\].joint_segments = 4: expected .* since the engine leaves out"):
         refuse(run, OWN - {"middle_contact"}, "the engine")
 
 

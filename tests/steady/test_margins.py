@@ -240,3 +240,15 @@ def test_a_limit_that_is_lowered_by_two_per_cent_lowers_the_load_at_it(key: tupl
 
     lower = 1 / 0.98 if key[1] == "design_factor" else 0.98  # a larger factor leaves less
     assert at_limit(lower) / at_limit(1.0) == pytest.approx(times, rel=within)
+
+
+def test_a_limit_of_resolved_joints_names_the_component_of_the_case() -> None:
+    """And is that of the coarse string, whose bending closed forms have."""
+    stations = [[0, 0, 0], [300, 0, 0], [700, 40, 20], [1200, 40, 20]]
+    at_limit = []
+    for cut in ({"joint_segments": 4}, {"segment_length": 9.6}):
+        parts = [pipe(60, 12, outer=0.165, name="collars"), {"pipe": "5 in 19.5 S-135 NC50", "name": "dp"} | cut]
+        overpull = found(make_case(stations, parts, mud=MUD), "trip_out", 1150.0)["yield"]
+        assert overpull.part == "dp"
+        at_limit.append(overpull.hookload)
+    assert at_limit[0] == pytest.approx(at_limit[1], rel=0.02)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from fctd.case.errors import InputError
+from fctd.case.string import JointSpec
 from fctd.mechanics.topdrive import ramp
 from references.beams import case, elements
 from references.beams.case import beam_of, steady, top_of
@@ -69,6 +70,17 @@ def test_unsuitable_cases_are_refused(overrides, key):
     with pytest.raises(InputError) as refused:
         beam_of(load("scaled_section", **overrides), 0.3, 20.0)
     assert refused.value.key == key
+
+
+def test_resolved_joints_are_refused():
+    """Their tool joints and bodies have sections of their own, which a uniform beam has not."""
+    joint = JointSpec(length=2.0, tool_joint_length=0.1, tool_joint_diameter=0.09)
+    of_case = load("scaled_section")
+    cut = {"joint": joint, "joint_segments": 2, "segments": None, "segment_length": None, "contact_diameter": 0.09}
+    part = of_case.string.components[0].model_copy(update=cut)
+    string = of_case.string.model_copy(update={"components": (part,)})
+    with pytest.raises(InputError, match="components of one section"):
+        beam_of(of_case.model_copy(update={"string": string}), 0.3, 20.0)
 
 
 def test_a_fine_mesh_longer_than_the_string_is_refused():
