@@ -15,6 +15,7 @@ from fctd.case.errors import InputError
 from fctd.case.friction import table_of
 from fctd.case.load import Case
 from fctd.case.rig import RigSpec
+from fctd.model.fluids import fluids_of
 from fctd.model.operations import drive_torque, rad_per_s, weight_indicator
 from fctd.model.section import section_of
 from fctd.results.status import SteadyStatus
@@ -221,7 +222,7 @@ class Forward:
             parts = solver.case.string.components[: len(of_case.string.sections)]
             sections = tuple(section_of(part, solver.case.mud.density) for part in parts)
             same = [laid for laid in (of_case, *strings[:1]) if laid.string.sections == sections]
-            other = replace(of_case.string, sections=sections)
+            other = replace(of_case.string, sections=sections, fluids=fluids_of(solver.case, row.bit_depth))
             strings.append(same[0] if same else LaidString(solver.case, solver.hole, other))
         changes = [Changed(solver, laid) for solver, laid in zip(solvers[1:], strings[1:], strict=True)]
         try:

@@ -91,7 +91,7 @@ class Pipe(NamedTuple):
 def pipe_of(string: String) -> Pipe:
     """The pipe of a string."""
     radius = string.contact_radius()
-    return Pipe(string.of("EI"), string.of("weight"), radius, string.length, string.mid_contact())
+    return Pipe(string.of("EI"), string.weight, radius, string.length, string.mid_contact())
 
 
 def buckling_along(

@@ -108,7 +108,7 @@ def test_the_formulas_as_published_by_johancsik(operation: str, pull: float) -> 
         wellbore={"survey_method": "average_angle",
                   "intervals": [{"to_md": 1700, "diameter": 0.3, "friction": 0.3}]},
     )  # fmt: skip
-    weight = float(lay_out(case, 1700.0).of("weight")[0])
+    weight = float(lay_out(case, 1700.0).weight[0])
     md = np.linspace(0, 1700, 34001)
     _, inc, azi = survey.interpolate_angles(case.wellbore.trajectory, md).T
     tension = torque = 0.0

@@ -1,0 +1,157 @@
+"""Fluids inside and outside a string: what they weigh along it, and their pressures.
+
+A column lies along the string, from the surface down to the bit, and keeps its place there while the string moves.  The
+weight of a metre of string is linear in the densities inside and outside, so that a segment in which fluids meet has
+exactly the weight of their mean densities: nothing is cut where they meet.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from fctd.arrays import Array
+from fctd.case.errors import Computed, InputError
+from fctd.case.fluids import OutsideSpec
+from fctd.case.load import Case
+from fctd.mechanics.topdrive import GRAVITY
+from fctd.model.wellbore import Wellbore
+
+SAME_PLACE: Final = 1e-6  # [m]: an end of a row and a joint of the string in one place
+# Largest difference of pressures at an open end [Pa]: what is left of measured densities and depths.
+EQUAL: Final = 0.5e5
+BAR: Final = 1e5
+
+
+@dataclass(frozen=True)
+class Column:
+    """The fluids on one side of a string, rows from the surface down.
+
+    end : of each row, above the bit, the last 0 [m]; density [kg/m³]; start : pressure at the upper end of a row that a
+    plug seals off from the one above, else NaN [Pa]; surface : pressure at the surface [Pa].
+    """
+
+    end: tuple[float, ...]
+    density: tuple[float, ...]
+    start: tuple[float, ...]
+    surface: float
+
+    def mean_density(self, top: Array, bottom: Array) -> Array:
+        """Mean densities (n,) [kg/m³] between distances from the bit (n,) [m]; those of equal rows exactly."""
+        mean = np.full(len(top), self.density[0])
+        for k, end in enumerate(self.end[:-1]):
+            share = np.clip((end - bottom) / (top - bottom), 0.0, 1.0)
+            mean += (self.density[k + 1] - self.density[k]) * share
+        return mean
+
+    def row_of(self, above: Array) -> Array:
+        """Rows (n,) at distances from the bit [m]; where two meet that of the upper one."""
+        return np.asarray((above[:, None] < np.array(self.end[:-1]) - SAME_PLACE).sum(axis=1))
+
+    def pressure(self, above: Array, depth: Array, hole: Wellbore, bit_depth: float) -> Array:
+        """Pressures (n,) [Pa] at distances from the bit and true vertical depths [m]."""
+        row, weight, offset = self.row_of(above), GRAVITY * np.array(self.density), self._offsets(hole, bit_depth)
+        return np.asarray(weight[row] * depth + offset[row])
+
+    def mean_pressure(self, top: Array, bottom: Array, depth: Array, hole: Wellbore, bit_depth: float) -> Array:
+        """Mean pressures (n,) [Pa] between distances from the bit (n,) [m]; depth (n,) : true vertical, halfway [m]."""
+        mean = self.pressure(0.5 * (top + bottom), depth, hole, bit_depth)
+        parted = np.flatnonzero(self.row_of(bottom + 2 * SAME_PLACE) != self.row_of(top - 2 * SAME_PLACE))
+        upper, lower, offset = top[parted], bottom[parted], self._offsets(hole, bit_depth)
+        mean[parted], start = 0.0, np.full(len(parted), np.inf)
+        for k, end in enumerate(self.end):
+            high, low = np.minimum(upper, start), np.maximum(lower, end)
+            depth = depth_at(hole, bit_depth - 0.5 * (high + low))
+            share = np.maximum(high - low, 0.0) / (upper - lower)
+            mean[parted] += share * (GRAVITY * self.density[k] * depth + offset[k])
+            start[:] = end
+        return mean
+
+    def _offsets(self, hole: Wellbore, bit_depth: float) -> Array:
+        """Pressure of each row less its density times depth [Pa], exactly equal for rows that are."""
+        met = hole.at(bit_depth - np.array(self.end[:-1]))[0][:, 2] if len(self.end) > 1 else np.zeros(0)
+        offset = [self.surface]
+        for k, depth in enumerate(met.tolist(), start=1):
+            lighter = GRAVITY * (self.density[k - 1] - self.density[k]) * depth
+            sealed = self.start[k] - GRAVITY * self.density[k] * depth
+            offset.append(offset[-1] + lighter if math.isnan(self.start[k]) else sealed)
+        return np.array(offset)
+
+
+@dataclass(frozen=True)
+class Fluids:
+    """What is inside and outside a string; open_end : whether both meet at its lower end."""
+
+    inside: Column
+    outside: Column
+    open_end: bool
+
+    def pressures(self, above: Array, depth: Array, hole: Wellbore, bit_depth: float) -> tuple[Array, Array]:
+        """Pressures (n,) inside and outside [Pa] at distances from the bit and true vertical depths [m]."""
+        inside, outside = (side.pressure(above, depth, hole, bit_depth) for side in (self.inside, self.outside))
+        return inside, outside
+
+    def densities(self, top: Array, bottom: Array) -> tuple[Array, Array]:
+        """Mean densities (n,) inside and outside [kg/m³] between distances from the bit (n,) [m]."""
+        return self.inside.mean_density(top, bottom), self.outside.mean_density(top, bottom)
+
+    def check_end(self, hole: Wellbore, bit_depth: float) -> None:
+        """Raise InputError for an open end through which fluid would flow."""
+        depth = depth_at(hole, np.array([bit_depth]))
+        inside, outside = (float(side[0]) for side in self.pressures(np.zeros(1), depth, hole, bit_depth))
+        if self.open_end and abs(inside - outside) > EQUAL:
+            flows, level = "fluid would flow in", self.inside.density[0]
+            if inside > outside:
+                falls = (
+                    f"the level inside would fall by {(inside - outside) / (GRAVITY * level):.0f} m" if level else ""
+                )
+                flows = falls or "fluid would flow out"
+            raise InputError(
+                f"true, or pressures that are equal within {EQUAL / BAR:g} bar at the open end, through which {flows}",
+                key="mud.float",
+                value=Computed(f"false with {inside / BAR:.1f} bar inside and {outside / BAR:.1f} bar outside"),
+            )
+
+
+def fluids_of(case: Case, bit_depth: float) -> Fluids | None:
+    """The fluids of a case's string with the bit at a depth [m]; None where both sides have one density.
+
+    Raises InputError for rows that end above the bit.
+    """
+    mud = case.mud
+    if not mud.given:
+        return None
+    inside = _column(mud.inside, mud.density, mud.inside_pressure, bit_depth, "inside")
+    outside = _column(mud.outside, mud.density, mud.outside_pressure, bit_depth, "outside")
+    plugged = any(row.plug and row.to_md is not None and abs(row.to_md - bit_depth) < SAME_PLACE for row in mud.inside)
+    return Fluids(inside, outside, not mud.float and not plugged and mud.packer_bore is None)
+
+
+def _column(rows: Sequence[OutsideSpec], density: float, surface: float, bit_depth: float, side: str) -> Column:
+    if not rows:
+        return Column((0.0,), (density,), (math.nan,), surface)
+    last = rows[-1].to_md
+    if last is not None and last < bit_depth - SAME_PLACE:
+        raise InputError(
+            f"left out, or a depth down to the bit, at {bit_depth:g} m",
+            key=f"mud.{side}[{len(rows) - 1}].to_md",
+            value=Computed(f"{last:g} m"),
+        )
+    ends: list[float] = []
+    starts: list[float] = []
+    start = math.nan
+    for row in rows:
+        end = 0.0 if row.to_md is None else max(bit_depth - row.to_md, 0.0)
+        ends.append(0.0 if end < SAME_PLACE else end)
+        starts.append(start)
+        if ends[-1] == 0:
+            break
+        start = math.nan
+    return Column(tuple(ends), tuple(row.density for row in rows[: len(ends)]), tuple(starts), surface)
+
+
+def depth_at(hole: Wellbore, md: Array) -> Array:
+    """True vertical depth [m] at measured depths [m]; 0 above the rotary table."""
+    return np.maximum(np.interp(md, hole.md, hole.points[:, 2]), 0.0)
