@@ -145,7 +145,7 @@ unbent = np.zeros((string.segments + 1, HANGING_COLUMNS))
 walls = hole.walls(hole.at(np.linspace(100.0, 700.0, string.segments))[0])
 assert find_shares(
     none, none, unbent, 0.0, 1500.0, 0.0, walls.offset, walls.radius, string.contact_radius(), True,
-    string.mid_contact(), string.component, string.table, worst,
+    string.mid_contact(), string.component, string.table, np.zeros(string.segments + 1), worst,
 )
 print([note.text for note in limit_notes(worst, string, walls)])
 """

@@ -8,6 +8,7 @@ exactly the weight of their mean densities: nothing is cut where they meet.
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -57,17 +58,14 @@ class Column:
 
     def mean_pressure(self, top: Array, bottom: Array, depth: Array, hole: Wellbore, bit_depth: float) -> Array:
         """Mean pressures (n,) [Pa] between distances from the bit (n,) [m]; depth (n,) : true vertical, halfway [m]."""
-        mean = self.pressure(0.5 * (top + bottom), depth, hole, bit_depth)
-        parted = np.flatnonzero(self.row_of(bottom + 2 * SAME_PLACE) != self.row_of(top - 2 * SAME_PLACE))
-        upper, lower, offset = top[parted], bottom[parted], self._offsets(hole, bit_depth)
-        mean[parted], start = 0.0, np.full(len(parted), np.inf)
-        for k, end in enumerate(self.end):
-            high, low = np.minimum(upper, start), np.maximum(lower, end)
-            depth = depth_at(hole, bit_depth - 0.5 * (high + low))
-            share = np.maximum(high - low, 0.0) / (upper - lower)
-            mean[parted] += share * (GRAVITY * self.density[k] * depth + offset[k])
-            start[:] = end
-        return mean
+        offset = self._offsets(hole, bit_depth)
+        mean = GRAVITY * self.density[0] * depth + offset[0]
+        for k, end in enumerate(self.end[:-1]):
+            below = np.clip(end, bottom, top)
+            middle = depth_at(hole, bit_depth - 0.5 * (below + bottom))
+            more = GRAVITY * (self.density[k + 1] - self.density[k]) * middle + (offset[k + 1] - offset[k])
+            mean += more * (below - bottom) / (top - bottom)
+        return np.asarray(mean)
 
     def _offsets(self, hole: Wellbore, bit_depth: float) -> Array:
         """Pressure of each row less its density times depth [Pa], exactly equal for rows that are."""
@@ -123,13 +121,17 @@ def fluids_of(case: Case, bit_depth: float) -> Fluids | None:
     mud = case.mud
     if not mud.given:
         return None
-    inside = _column(mud.inside, mud.density, mud.inside_pressure, bit_depth, "inside")
-    outside = _column(mud.outside, mud.density, mud.outside_pressure, bit_depth, "outside")
+    starts = [(below.pressure or 0.0) if above.plug else math.nan for above, below in pairwise(mud.inside)]
+    inside = _column("inside", mud.inside, [math.nan, *starts], mud.density, mud.inside_pressure, bit_depth)
+    none = [math.nan] * max(len(mud.outside), 1)
+    outside = _column("outside", mud.outside, none, mud.density, mud.outside_pressure, bit_depth)
     plugged = any(row.plug and row.to_md is not None and abs(row.to_md - bit_depth) < SAME_PLACE for row in mud.inside)
     return Fluids(inside, outside, not mud.float and not plugged and mud.packer_bore is None)
 
 
-def _column(rows: Sequence[OutsideSpec], density: float, surface: float, bit_depth: float, side: str) -> Column:
+def _column(
+    side: str, rows: Sequence[OutsideSpec], starts: Sequence[float], density: float, surface: float, bit_depth: float
+) -> Column:
     if not rows:
         return Column((0.0,), (density,), (math.nan,), surface)
     last = rows[-1].to_md
@@ -139,17 +141,9 @@ def _column(rows: Sequence[OutsideSpec], density: float, surface: float, bit_dep
             key=f"mud.{side}[{len(rows) - 1}].to_md",
             value=Computed(f"{last:g} m"),
         )
-    ends: list[float] = []
-    starts: list[float] = []
-    start = math.nan
-    for row in rows:
-        end = 0.0 if row.to_md is None else max(bit_depth - row.to_md, 0.0)
-        ends.append(0.0 if end < SAME_PLACE else end)
-        starts.append(start)
-        if ends[-1] == 0:
-            break
-        start = math.nan
-    return Column(tuple(ends), tuple(row.density for row in rows[: len(ends)]), tuple(starts), surface)
+    ends = [0.0 if row.to_md is None or row.to_md > bit_depth - SAME_PLACE else bit_depth - row.to_md for row in rows]
+    count = ends.index(0.0) + 1
+    return Column(tuple(ends[:count]), tuple(row.density for row in rows[:count]), tuple(starts[:count]), surface)
 
 
 def depth_at(hole: Wellbore, md: Array) -> Array:

@@ -135,9 +135,11 @@ def profile_table(
     outer, inner = (np.append(values[0], values) for values in (string.of("outer"), string.of("inner")))
     depth, steel, given = np.append(top[2], points[:, 2]), np.pi * (outer**2 - inner**2), {}
     outside, excess = mud_density * GRAVITY * depth, np.zeros(len(depth))
+    true_tension = tension - outside * steel
     if string.fluids is not None:
         inside, outside = string.fluids.pressures(string.contacts_above, depth, hole, string.bit_depth)
         excess, given = inside - outside, {"inside_pressure_Pa": inside, "outside_pressure_Pa": outside}
+        true_tension = tension - outside * steel + excess * np.pi * inner**2
     clearance = walls.radius - string.contact_radius()
     buckled, _ = buckling_along(
         hole, pipe_of(string), string.top_md, md, walls.radius, loads.tension, loads.bit_tension
@@ -147,7 +149,7 @@ def profile_table(
             "md_m": np.append(string.top_md, md),
             "inclination_deg": np.degrees(inclination),
             "effective_tension_N": tension,
-            "true_tension_N": tension - outside * steel + excess * np.pi * inner**2,
+            "true_tension_N": true_tension,
             "torque_N_m": torque,
             "contact_force_N": np.append(0.0, loads.normal),
             # A rounding error to the left of the high side is the high side, not 360°.

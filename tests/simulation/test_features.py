@@ -46,7 +46,7 @@ def test_every_feature_has_a_case() -> None:
 
 
 def test_a_simulation_refuses_what_only_the_steady_solver_has() -> None:
-    assert set(FEATURES) ^ OWN == {"helical_force", "overpull", UNKNOWN_KEYS}
+    assert set(FEATURES) ^ OWN == {"helical_force", "overpull", "packer", UNKNOWN_KEYS}
 
 
 @pytest.mark.parametrize("name", CROSSED)
