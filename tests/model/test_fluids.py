@@ -9,10 +9,10 @@ from fctd import equilibrium
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.mechanics.topdrive import GRAVITY
-from fctd.model.drillstring import String, lay_out
+from fctd.model.drillstring import lay_out
 from fctd.model.fluids import fluids_of
 from fctd.model.string_in_hole import check_end, excess_pressure, squeeze_of
-from fctd.model.wellbore import Wellbore, build_wellbore
+from fctd.model.wellbore import build_wellbore
 from fctd.results.limits import LIMITS, SHARE
 from fctd.steady.equilibrium import Solver
 from tests.cases import make_case, pipe
@@ -257,32 +257,6 @@ def test_a_plug_at_the_bit_is_a_float() -> None:
     case = make_case(mud={"inside": rows, "density": 1000.0})
     check_end(lay_out(case, 800.0), build_wellbore(case))
     assert lay_out(case, 800.0).fluids is not None
-
-
-def stretch(string: String, case: Case, hole: Wellbore) -> float:
-    """By how much the unloaded string is longer than its tally [m]."""
-    return -float(squeeze_of(case, string, hole) @ string.length)
-
-
-def test_stretch_by_temperature_is_that_of_the_literature() -> None:
-    """10,000 ft, 80 to 375 °F linear: 122.1 in with 6.9e-6/°F."""
-    feet = 0.3048
-    hole = [[0, 0, 0], [10_000 * feet, 0, 0]]
-    rows = [{"tvd": 0, "change": 0}, {"tvd": "10000 ft", "change": "295 degF"}]
-    case = make_case(hole, [pipe(None, 100)], temperature=rows)
-    found = stretch(lay_out(case, 10_000 * feet), case, build_wellbore(case))
-    assert found / 0.0254 == pytest.approx(122.1, abs=0.1)
-    cold, warm = (equilibrium(one, "trip_out", 10_000 * feet) for one in (make_case(hole, [pipe(None, 100)]), case))
-    longer = warm.profile["md_m"].iloc[-1] - cold.profile["md_m"].iloc[-1]
-    assert longer / 0.0254 == pytest.approx(122.1, abs=0.1)
-
-
-def test_stretch_of_pipe_under_pressure_inside() -> None:
-    """(1 − 2ν) p A_i/EA: 3000 m of 5 in 19.5 lb/ft are 0.316 m longer at 200 bar inside."""
-    inch = 0.0254
-    parts = [pipe(None, 100, outer=5 * inch, inner=4.276 * inch)]
-    case = make_case([[0, 0, 0], [3000, 0, 0]], parts, mud={"inside_pressure": 200e5, "float": True})
-    assert stretch(lay_out(case, 3000.0), case, build_wellbore(case)) == pytest.approx(0.316, abs=5e-4)
 
 
 def test_pressures_burst_and_collapse_pipe() -> None:
