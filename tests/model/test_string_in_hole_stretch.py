@@ -54,7 +54,7 @@ TUBING = pipe(
     linear_mass=MASS,
     density=MASS / STEEL,
     youngs_modulus=30e6 * PSI,
-)
+)  # fmt: skip
 OIL = 0.0317 * 0.45359237 / INCH**3
 OPEN: dict[str, Any] = {"density": OIL, "packer_bore": float(np.sqrt(8.30 * 4 / np.pi)) * INCH}
 CEMENTED = {
