@@ -100,12 +100,10 @@ class Fluids:
         depth = depth_at(hole, np.array([bit_depth]))
         inside, outside = (float(side[0]) for side in self.pressures(np.zeros(1), depth, hole, bit_depth))
         if self.open_end and abs(inside - outside) > EQUAL:
-            flows, level = "fluid would flow in", self.inside.density[0]
-            if inside > outside:
-                falls = (
-                    f"the level inside would fall by {(inside - outside) / (GRAVITY * level):.0f} m" if level else ""
-                )
-                flows = falls or "fluid would flow out"
+            flows = "fluid would flow out" if inside > outside else "fluid would flow in"
+            level = GRAVITY * self.inside.density[0]
+            if inside > outside and level > 0:
+                flows = f"the level inside would fall by {(inside - outside) / level:.0f} m"
             raise InputError(
                 f"true, or pressures that are equal within {EQUAL / BAR:g} bar at the open end, through which {flows}",
                 key="mud.float",
