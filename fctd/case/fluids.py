@@ -56,8 +56,12 @@ class FluidsSpec(Table):
         for i, row in enumerate(self.inside):
             if row.plug and row.to_md is None:
                 raise InputError("false in a row without to_md, since `float` closes the end", key=f"inside[{i}].plug")
+            if row.density == 0 and i and self.inside[i - 1].density > 0 and not self.inside[i - 1].plug:
+                raise InputError("above 0, as what is above air falls without a plug", key=f"inside[{i}].density")
             if row.pressure is not None and not (i and self.inside[i - 1].plug):
                 raise InputError("left out, since no plug is above the row", key=f"inside[{i}].pressure")
+        if self.packer_bore is not None and self.float:
+            raise InputError("left out beside a float, as the end in the bore is open", key="packer_bore")
         return self
 
     @property

@@ -105,9 +105,10 @@ class Fluids:
             if inside > outside and level > 0:
                 flows = f"the level inside would fall by {(inside - outside) / level:.0f} m"
             raise InputError(
-                f"true, or pressures that are equal within {EQUAL / BAR:g} bar at the open end, through which {flows}",
+                f"true, or pressures that are equal within {EQUAL / BAR:g} bar at the open end: with "
+                f"{inside / BAR:.1f} bar inside and {outside / BAR:.1f} bar outside {flows}",
                 key="mud.float",
-                value=Computed(f"false with {inside / BAR:.1f} bar inside and {outside / BAR:.1f} bar outside"),
+                value=False,
             )
 
 

@@ -68,6 +68,14 @@ def test_the_default_expansion_is_that_of_the_literature() -> None:
             {"outside": [{"density": 8000}]},
             "mud.outside[0].density: expected a density below the string's, 7850 kg/m^3 (string.components[0].density)",
         ),
+        (
+            {"inside": [{"to_md": 500, "density": 1000}, {"density": 0}]},
+            "mud.inside[1].density: expected above 0, as what is above air falls without a plug",
+        ),
+        (
+            {"packer_bore": 0.1, "float": True},
+            "mud.packer_bore: expected left out beside a float, as the end in the bore is open",
+        ),
         ({"inside": [{"density": "12 m"}]}, 'mud.inside[0].density = "12 m": lb/ft^3)'),
         ({"float": "yes"}, "mud.float: true or false"),
     ],

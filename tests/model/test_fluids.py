@@ -218,13 +218,13 @@ def test_an_open_end_needs_equal_pressures() -> None:
     for mud, sentence in (
         (
             {"density": 1000.0, "inside": [{"density": 1400.0}]},
-            "mud.float = false with 137.3 bar inside and 98.1 bar outside: expected true, or pressures that are equal "
-            "within 0.5 bar at the open end, through which the level inside would fall by 286 m",
+            "mud.float = false: expected true, or pressures that are equal within 0.5 bar at the open end: with 137.3 "
+            "bar inside and 98.1 bar outside the level inside would fall by 286 m",
         ),
         (
             {"density": 1000.0, "inside": [{"density": 0.0}]},
-            "mud.float = false with 0.0 bar inside and 98.1 bar outside: expected true, or pressures that are equal "
-            "within 0.5 bar at the open end, through which fluid would flow in",
+            "mud.float = false: expected true, or pressures that are equal within 0.5 bar at the open end: with 0.0 "
+            "bar inside and 98.1 bar outside fluid would flow in",
         ),
     ):
         case = make_case(mud=mud)

@@ -61,7 +61,9 @@ def test_a_run_goes_on_bitwise_the_same() -> None:
 
 @pytest.mark.parametrize("feed", ["stands", "auto"])
 def test_what_a_run_cannot_have_is_refused_in_a_sentence(feed: str) -> None:
-    with pytest.raises(InputError, match=r"^mud.float = false with 1.0 bar inside .* fluid would flow in$"):
+    with pytest.raises(
+        InputError, match=r"^mud.float = false: expected true, .* with 1.0 bar inside .* fluid would flow in$"
+    ):
         prepare(casing(rotation(1430.0, 1.0), {**FLOATED, "float": False}, feed))
     with pytest.raises(InputError, match=r"^mud.packer_bore = .*expected none, since a simulation leaves out"):
         prepare(casing(rotation(1430.0, 1.0), {"density": 1200.0, "packer_bore": 0.2}, feed))
