@@ -1,5 +1,8 @@
 """Fluids by depth in a case: what is read, and one sentence for what cannot be."""
 
+import re
+from pathlib import Path
+
 import pytest
 
 from fctd.case import load
@@ -112,3 +115,12 @@ def test_who_floats_casing_is_not_doubted() -> None:
 def test_densities_of_rows_are_doubted_as_that_of_the_mud() -> None:
     found = filled(inside=[{"to_md": 500, "density": 0}, {"density": 10.4}], outside=[{"density": 1200}]).warnings
     assert [(one.code, one.key) for one in found] == [("mud_density", "mud.inside[1].density")]
+
+
+def test_the_guide_shows_the_fluids_of_the_example() -> None:
+    root = Path(__file__).parents[2]
+    (shown,) = re.findall(
+        r"^```toml\n(\[mud\]\n.*?)^```", (root / "docs" / "well.md").read_text(), re.DOTALL | re.MULTILINE
+    )
+    example = (root / "examples" / "floated_casing.toml").read_text()
+    assert shown in example
