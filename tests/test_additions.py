@@ -110,8 +110,9 @@ def test_a_result_column_is_one_line(copy: Path) -> None:
 
 MAKE_UP = """
     Limit(
-        "connection", "a connection turns further than it was made up", "lower the friction factor",
-        lambda at, section: abs(at.torque) / 1e3,
+        "connection", "a connection turns further than it was made up", "lower the friction factor", "N m",
+        lambda at, section: abs(at.torque),
+        lambda at, section: 1e3,
         lambda share, at, section, where: f"{at.torque:.0f} N m at {where}, the connection holds 1000 N m",
     ),
 """
