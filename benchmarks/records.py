@@ -58,6 +58,6 @@ def time_steps(
 def vertical_weight(run: Run) -> float:
     """Weight of a uniform string over its vertical depth [N], the exact hook load while it rotates in place."""
     bottom = state.row(run.S, state.Z, run.segments)[-1]
-    per_metre = float(run.string.of("weight")[0])
+    per_metre = float(run.string.weight[0])
     half = 0.5 * run.string.length[-1] * state.row(run.S, state.AZ, run.segments)[-1]
     return per_metre * float(bottom + half - run.S[state.Z])

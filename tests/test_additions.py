@@ -110,8 +110,9 @@ def test_a_result_column_is_one_line(copy: Path) -> None:
 
 MAKE_UP = """
     Limit(
-        "connection", "a connection turns further than it was made up", "lower the friction factor",
-        lambda at, section: abs(at.torque) / 1e3,
+        "connection", "a connection turns further than it was made up", "lower the friction factor", "N m",
+        lambda at, section: abs(at.torque),
+        lambda at, section: 1e3,
         lambda share, at, section, where: f"{at.torque:.0f} N m at {where}, the connection holds 1000 N m",
     ),
 """
@@ -145,7 +146,7 @@ unbent = np.zeros((string.segments + 1, HANGING_COLUMNS))
 walls = hole.walls(hole.at(np.linspace(100.0, 700.0, string.segments))[0])
 assert find_shares(
     none, none, unbent, 0.0, 1500.0, 0.0, walls.offset, walls.radius, string.contact_radius(), True,
-    string.mid_contact(), string.component, string.table, worst,
+    string.mid_contact(), string.component, string.table, np.zeros(string.segments + 1), worst,
 )
 print([note.text for note in limit_notes(worst, string, walls)])
 """

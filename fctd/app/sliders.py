@@ -69,8 +69,9 @@ def sliders_of(case: Case, units: System) -> list[Slider]:
     turning = [operation.rpm for operation in case.operations if KINDS[operation.kind].turns]
     rpm = float(turning[0] if turning else KINDS["rotate_off_bottom"].default_rpm)
     length = float(f"{_segment_length(case):.3g}")
+    of_mud = [] if case.mud.inside and case.mud.outside else [("mud", "mud density", case.mud.density)]
     for name, label, value in (
-        ("mud", "mud density", case.mud.density),
+        *of_mud,
         ("wob", "weight on bit", case.bit.weight_on_bit),
         ("bit_torque", "bit torque", case.bit.torque),
         (RPM, "rotation", rpm),

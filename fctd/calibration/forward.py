@@ -15,6 +15,7 @@ from fctd.case.errors import InputError
 from fctd.case.friction import table_of
 from fctd.case.load import Case
 from fctd.case.rig import RigSpec
+from fctd.model.fluids import fluids_of
 from fctd.model.joints import sections_of
 from fctd.model.operations import drive_torque, rad_per_s, weight_indicator
 from fctd.results.status import SteadyStatus
@@ -221,7 +222,8 @@ class Forward:
             parts = tuple(part._replace(component=components[part.origin]) for part in of_case.string.parts)
             sections = sections_of(parts, solver.case.mud.density)
             same = [laid for laid in (of_case, *strings[:1]) if laid.string.sections == sections]
-            other = replace(of_case.string, sections=sections, parts=parts)
+            fluids = fluids_of(solver.case, row.bit_depth)
+            other = replace(of_case.string, sections=sections, parts=parts, fluids=fluids)
             strings.append(same[0] if same else LaidString(solver.case, solver.hole, other))
         changes = [Changed(solver, laid) for solver, laid in zip(solvers[1:], strings[1:], strict=True)]
         try:

@@ -13,6 +13,7 @@ from pydantic import Field, PrivateAttr, field_validator, model_validator
 from fctd.case.doubts import warnings_of
 from fctd.case.drilling import BitSpec
 from fctd.case.errors import MISSING, InputError, Table, naming, nearest
+from fctd.case.fluids import TemperatureSpec, check_temperature
 from fctd.case.hole import FileName, WellboreSpec
 from fctd.case.input_file import read_toml
 from fctd.case.input_warnings import InputWarning
@@ -50,6 +51,7 @@ class Case(Table):
     wellbore: WellboreSpec = Field(description="a table [wellbore]")
     string: StringSpec = Field(description="a table [string]")
     mud: MudSpec = MudSpec()
+    temperature: tuple[TemperatureSpec, ...] = Field(default=(), description="tables [[temperature]]")
     rig: RigSpec = RigSpec()
     limits: LimitsSpec = LimitsSpec()
     bit: BitSpec = BitSpec()
@@ -95,9 +97,14 @@ class Case(Table):
                 )
         densities = [component.density for component in self.string.components]
         lightest = min(densities)
-        if self.mud.density >= lightest:
-            of = f"string.components[{densities.index(lightest)}].density"
-            raise InputError(f"a density below the string's, {lightest:g} kg/m^3 ({of})", key="mud.density")
+        fluids = {"mud.density": self.mud.density}
+        for name, rows in (("inside", self.mud.inside), ("outside", self.mud.outside)):
+            fluids |= {f"mud.{name}[{i}].density": row.density for i, row in enumerate(rows)}
+        for key, density in fluids.items():
+            if density >= lightest:
+                of = f"string.components[{densities.index(lightest)}].density"
+                raise InputError(f"a density below the string's, {lightest:g} kg/m^3 ({of})", key=key)
+        check_temperature(self.temperature)
         check_friction(self.contact, self.wellbore.intervals, self.mud.cake)
         if self.contact.helical_force == "analytic" and self.solver.buckling in RESOLVING:
             raise InputError(

@@ -7,19 +7,25 @@ from pydantic import StrictBool, model_validator
 from fctd.case import units
 from fctd.case.drilling import DriveSpec
 from fctd.case.errors import InputError, Table
+from fctd.case.fluids import FluidsSpec
 from fctd.case.wall import CakeSpec
 
 # Viscosity of mud whose case gives none [Pa s]; it acts on motion that changes alone: steady loads do not depend on it.
 UNSTEADY = 0.02
 
 
-class MudSpec(Table):
+class MudSpec(FluidsSpec):
     """Density [kg/m^3], viscosity [Pa*s]; damping per metre of string: axial and lateral [N*s/m^2], rotational [N*s].
 
     A string that moves in time takes mud along, and the mud damps its waves along itself and its motion sideways, by
     default with a viscosity of 20 mPa*s. A `viscosity` that is given damps the string along and around itself too, in
     steady states as well; 0 turns all of it off. A damping that is given replaces the one that follows from the
     viscosity.
+
+    Where fluids differ along the string or between its two sides, `[[mud.inside]]` and `[[mud.outside]]` say so, with
+    `inside_pressure` and `outside_pressure` [Pa] at the surface; a side without rows has the `density`. A `float`
+    closes the lower end, where pressures may then differ. An open end that moves in a seal bore of the diameter
+    `packer_bore` [m] is pushed up by the difference of pressures on the area of the bore, in steady strings alone.
     """
 
     density: units.Density = 0.0
@@ -31,14 +37,20 @@ class MudSpec(Table):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        if self.viscosity and not self.density:
+        if self.viscosity and not self.densest:
             raise InputError("0, or a mud.density above 0 beside it", key="viscosity")
         return self
 
     @property
+    def densest(self) -> float:
+        """The largest density of the fluids [kg/m^3]."""
+        sides = (self.inside, self.outside)
+        return max(density for rows in sides for density in ([row.density for row in rows] or [self.density]))
+
+    @property
     def unsteady(self) -> float:
         """The viscosity of motion that changes in time [Pa s], 0 where the string takes no mud along."""
-        return (self.viscosity if self.viscosity is not None else UNSTEADY) if self.density else 0.0
+        return (self.viscosity if self.viscosity is not None else UNSTEADY) if self.densest else 0.0
 
 
 class RigSpec(Table):

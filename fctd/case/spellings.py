@@ -27,7 +27,7 @@ _PLAIN: Final = str.maketrans(
     }
 )
 _LONGEST: Final = 80  # characters of a quantity
-_FACTOR = r"(?:[^\W\d_]+\.?|°|''|[\"'])(?:(?:\^|\*\*)?-?[1-9])?"
+_FACTOR = r"(?:[^\W\d_]+\.?|°[CF]?|''|[\"'])(?:(?:\^|\*\*)?-?[1-9])?"
 _UNIT = rf"(?P<unit>{_FACTOR}(?:\s*[*/.\-\s]\s*{_FACTOR})*)"
 _DECIMAL = re.compile(rf"\s*(?P<number>[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*{_UNIT}\s*")
 # Inches have halves to sixty-fourths: 8 1/2, 9-5/8, 3/4.

@@ -87,6 +87,7 @@ class ComponentSpec(Table):
     youngs_modulus: units.PositiveStress = 206.8e9
     poisson_ratio: units.PoissonRatio = 0.3
     density: units.PositiveDensity = STEEL
+    thermal_expansion: units.Expansion = 12.42e-6  # of steel, 6.9e-6 per °F
     yield_strength: YieldStrength = 931e6  # of S-135, the strongest grade of API 5DP
     axial_stiffness: units.PositiveAxialStiffness | None = None  # EA
     bending_stiffness: units.PositiveBendingStiffness | None = None  # EI

@@ -92,6 +92,15 @@ ROTATION: Final = Dimension(
     listed=True,
 )  # fmt: skip
 STRESS: Final = Dimension("a stress", "Pa", "'206.8 GPa' or '30e6 psi'", ("Pa", "MPa", "GPa", "bar", "psi", "ksi"))
+PRESSURE: Final = Dimension("a pressure", "Pa", "'50 bar' or '700 psi'", ("Pa", "kPa", "bar", "MPa", "psi", "ksi"))
+TEMPERATURE: Final = Dimension(
+    "a change of temperature", "K", "'30 K' or '20 degF'", ("K", "degC", "degF"),
+    {"k": "K", "c": "K", "°c": "K", "degc": "K", "f": "degR", "°f": "degR", "degf": "degR"}, listed=True,
+)  # fmt: skip
+EXPANSION: Final = Dimension(
+    "a thermal expansion", "K^-1", "'12.4e-6 K^-1' or '6.9e-6 degF^-1'", ("K^-1", "degC^-1", "degF^-1"),
+    {"k^-1": "K**-1", "degc^-1": "K**-1", "degf^-1": "degR**-1"}, listed=True,
+)  # fmt: skip
 DENSITY: Final = Dimension(
     "a density", "kg/m^3", "'1200 kg/m^3' or '10 ppg'", ("kg/m^3", "g/cm^3", "sg", "ppg", "lb/gal", "lb/ft^3")
 )
@@ -320,6 +329,9 @@ AngularDamping = Annotated[float, Quantity(dimension=ANGULAR_DAMPING, above=0.0)
 Angle = Annotated[float, Quantity(dimension=ANGLE)]
 Smoothing = Annotated[float, Quantity(dimension=ANGLE, above=0.0, at_most=0.02)]
 Bend = Annotated[float, Quantity(dimension=ANGLE, at_least=0.0, at_most=0.1)]
+Pressure = Annotated[float, Quantity(dimension=PRESSURE, at_least=0.0)]
+TemperatureChange = Annotated[float, Quantity(dimension=TEMPERATURE)]
+Expansion = Annotated[float, Quantity(dimension=EXPANSION, at_least=0.0, at_most=1e-3)]
 PositiveStress = Annotated[float, Quantity(dimension=STRESS, above=0.0)]
 Density = Annotated[float, Quantity(dimension=DENSITY, at_least=0.0)]
 PositiveDensity = Annotated[float, Quantity(dimension=DENSITY, above=0.0)]

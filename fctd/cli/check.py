@@ -84,7 +84,7 @@ def _loads(summary: Summary, units: System, force: Shown) -> list[Row]:
     case, unit = summary.case, "kg/m^3" if units == "si" else "ppg"
     density = case.mud.density / Quantity(dimension=DENSITY).parse(f"1 {unit}")
     return [
-        ("mud density", f"{density:.4g}", unit),
+        ("mud density", "by depth" if case.mud.given else f"{density:.4g}", "" if case.mud.given else unit),
         ("buoyancy factor", f"{summary.buoyancy_factor:.3f}", ""),
         ("string in air", f"{summary.air * force.factor:.1f}", force.label),
         ("string in mud", f"{summary.buoyed * force.factor:.1f}", force.label),

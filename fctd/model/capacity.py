@@ -14,6 +14,9 @@ from fctd.case.pipes.grades import KSI
 
 PSI: Final = KSI / 1e3  # [Pa]
 SHEAR: Final = 0.577  # of the yield strength, API's 1/√3
+ELASTIC: Final = 46.95e6  # of steel [psi]
+# Yield strengths of grades, for which the polynomials of TR 5C3 are made [psi]; far from them they are no collapse.
+FITTED: Final = 20e3, 200e3
 THINNEST: Final = 0.875  # of the nominal wall, of new pipe
 # The wedge of a slip: its taper, 9° 27′ 45″, and the friction of its back; Reinhold & Spiri (1959).
 SLIP_TAPER, SLIP_FRICTION = math.radians(9 + 27 / 60 + 45 / 3600), 0.08
@@ -91,13 +94,18 @@ def body_of(pipe: Pipe) -> Body | None:
 
 
 def _collapse(strength: float, slenderness: float) -> float:
-    """Collapse pressure [psi] by yield strength [psi] and ratio of diameter to wall: the lowest of TR 5C3's four."""
+    """Collapse pressure [psi] by yield strength [psi] and ratio of diameter to wall, of TR 5C3's four kinds.
+
+    Steel of no grade yields, or collapses elastically, and has no transition between both.
+    """
     y, ratio = strength, slenderness
+    if not FITTED[0] <= y <= FITTED[1]:
+        return min(2 * y * (ratio - 1) / ratio**2, ELASTIC / (ratio * (ratio - 1) ** 2))
     a = 2.8762 + 0.10679e-5 * y + 0.21301e-10 * y**2 - 0.53132e-16 * y**3
     b = 0.026233 + 0.50609e-6 * y
     c = -465.93 + 0.030867 * y - 0.10483e-7 * y**2 + 0.36989e-13 * y**3
     at = 3 * (b / a) / (2 + b / a)
-    f = 46.95e6 * at**3 / (y * (at - b / a) * (1 - at) ** 2)
+    f = ELASTIC * at**3 / (y * (at - b / a) * (1 - at) ** 2)
     g = f * b / a
     of_yield = (math.sqrt((a - 2) ** 2 + 8 * (b + c / y)) + a - 2) / (2 * (b + c / y))
     if ratio <= of_yield:
@@ -106,4 +114,4 @@ def _collapse(strength: float, slenderness: float) -> float:
         return y * (a / ratio - b) - c
     if ratio <= (2 + b / a) / (3 * b / a):
         return y * (f / ratio - g)
-    return 46.95e6 / (ratio * (ratio - 1) ** 2)
+    return ELASTIC / (ratio * (ratio - 1) ** 2)

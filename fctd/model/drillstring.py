@@ -12,9 +12,10 @@ from fctd.case.load import Case
 from fctd.case.string import ComponentSpec
 from fctd.mechanics import state
 from fctd.model.default_layout import DefaultLayout
+from fctd.model.fluids import Fluids, fluids_of
 from fctd.model.joints import Part, Pieces, cut_joints, joint_of, joints_in, sections_of, segments_in
-from fctd.model.section import Section
-from fctd.model.string_rows import find_contacts, find_stiffness
+from fctd.model.section import Section, buoyed
+from fctd.model.string_rows import BODY_WEIGHT, WAVE_WEIGHT, WEIGHT, find_contacts, find_stiffness
 
 # A long segment must be this long [m].
 SHORTEST_LONG_SEGMENT = 10.0
@@ -37,8 +38,8 @@ class String:
 
     bit_depth : unstretched length below the rotary table [m]; length [m]; component : index into ``sections`` and
     ``parts``, the case's components or parts of them (joints.py); long_segment : whether the top segment is the paper's
-    long one, whose length may change while the string moves.  Raises AssertionError where these disagree, which is a
-    defect of the program.
+    long one, whose length may change while the string moves; fluids : inside and outside, None where they are those of
+    ``sections``.  Raises AssertionError where these disagree, which is a defect of the program.
     """
 
     top_md: float
@@ -48,6 +49,7 @@ class String:
     sections: tuple[Section, ...]
     parts: tuple[Part, ...]
     long_segment: bool
+    fluids: Fluids | None = None
 
     def __post_init__(self) -> None:
         off = self.top_md + float(self.length.sum()) - self.bit_depth
@@ -79,6 +81,44 @@ class String:
     def of(self, name: str) -> Array:
         """A section property of every segment, shape (n,), in the unit that `Section` gives."""
         return np.array([getattr(s, name) for s in self.sections])[self.component]
+
+    @cached_property
+    def above_bit(self) -> Array:
+        """Distances from the bit (n + 1,) [m] of the string's top and of the lower ends of its segments."""
+        return np.append(np.cumsum(self.length[::-1])[::-1], 0.0)
+
+    @cached_property
+    def contacts_above(self) -> Array:
+        """Distances from the bit (n + 1,) [m] of the string's top and of its contact points."""
+        above = self.above_bit.copy()
+        above[1:] += np.where(self.mid_contact(), 0.5 * self.length, 0.0)
+        return above
+
+    @cached_property
+    def densities(self) -> tuple[Array, Array] | None:
+        """Mean densities of the fluids inside and outside every segment (n,) [kg/m³]; None where ``fluids`` is."""
+        return None if self.fluids is None else self.fluids.densities(self.above_bit[:-1], self.above_bit[1:])
+
+    @cached_property
+    def weight(self) -> Array:
+        """Buoyed weight of every segment (n,) [N/m]."""
+        return self._weight("mass", WEIGHT)
+
+    @cached_property
+    def body_weight(self) -> Array:
+        """Buoyed weight of the body alone of every segment (n,) [N/m]."""
+        return self._weight("body_mass", BODY_WEIGHT)
+
+    @cached_property
+    def wave_weight(self) -> Array:
+        """Buoyed weight of the pipe as a whole, with which every segment buckles (n,) [N/m]."""
+        return self._weight("wave_mass", WAVE_WEIGHT)
+
+    def _weight(self, mass: str, column: int) -> Array:
+        if self.densities is None:
+            return np.asarray(self.table[self.component, column])
+        inside, outside = self.densities
+        return np.asarray(buoyed(self.of(mass), self.of("density"), self.of("inner"), outside, inside))
 
     def lengthened(self, by: float) -> "String":
         """The same string with ``by`` [m] more in its top segment."""
@@ -200,6 +240,7 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
         sections=sections_of(parts, case.mud.density),
         parts=tuple(parts),
         long_segment=long_segment,
+        fluids=fluids_of(case, bit_depth),
     )
     check_lengths(string, taken)
     return string

@@ -16,8 +16,9 @@ from fctd.case.load import Case
 from fctd.case.string import ComponentSpec
 from fctd.model import survey
 from fctd.model.default_layout import AT_MOVING_BIT, DefaultLayout
+from fctd.model.fluids import SAME_PLACE, fluids_of
 from fctd.model.joints import finer, joints_in, longest_segment, segments_in
-from fctd.model.section import section_of
+from fctd.model.section import buoyed, section_of
 
 Components = tuple[ComponentSpec, ...]
 # A case, a bit depth [m], the length of the shortest segments [m] and the least number of segments of a component to
@@ -33,6 +34,8 @@ STRAIGHT = np.radians(0.5) / 30
 SHORT, BESIDE_SHORT = 30.0, 10.0
 # Components are cut into a least number of segments down to this length [m].
 SHORTEST = 0.5
+# Weight that pipe which floats is taken to have at least [N/m].
+FLOATS = 1.0
 SAMPLES = 4000
 
 
@@ -142,6 +145,11 @@ def _wave(case: Case, md: Array, above_bit: Array) -> Array:
     hole = np.array([0.5 * interval.diameter for interval in intervals])[i]
     slack = np.maximum(hole - np.array([s.contact_radius for s in sections])[k], 1e-3)
     stiffness, weight = (np.array([getattr(s, name) for s in sections])[k] for name in ("EI", "weight"))
+    fluids = fluids_of(case, float(md[0] + above_bit[0]))
+    if fluids is not None:
+        inside, outside = fluids.densities(above_bit, above_bit - SAME_PLACE)
+        mass, density, inner = np.array([(s.mass, s.density, s.inner) for s in sections])[k].T
+        weight = np.maximum(np.abs(buoyed(mass, density, inner, outside, inside)), FLOATS)
     return np.asarray(2 * np.pi * (stiffness * slack / weight) ** 0.25)
 
 

@@ -18,7 +18,7 @@ FULLEST, FULL = 0.98, 1 - 1e-6
 
 
 def lateral_damping(
-    radius: ArrayLike, hole: ArrayLike, density: float, viscosity: float, frequency: float = AT_REST
+    radius: ArrayLike, hole: ArrayLike, density: ArrayLike, viscosity: float, frequency: float = AT_REST
 ) -> Array:
     """Damping of lateral motion per metre [N s/m²] of cylinders of ``radius`` in holes [m], by the boundary layers.
 
@@ -27,18 +27,23 @@ def lateral_damping(
     """
     radius = np.asarray(radius, float)
     k = filled(radius, hole)
-    layer = np.sqrt(viscosity / density * frequency)
-    return np.asarray(4 * np.pi**1.5 * density * radius * layer * (1 + k**3) / (1 - k**2) ** 2)
+    around = np.asarray(density, float)
+    layer = np.sqrt(viscosity / np.where(around > 0, around, np.inf) * frequency)
+    return np.asarray(4 * np.pi**1.5 * around * radius * layer * (1 + k**3) / (1 - k**2) ** 2)
 
 
-def added_mass(radius: ArrayLike, inner: ArrayLike, hole: ArrayLike, density: float) -> Array:
+def added_mass(
+    radius: ArrayLike, inner: ArrayLike, hole: ArrayLike, density: ArrayLike, inside: ArrayLike | None = None
+) -> Array:
     """Mass of mud per metre [kg/m] that moves sideways with pipes of outer and inner radius [m] in holes [m].
 
-    The mud inside moves with the pipe; that outside flows around it (potential flow in a concentric annulus).
+    density, inside : of the mud outside, and of that inside where it is another [kg/m³].  The mud inside moves with the
+    pipe; that outside flows around it (potential flow in a concentric annulus).
     """
     radius, inner = np.asarray(radius, float), np.asarray(inner, float)
-    k = filled(radius, hole)
-    return np.asarray(density * np.pi * (radius**2 * (1 + k**2) / (1 - k**2) + inner**2))
+    k, outside = filled(radius, hole), np.asarray(density, float)
+    alike = outside * np.pi * (radius**2 * (1 + k**2) / (1 - k**2) + inner**2)
+    return np.asarray(alike if inside is None else alike + (np.asarray(inside) - outside) * np.pi * inner**2)
 
 
 def resistance(radius: ArrayLike, hole: ArrayLike, viscosity: float) -> tuple[Array, Array]:
@@ -48,14 +53,23 @@ def resistance(radius: ArrayLike, hole: ArrayLike, viscosity: float) -> tuple[Ar
     return np.asarray(-2 * np.pi * viscosity / np.log(k)), np.asarray(4 * np.pi * viscosity * outside / (1 - k**2))
 
 
-def layer_drag(radius: ArrayLike, inner: ArrayLike, density: float, viscosity: float, rate: float) -> Array:
+def layer_drag(
+    radius: ArrayLike, inner: ArrayLike, density: ArrayLike, viscosity: float, rate: float,
+    inside: ArrayLike | None = None,
+) -> Array:  # fmt: skip
     """Drag per metre [N s/m²] of the mud's boundary layers by their lag, on pipes of outer and inner radius [m].
+
+    density, inside : of the mud outside, and of that inside where it is another [kg/m³].
 
     rate [1/s] : angular frequency at which both parts of it, drag and mass, are those of a plane wall that swings along
     itself, (1 + i) √(ρμω/2) on a unit of area (Stokes 1851).  The layers, √(2ν/ω) thick, are thin beside the pipe.
     """
-    perimeter = 2 * np.pi * (np.asarray(radius, float) + np.asarray(inner, float))
-    return np.asarray(perimeter * np.sqrt(2 * density * viscosity * rate))
+    radius, inner = np.asarray(radius, float), np.asarray(inner, float)
+    outside = np.sqrt(2 * np.asarray(density) * viscosity * rate)
+    alike = 2 * np.pi * (radius + inner) * outside
+    if inside is None:
+        return np.asarray(alike)
+    return np.asarray(alike + 2 * np.pi * inner * (np.sqrt(2 * np.asarray(inside) * viscosity * rate) - outside))
 
 
 def filled(radius: ArrayLike, hole: ArrayLike, most: float = FULLEST) -> Array:

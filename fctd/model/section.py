@@ -2,13 +2,14 @@
 
 import math
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from fctd.case.pipes.catalogue import pipe_named
 from fctd.case.string import ComponentSpec, JointSpec
 from fctd.mechanics.topdrive import GRAVITY
+from fctd.model.capacity import Body
 from fctd.model.connection import make_up_torque
 
 
@@ -20,7 +21,9 @@ class Section(NamedTuple):
     a component that touches at a point, 0 for a sleeve; compressibility : strain along by pressure on all sides [1/Pa];
     joint, tool_joint : lengths of a joint of pipe and of its tool joint [m], 0 where they are not given; make_up :
     largest make-up torque of its tool joints [N m], infinite where it is not known; body_weight : of its body alone,
-    buoyed [N/m]; wave_weight [N/m], wave_stiffness [N m^2], wave_radius [m] : with which pipe buckles as a whole.
+    buoyed [N/m]; density : of the steel [kg/m^3]; body_mass : of its body alone [kg/m]; expansion : thermal [1/K];
+    burst, collapse : pressures that its body bears, beyond that on its other side [Pa]; wave_weight [N/m], wave_mass
+    [kg/m], wave_stiffness [N m^2], wave_radius [m] : with which pipe buckles as a whole.
 
     A resolved tool joint has a ``tool_joint`` and no ``joint``, and a body neither: what they do to the bending of the
     pipe is computed.  Outer and inner radius of the tool joint are those of its body, whose end is stressed most.
@@ -45,7 +48,13 @@ class Section(NamedTuple):
     tool_joint: float = 0.0
     make_up: float = math.inf
     body_weight: float = 0.0
+    density: float = 0.0
+    body_mass: float = 0.0
+    expansion: float = 0.0
+    burst: float = math.inf
+    collapse: float = math.inf
     wave_weight: float = 0.0
+    wave_mass: float = 0.0
     wave_stiffness: float = 0.0
     wave_radius: float = 0.0
 
@@ -58,6 +67,15 @@ def shear_coefficient(outer: float, inner: float, poisson: float) -> float:
     rest += nu * (12 * a**4 + 48 * a**2 * b**2 + 12 * b**4)
     rest += nu**2 * (4 * a**4 + 16 * a**2 * b**2 + 4 * b**4)
     return top / rest
+
+
+def buoyed(mass: Any, density: Any, inner: Any, outside: Any, inside: Any) -> Any:
+    """Weight of a metre of pipe and of the fluid in its bore, less that of the fluid outside that it displaces [N/m].
+
+    mass [kg/m] and density [kg/m³] of the steel; inner radius [m]; densities outside and inside [kg/m³]; numbers or
+    arrays.
+    """
+    return mass * GRAVITY * (1 - outside / density) + (inside - outside) * GRAVITY * np.pi * inner * inner
 
 
 @lru_cache(maxsize=256)  # a chart lays out the same components at every depth
@@ -79,16 +97,14 @@ def section_of(component: ComponentSpec, outside: float, inside: float | None = 
     if mass is None:
         mass = component.density * area * (1 + share * (larger - 1))
 
-    def weight_of(mass: float) -> float:
-        buoyed: float = mass * GRAVITY * (1 - outside / component.density)
-        return buoyed + (inside - outside) * GRAVITY * np.pi * a * a
+    body, body_mass = _body(component), min(component.density * area, mass)
 
     def given(value: float | None, computed: float) -> float:
         return computed if value is None else value
 
     return Section(
         mass=mass,
-        weight=weight_of(mass),
+        weight=buoyed(mass, component.density, a, outside, inside),
         axial_inertia=0.5 * mass * (a * a + b * b),
         tilt_inertia=0.25 * mass * (a * a + b * b),
         EA=given(component.axial_stiffness, modulus * area / (1 - share * (1 - 1 / larger))),
@@ -105,8 +121,14 @@ def section_of(component: ComponentSpec, outside: float, inside: float | None = 
         joint=0.0 if component.joint is None else component.joint.length,
         tool_joint=0.0 if component.joint is None else component.joint.tool_joint_length,
         make_up=_make_up(component),
-        body_weight=weight_of(min(component.density * area, mass)),
-        wave_weight=weight_of(mass),
+        body_weight=buoyed(body_mass, component.density, a, outside, inside),
+        density=component.density,
+        body_mass=body_mass,
+        expansion=component.thermal_expansion,
+        burst=body.burst,
+        collapse=body.collapse,
+        wave_weight=buoyed(mass, component.density, a, outside, inside),
+        wave_mass=mass,
         wave_stiffness=given(component.bending_stiffness, modulus * second),
     )
 
@@ -174,3 +196,10 @@ def _of_tool_joints(component: ComponentSpec) -> tuple[float, float, float]:
 def _make_up(component: ComponentSpec) -> float:
     torque = None if component.pipe is None else make_up_torque(pipe_named(component.pipe))
     return math.inf if torque is None else torque
+
+
+def _body(component: ComponentSpec) -> Body:
+    """The body that bears pressure; wear takes steel from its outside, ``Body`` has the nominal diameter."""
+    left = 1.0 if component.pipe is None else pipe_named(component.pipe).wall_share
+    nominal = component.inner_diameter + (component.outer_diameter - component.inner_diameter) / left
+    return Body(nominal, component.inner_diameter, component.yield_strength, left)

@@ -1,6 +1,6 @@
 """The tally of a string that is tripped stand by stand: all segments of the run, and where the stands end."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -14,6 +14,7 @@ from fctd.mechanics import state
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.default_layout import DefaultLayout
 from fctd.model.drillstring import String, check_lengths, check_segments
+from fctd.model.fluids import Fluids
 from fctd.model.joints import Part, Pieces, cut_joints, joint_of, sections_of, segments_in
 from fctd.model.string_in_hole import check_clearance
 from fctd.model.wellbore import Wellbore
@@ -67,7 +68,12 @@ class Tally:
             sections=self.whole.sections[: int(component[0]) + 1],
             parts=self.whole.parts[: int(component[0]) + 1],
             long_segment=False,
+            fluids=self.whole.fluids,
         )
+
+    def filled(self, fluids: Fluids | None) -> "Tally":
+        """The same with fluids inside and outside the string."""
+        return replace(self, whole=replace(self.whole, fluids=fluids))
 
 
 def check_stands(tally: Tally, hole: Wellbore, shallowest: float) -> None:

@@ -7,6 +7,7 @@ from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.mechanics.topdrive import GRAVITY, PerMetre
 from fctd.model.drillstring import LongSegmentError, String
+from fctd.model.fluids import depth_at
 from fctd.model.mud import hole_radius, steady_resistance
 from fctd.model.pieces import RADIUS, TO_MD
 from fctd.model.string_rows import fill_rows
@@ -50,6 +51,12 @@ def check_fit(string: String, hole: Wellbore, deepest: float) -> None:
             )
 
 
+def check_end(string: String, hole: Wellbore) -> None:
+    """Raise InputError for fluids that would flow through the open end of a string."""
+    if string.fluids is not None:
+        string.fluids.check_end(hole, string.bit_depth)
+
+
 def check_clearance(string: String, hole: Wellbore, top: Array, bottom: Array) -> None:
     """Raise InputError for a string that is wider than its hole.
 
@@ -75,17 +82,44 @@ def fill(S: Array, string: String, case: Case, hole: Wellbore) -> PerMetre:
     """
     # Absurd masses and stiffnesses overflow; ``_step_limit`` refuses them, and ``not_finite`` is their steady status.
     pipe: PerMetre = fill_rows(
-        S, string.length, string.component, string.table, string.long_segment, damping_of(case, string),
-        pressure_of(case, string, hole), case.wellbore.stiffness_per_length is not None,
+        S, string.length, string.component, string.table, string.weight, string.long_segment, damping_of(case, string),
+        squeeze_of(case, string, hole), case.wellbore.stiffness_per_length is not None,
     )  # fmt: skip
     return pipe
 
 
-def pressure_of(case: Case, string: String, hole: Wellbore) -> Array:
-    """Pressure of the mud [Pa] at the middle of every segment (n,), inside and outside alike; 0 above the table."""
-    middle = string.top_md + np.cumsum(string.length) - 0.5 * string.length
-    depth = np.interp(middle, hole.md, hole.points[:, 2])
-    return np.asarray(case.mud.density * GRAVITY * np.maximum(depth, 0.0))
+def squeeze_of(case: Case, string: String, hole: Wellbore) -> Array:
+    """By which share pressures and temperature shorten every segment (n,) without any effective tension.
+
+    Steel of the area A_s has the tension T + p_i A_i − p_o A_o, and the pressures on its sides keep it from contracting
+    there: its strain is T/EA + (1 − 2ν)(p_i A_i − p_o A_o)/E A_s + αΔT, with equal pressures T/EA − (1 − 2ν) p/E + αΔT.
+    """
+    depth = depth_at(hole, string.top_md + np.cumsum(string.length) - 0.5 * string.length)
+    if string.fluids is None:
+        pressure = case.mud.density * GRAVITY * depth
+    else:
+        top, bottom = string.above_bit[:-1], string.above_bit[1:]
+        inside, outside = (
+            side.mean_pressure(top, bottom, depth, hole, string.bit_depth)
+            for side in (string.fluids.inside, string.fluids.outside)
+        )
+        bore, body = string.of("inner") ** 2, string.of("outer") ** 2
+        pressure = outside - (inside - outside) * bore / (body - bore)
+    squeeze = string.of("compressibility") * pressure
+    if case.temperature:
+        rows = np.array([(row.tvd, row.change) for row in case.temperature])
+        squeeze -= string.of("expansion") * np.interp(depth, rows[:, 0], rows[:, 1])
+    return np.asarray(squeeze)
+
+
+def excess_pressure(string: String, hole: Wellbore) -> Array:
+    """Pressure inside less that outside (n + 1,) [Pa], at the top of a laid-out string and at its contact points."""
+    if string.fluids is None:
+        return np.zeros(string.segments + 1)
+    above = string.contacts_above
+    depth = depth_at(hole, string.bit_depth - above)
+    inside, outside = string.fluids.pressures(above, depth, hole, string.bit_depth)
+    return inside - outside
 
 
 def damping_of(case: Case, string: String) -> Array:

@@ -10,8 +10,8 @@ from fctd.mechanics.topdrive import PerMetre, set_long_segment
 
 # Columns of a table of sections: the fields of ``section.Section``.
 MASS, WEIGHT, AXIAL_INERTIA, TILT_INERTIA, EA, GJ, EI, SHEAR, OUTER, INNER, CONTACT_RADIUS, YIELD_STRENGTH = range(12)
-ECCENTRICITY, POINT, COMPRESSIBILITY, JOINT, TOOL_JOINT, MAKE_UP, BODY_WEIGHT = range(12, 19)
-WAVE_WEIGHT, WAVE_STIFFNESS, WAVE_RADIUS = range(19, 22)
+ECCENTRICITY, POINT, COMPRESSIBILITY, JOINT, TOOL_JOINT, MAKE_UP, BODY_WEIGHT, DENSITY, BODY_MASS = range(12, 21)
+EXPANSION, BURST, COLLAPSE, WAVE_WEIGHT, WAVE_MASS, WAVE_STIFFNESS, WAVE_RADIUS = range(21, 28)
 
 
 @rounded
@@ -89,19 +89,19 @@ def find_stiffness(length, component, sections, long_segment, column, stiffness)
 
 
 @rounded
-def fill_segment(S, length, component, sections, long_segment, damping, pressure, per_metre, j):
+def fill_segment(S, length, component, sections, weight, long_segment, damping, squeeze, per_metre, j):
     """Write segment j, counted from 0, into the buffer.
 
-    Its springs carry the effective tension T.  The steel has T − pA, and the pressure p on all sides keeps it from
-    contracting sideways: its strain is T/EA − (1 − 2ν) p/E, of which the second part shortens the unloaded segment.
+    Its springs carry the effective tension T.  The pressures inside and outside, and the temperature, shorten the
+    unloaded segment by its share of ``squeeze``.
     """
     k, h, at = component[j], length[j], j + 1
     middle, radius, tributary = contact_point(length, component, sections, long_segment, j)
     S[state.MASS + at] = sections[k, MASS] * h
-    S[state.WEIGHT + at] = sections[k, WEIGHT] * h
+    S[state.WEIGHT + at] = weight[j] * h
     S[state.J_AXIAL + at] = sections[k, AXIAL_INERTIA] * h
     S[state.J_TRANSVERSE + at] = sections[k, MASS] * h**3.0 / 12 + sections[k, TILT_INERTIA] * h
-    arm = 0.5 * h * (1.0 - sections[k, COMPRESSIBILITY] * pressure[j])
+    arm = 0.5 * h * (1.0 - squeeze[j])
     S[state.ARM_TOP + at] = S[state.ARM_BOTTOM + at] = arm
     S[state.ARM_CONTACT + at] = 0.0 if middle else arm
     S[state.RADIUS + at] = radius
@@ -117,19 +117,20 @@ def fill_segment(S, length, component, sections, long_segment, damping, pressure
 
 
 @entry
-def fill_rows(S, length, component, sections, long_segment, damping, pressure, per_metre):
+def fill_rows(S, length, component, sections, weight, long_segment, damping, squeeze, per_metre):
     """Write a string into a fresh buffer; returns the pipe fed at the top, ``topdrive.PerMetre``.
 
-    damping (n, 3) : by mud along, across and about the axis, per metre; pressure (n,) : of the mud [Pa]; per_metre :
-    whether the wall's stiffness is one per length.
+    weight (n,) : buoyed [N/m]; damping (n, 3) : by mud along, across and about the axis, per metre; squeeze (n,) : by
+    which share pressures and temperature shorten the segments; per_metre : whether the wall's stiffness is one per
+    length.
     """
     for j in range(len(length)):
-        fill_segment(S, length, component, sections, long_segment, damping, pressure, per_metre, j)
+        fill_segment(S, length, component, sections, weight, long_segment, damping, squeeze, per_metre, j)
     k = component[0]
     pipe = PerMetre(
-        sections[k, MASS], sections[k, WEIGHT] if long_segment else 0.0, sections[k, AXIAL_INERTIA], sections[k, EA],
+        sections[k, MASS], weight[0] if long_segment else 0.0, sections[k, AXIAL_INERTIA], sections[k, EA],
         sections[k, GJ], sections[k, EI], sections[k, SHEAR], damping[0, 0], damping[0, 1], damping[0, 2], 0.0,
-        sections[k, COMPRESSIBILITY] * pressure[0],
+        squeeze[0],
         length[1:].max() if long_segment and len(length) > 1 else 0.0,
     )  # fmt: skip
     if long_segment:

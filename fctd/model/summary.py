@@ -11,8 +11,9 @@ from fctd.case.text import counted
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model import survey
 from fctd.model.drillstring import String, lay_out
-from fctd.model.section import section_of
-from fctd.model.string_in_hole import check_fit
+from fctd.model.fluids import fluids_of
+from fctd.model.section import buoyed, section_of
+from fctd.model.string_in_hole import check_end, check_fit
 from fctd.model.wellbore import build_wellbore
 
 
@@ -90,7 +91,9 @@ class Summary:
 
     def _string_at(self, bit_depth: float) -> String:
         string = lay_out(self.case, bit_depth)
-        check_fit(string, build_wellbore(self.case), bit_depth)
+        hole = build_wellbore(self.case)
+        check_fit(string, hole, bit_depth)
+        check_end(string, hole)
         return string
 
 
@@ -123,14 +126,19 @@ def _path(case: Case, depth: float) -> Path:
 
 def _parts(case: Case, bit_depth: float) -> list[Part]:
     """Components in the hole from the top down."""
-    below, found = bit_depth, []
+    below, found, fluids = bit_depth, [], fluids_of(case, bit_depth)
     for part in case.string.components:
         length = min(part.length if part.length is not None else np.inf, below - case.string.top_md)
         if length <= 0:
             break
         section = section_of(part, case.mud.density)
         clearances = tuple(0.5 * (i.diameter - part.contact_diameter) for i in case.wellbore.intervals)
-        air, buoyed = section.mass * GRAVITY * length, section.weight * length
-        found.append(Part(part.name, below - length, below, section.mass, air, buoyed, clearances))
+        weight = section.weight
+        if fluids is not None:
+            above = bit_depth - np.array([below - length, below])
+            inside, outside = fluids.densities(above[:1], above[1:])
+            weight = float(buoyed(section.mass, section.density, section.inner, outside[0], inside[0]))
+        air = section.mass * GRAVITY * length
+        found.append(Part(part.name, below - length, below, section.mass, air, weight * length, clearances))
         below -= length
     return found[::-1]

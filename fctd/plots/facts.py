@@ -31,7 +31,7 @@ def facts_of(
     """Facts of a case, a clause each; rates : of the operations, the case's own or the defaults where None."""
     rates = rates_of_all(case, kinds) if rates is None else rates
     mud = _in(case.mud.density, _DENSITY, units) if case.mud.density else "none (air)"
-    facts = [f"mud {mud}"]
+    facts = ["fluids by depth"] if case.mud.given else [f"mud {mud}"]
     if any(KINDS[kind].on_bottom for kind in kinds):
         facts += [f"weight on bit {_load(case.bit.weight_on_bit, 'weight_on_bit_N', units)}"]
         if case.bit.torque:

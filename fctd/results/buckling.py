@@ -92,7 +92,7 @@ class Pipe(NamedTuple):
 def pipe_of(string: String) -> Pipe:
     """The pipe of a string."""
     radius = np.maximum(string.contact_radius(), string.of("wave_radius"))
-    return Pipe(string.of("wave_stiffness"), string.of("wave_weight"), radius, string.length, string.mid_contact())
+    return Pipe(string.of("wave_stiffness"), string.wave_weight, radius, string.length, string.mid_contact())
 
 
 def buckling_along(

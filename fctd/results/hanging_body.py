@@ -20,7 +20,6 @@ import numpy as np
 
 from fctd.mechanics.jit import entry, inlined, kernel
 from fctd.model.string_rows import (
-    BODY_WEIGHT,
     CONTACT_RADIUS,
     EI,
     INNER,
@@ -118,7 +117,7 @@ def bend_body(tension, own, stiffness, joint, tool_joint, room, kx, ky, kz, qx, 
 
 
 @inlined
-def may_yield(row, tension, own):
+def may_yield(row, weight, tension, own):
     """Whether usual joints may stress pipe of a section beyond half of its yield strength, by bounds without its place.
 
     In tension x/tanh x is below 1 + x, and the sag below that of a beam without tension; compression up to x = 1.5
@@ -129,7 +128,7 @@ def may_yield(row, tension, own):
     if tension < 0 and x > 1.5:
         return True
     raised = 1 + x if tension >= 0 else 1.6
-    most = half / free * own * raised + 0.4 * abs(row[BODY_WEIGHT]) * free * free
+    most = half / free * own * raised + 0.4 * abs(weight) * free * free
     outer, inner = row[OUTER] * row[OUTER], row[INNER] * row[INNER]
     normal = (abs(tension) + 4 * most * row[OUTER] / (outer + inner)) / (math.pi * (outer - inner))
     return normal > LITTLE * row[YIELD_STRENGTH]
@@ -178,11 +177,13 @@ def stiffer(tension, length, component, sections, j, up):
 
 
 @entry
-def find_hanging(bends, top_md, md, in_hole, tension, bit_tension, bending, length, middle, component, sections, rows):
+def find_hanging(
+    bends, top_md, md, in_hole, tension, bit_tension, bending, length, middle, component, sections, body_weight, rows
+):
     """Update rows (n + 1, HANGING_COLUMNS) of the top and the n contact points given hole, string and loads.
 
     bends : of the hole, md (n,) [m] : of the contact points; tension (effective) [N], bending [N m] : of the n joints;
-    length [m], middle, component (n,), sections : of the string.
+    length [m], middle, component (n,), sections, body_weight (n,) [N/m] : of the string.
     """
     k = 0
     for i in range(len(md) + 1):
@@ -190,7 +191,7 @@ def find_hanging(bends, top_md, md, in_hole, tension, bit_tension, bending, leng
         own = beside(bending, 0.0, middle, j) if i else bending[0]
         pull = beside(tension, bit_tension, middle, j) if i else tension[0]
         rows[i, MOMENT], rows[i, TAKEN], rows[i, ASSUMED] = own, 0.0, 0.0
-        row = sections[component[j]]
+        row, weight = sections[component[j]], body_weight[j]  # the wall carries that of the tool joints
         joint, tool_joint, room = row[JOINT], row[TOOL_JOINT], row[CONTACT_RADIUS] - row[OUTER]
         given = joint > 0
         if is_tool_joint(row) and i and middle[j]:
@@ -199,12 +200,11 @@ def find_hanging(bends, top_md, md, in_hole, tension, bit_tension, bending, leng
             rows[i, MOMENT] = max(above, below)
         elif i and j + 1 < len(component) and is_tool_joint(sections[component[j + 1]]) and not given and not middle[j]:
             rows[i, MOMENT] = own * stiffer(pull, length, component, sections, j + 1, -1)
-        if not in_hole or room <= 0 or row[POINT] != 0 or not (given or may_yield(row, pull, own)):
+        if not in_hole or room <= 0 or row[POINT] != 0 or not (given or may_yield(row, weight, pull, own)):
             continue
         s = md[j] if i else top_md
         k = course_of(bends, k, s)
         tx, ty, tz, bx, by, bz = tangent_of(bends, k, s)
-        weight = row[BODY_WEIGHT]  # the wall carries that of the tool joints
         moment, taken = bend_body(
             pull, own, row[EI], joint if given else USUAL, tool_joint if given else USUAL_TOOL_JOINT, room,
             bx, by, bz, -weight * tz * tx, -weight * tz * ty, weight * (tx * tx + ty * ty),

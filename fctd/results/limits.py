@@ -16,7 +16,7 @@ from fctd.case.limits import LimitsSpec
 from fctd.mechanics.jit import entry, inlined
 from fctd.model.section import Section
 from fctd.results.hanging_body import ASSUMED, MOMENT, TAKEN, USUAL, beside
-from fctd.results.profile import von_mises
+from fctd.results.profile import von_mises, von_mises_pressed
 
 # The wall of the model is a spring.  Steel and rock yield by a millimetre or two; a contact point that is deeper in
 # the wall than a quarter of the clearance changes the string's shape and its buckling limits (∝ 1/√clearance) by a
@@ -30,7 +30,8 @@ class Place(NamedTuple):
 
     tension (effective) [N], torque, bending [N m]; penetration of the wall and clearance [m], 0 at the top; hookload
     [N], 0 below the top; taken : by the body between tool joints, of its way to the wall; assumed [N m] : the bending
-    with joints of usual length, 0 where their length is given (``hanging_body``).
+    with joints of usual length, 0 where their length is given (``hanging_body``); excess [Pa] : of the pressure inside
+    over that outside.
     """
 
     tension: float
@@ -41,6 +42,7 @@ class Place(NamedTuple):
     hookload: float
     taken: float
     assumed: float
+    excess: float
 
 
 class Limit(NamedTuple):
@@ -69,7 +71,17 @@ class Limit(NamedTuple):
         return 1 / limits.torque_share if self.asked == "torque_share" else 1.0
 
 
-stress_of = inlined(von_mises)
+unpressed, pressed = inlined(von_mises), inlined(von_mises_pressed)
+
+
+@inlined
+def stress_of(at, bending, section):
+    """Von Mises stress in a place with a bending moment there [Pa]."""
+    if at.excess == 0:
+        return unpressed(at.tension, at.torque, bending, section.outer, section.inner)
+    return pressed(at.tension, at.torque, bending, section.outer, section.inner, at.excess)
+
+
 LIMITS: Final[tuple[Limit, ...]] = (
     Limit(
         "penetration", "the string is pressed deep into the wall",
@@ -84,7 +96,7 @@ LIMITS: Final[tuple[Limit, ...]] = (
     Limit(
         "yield", "the steel is stressed beyond its yield strength", "check friction factor, bends and yield_strength",
         "Pa",
-        lambda at, section: stress_of(at.tension, at.torque, at.bending, section.outer, section.inner),
+        lambda at, section: stress_of(at, at.bending, section),
         lambda at, section: section.yield_strength,
         lambda share, at, section, where: (
             f"the stress at {where} is {share * section.yield_strength / 1e6:.0f} MPa, "
@@ -96,7 +108,7 @@ LIMITS: Final[tuple[Limit, ...]] = (
         "tool_joints", "tool joints may bend the steel beyond its yield strength, and their distance is not given",
         "give the component its joint, or a pipe of the catalogue", "Pa",
         lambda at, section: (
-            stress_of(at.tension, at.torque, at.assumed, section.outer, section.inner)
+            stress_of(at, at.assumed, section)
             if at.assumed > at.bending
             else 0.0
         ),
@@ -136,11 +148,32 @@ LIMITS: Final[tuple[Limit, ...]] = (
     Limit(
         "tensile_capacity", "the hook load exceeds the capacity of the uppermost pipe",
         "check friction factor, bends and yield_strength", "N",
-        lambda at, section: at.hookload,
+        # Where pressures differ, the stress says how much of the strength is used.
+        lambda at, section: at.hookload if at.excess == 0 else 0.0,
         lambda at, section: section.yield_strength * np.pi * (section.outer**2 - section.inner**2),
         lambda share, at, section, where: (
             f"the hook load is {at.hookload / 1e3:.0f} kN, the uppermost pipe yields at "
             f"{at.hookload / share / 1e3:.0f} kN"
+        ),
+        "design_factor", of_steel=True,
+    ),
+    Limit(
+        "burst", "the pressure inside bursts the pipe", "lower mud.inside_pressure, or use stronger pipe", "Pa",
+        lambda at, section: at.excess,
+        lambda at, section: section.burst,
+        lambda share, at, section, where: (
+            f"the pressure inside at {where} is {at.excess / 1e5:.0f} bar above that outside, the pipe bears "
+            f"{section.burst / 1e5:.0f} bar"
+        ),
+        "design_factor", of_steel=True,
+    ),
+    Limit(
+        "collapse", "the pressure outside collapses the pipe", "fill the pipe, or use stronger pipe", "Pa",
+        lambda at, section: -at.excess,
+        lambda at, section: section.collapse,
+        lambda share, at, section, where: (
+            f"the pressure outside at {where} is {-at.excess / 1e5:.0f} bar above that inside, the pipe bears "
+            f"{section.collapse / 1e5:.0f} bar"
         ),
         "design_factor", of_steel=True,
     ),
@@ -179,25 +212,28 @@ def _section(table, k):
     return Section(
         table[k, 0], table[k, 1], table[k, 2], table[k, 3], table[k, 4], table[k, 5], table[k, 6], table[k, 7],
         table[k, 8], table[k, 9], table[k, 10], table[k, 11], table[k, 12], table[k, 13], table[k, 14], table[k, 15],
-        table[k, 16], table[k, 17], table[k, 18], table[k, 19], table[k, 20], table[k, 21],
+        table[k, 16], table[k, 17], table[k, 18], table[k, 19], table[k, 20], table[k, 21], table[k, 22], table[k, 23],
+        table[k, 24], table[k, 25], table[k, 26], table[k, 27],
     )  # fmt: skip
 
 
 @entry
 def find_shares(
     tension, torque, hanging, bit_tension, bit_torque, hookload, offset, hole, radius, in_hole, middle, component,
-    sections, worst,
+    sections, excess, worst,
 ):  # fmt: skip
     """Fill ``worst`` (limits, WORST) with the largest share of each limit along a string, 0 where it has none.
 
     Returns whether one is above 1: most strings have no notes.
     tension, torque (n,), bit_tension, bit_torque : of ``Loads``; hanging (n + 1, ...) : of ``find_hanging``; hookload
     [N]; offset (n, 3), hole (n,) : of the walls, radius (n,) : of the string at the contact points [m]; in_hole :
-    whether there is a wall; middle, component (n,), sections : of the string.
+    whether there is a wall; middle, component (n,), sections : of the string; excess (n + 1,) : of the pressure inside
+    over that outside [Pa].
     """
     worst[:] = 0.0
     top = Place(
-        tension[0], torque[0], hanging[0, MOMENT], 0.0, 0.0, hookload, hanging[0, TAKEN], hanging[0, ASSUMED]
+        tension[0], torque[0], hanging[0, MOMENT], 0.0, 0.0, hookload, hanging[0, TAKEN], hanging[0, ASSUMED],
+        excess[0],
     )  # fmt: skip
     compare(top, _section(sections, component[0]), 0, worst)
     for j in range(len(hole)):
@@ -206,6 +242,7 @@ def find_shares(
         here = Place(
             beside(tension, bit_tension, middle, j), beside(torque, bit_torque, middle, j), hanging[j + 1, MOMENT],
             distance - clearance if in_hole else 0.0, clearance, 0.0, hanging[j + 1, TAKEN], hanging[j + 1, ASSUMED],
+            excess[j + 1],
         )  # fmt: skip
         compare(here, _section(sections, component[j]), j + 1, worst)
     return (worst[:, SHARE] > 1).any()

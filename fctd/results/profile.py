@@ -66,7 +66,7 @@ def hanging_along(hole: Wellbore, string: String, loads: Loads, md: Array, in_ho
     md, tension, bending = (np.ascontiguousarray(values) for values in (md, loads.tension, loads.bending))
     find_hanging(
         hole.bends, float(string.top_md), md, in_hole, tension, float(loads.bit_tension), bending, string.length,
-        string.mid_contact(), string.component, string.table, rows,
+        string.mid_contact(), string.component, string.table, string.body_weight, rows,
     )  # fmt: skip
     return rows
 
@@ -81,6 +81,36 @@ def von_mises(tension: Load, torque: Load, bending: Load, outer: Load, inner: Lo
     axial = np.abs(tension) / steel + bending * outer / second
     shear = torque * outer / (2 * second)
     return np.sqrt(axial**2 + 3 * shear**2)
+
+
+def von_mises_pressed(tension: Load, torque: Load, bending: Load, outer: Load, inner: Load, excess: Load) -> Any:
+    """Largest von Mises stress [Pa] of a pipe whose pressure inside exceeds that outside; also compiled.
+
+    excess [Pa], below 0 where the one outside is larger; the others as in ``von_mises``.  The pressure outside, taken
+    from all normal stresses, does not change it: along the axis they then are (T + Δp A_i)/A ± M r/I, around and across
+    it those of Lamé.  The stress is largest at the inner or outer wall, on one side of the bend.
+    """
+    bore, body = inner * inner, outer * outer
+    second, hoop = np.pi / 4 * (body * body - bore * bore), excess / (body - bore)
+    axial = (tension / np.pi + excess * bore) / (body - bore)
+    largest = 0.0 * axial
+    for radius, around, across in ((inner, hoop * (body + bore), -excess), (outer, 2 * hoop * bore, 0.0 * excess)):
+        shear = torque * radius / (2 * second)
+        for side in (1.0, -1.0):
+            along = axial + side * bending * radius / second
+            square = (along - around) ** 2 + (around - across) ** 2 + (across - along) ** 2
+            largest = np.maximum(largest, 0.5 * square + 3 * shear * shear)
+    return np.sqrt(largest)
+
+
+def stress_along(string: String, tension: Array, torque: Array, bending: Array, excess: Array) -> Array:
+    """Von Mises stress (n + 1,) [Pa] at the top and at the contact points, of loads and pressures there."""
+    outer, inner = (np.append(values[0], values) for values in (string.of("outer"), string.of("inner")))
+    stress = von_mises(tension, torque, bending, outer, inner)
+    if not excess.any():
+        return np.asarray(stress)
+    pressed = von_mises_pressed(tension, torque, bending, outer, inner, excess)
+    return np.asarray(np.where(excess == 0, stress, pressed))
 
 
 def profile_table(
@@ -99,16 +129,17 @@ def profile_table(
     up, aside = np.sum(offset * high, axis=1), np.sum(offset * right, axis=1)
     inclination = hole.inclination(np.append(string.top_md, md))
 
-    def of(name: str) -> Array:
-        values = string.of(name)
-        return np.append(values[0], values)
-
-    outer, inner = of("outer"), of("inner")
     tension, torque = at_contacts(string, loads)
     bending = hanging_along(hole, string, loads, md, in_hole)[:, MOMENT]
-    # Buoyed weight gives effective tension; the true tension of the steel follows from the pressure of equal mud
-    # inside and outside.
-    pressure, steel = mud_density * GRAVITY * np.append(top[2], points[:, 2]), np.pi * (outer**2 - inner**2)
+    # Buoyed weight gives effective tension; the true tension of the steel follows from the pressures on both sides.
+    outer, inner = (np.append(values[0], values) for values in (string.of("outer"), string.of("inner")))
+    depth, steel, given = np.append(top[2], points[:, 2]), np.pi * (outer**2 - inner**2), {}
+    outside, excess = mud_density * GRAVITY * depth, np.zeros(len(depth))
+    true_tension = tension - outside * steel
+    if string.fluids is not None:
+        inside, outside = string.fluids.pressures(string.contacts_above, depth, hole, string.bit_depth)
+        excess, given = inside - outside, {"inside_pressure_Pa": inside, "outside_pressure_Pa": outside}
+        true_tension = tension - outside * steel + excess * np.pi * inner**2
     clearance = walls.radius - string.contact_radius()
     buckled, _ = buckling_along(
         hole, pipe_of(string), string.top_md, md, walls.radius, loads.tension, loads.bit_tension
@@ -118,7 +149,7 @@ def profile_table(
             "md_m": np.append(string.top_md, md),
             "inclination_deg": np.degrees(inclination),
             "effective_tension_N": tension,
-            "true_tension_N": tension - pressure * steel,
+            "true_tension_N": true_tension,
             "torque_N_m": torque,
             "contact_force_N": np.append(0.0, loads.normal),
             # A rounding error to the left of the high side is the high side, not 360°.
@@ -127,7 +158,8 @@ def profile_table(
             "offset_high_m": np.append(0.0, up),
             "offset_right_m": np.append(0.0, aside),
             "clearance_m": np.append(clearance[0], clearance),
-            "von_mises_Pa": von_mises(tension, torque, bending, outer, inner),
+            "von_mises_Pa": stress_along(string, tension, torque, bending, excess),
+            **given,
             "sinusoidal_limit_N": buckled[:, SINUSOIDAL_LIMIT],
             "helical_limit_N": buckled[:, HELICAL_LIMIT],
             "buckling": np.array(MODES)[buckled[:, MODE].astype(int)],

@@ -28,9 +28,10 @@ def sideways(case: Case, string: String, rpm: float) -> Sideways:
     damping, mass = np.full(n, mud.lateral_damping or 0.0), np.zeros(n)
     if mud.unsteady:
         outer, hole = string.of("outer"), hole_radius(case, string.top_md, string.length)
-        mass = added_mass(outer, string.of("inner"), hole, mud.density)
+        inside, outside = string.densities or (None, mud.density)
+        mass = added_mass(outer, string.of("inner"), hole, outside, inside)
         if mud.lateral_damping is None:
-            damping = lateral_damping(outer, hole, mud.density, mud.unsteady, rpm / 60 if rpm else AT_REST)
+            damping = lateral_damping(outer, hole, outside, mud.unsteady, rpm / 60 if rpm else AT_REST)
     return Sideways(damping, mass)
 
 
@@ -42,7 +43,8 @@ def layers(case: Case, string: String, rate: float) -> Array:
     mud = case.mud
     if not mud.unsteady or mud.axial_damping is not None:
         return np.zeros(string.segments)
-    return layer_drag(string.of("outer"), string.of("inner"), mud.density, mud.unsteady, rate)
+    inside, outside = string.densities or (None, mud.density)
+    return layer_drag(string.of("outer"), string.of("inner"), outside, mud.unsteady, rate, inside)
 
 
 def take_along(

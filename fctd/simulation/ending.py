@@ -92,7 +92,7 @@ def hookload_note(run: Run, span: Span, history: "pd.DataFrame", start_time: flo
     spans = (span._replace(steady_from=end - (k + 1) * period, steady_to=end - k * period) for k in range(2))
     last, before = (swing_of(time_s, history, "hookload", "N", one, period) for one in spans)
     string = run.laid_out
-    weight = float((string.of("weight") * string.length).sum())
+    weight = float(np.abs(string.weight * string.length).sum())
     return run_notes.hookload_swings(max(last.swing, before.swing), last.mean, before.mean, period, weight)
 
 

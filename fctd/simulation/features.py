@@ -229,6 +229,20 @@ FEATURES: dict[str, Feature] = {
         "damping of the joints", "at most the default", ("solver.joint_damping",), _joint_damping,
     ),
     "loss_factor": Feature("damping of torsion", "0", ("solver.loss_factor",), _key("solver.loss_factor", 0.0)),
+    "fluids": Feature(
+        "fluids by depth", "one density of the mud",
+        ("mud.inside.to_md", "mud.inside.density", "mud.inside.plug", "mud.inside.pressure", "mud.outside.to_md",
+         "mud.outside.density", "mud.inside_pressure", "mud.outside_pressure", "mud.float"),
+        lambda run: ("mud", "fluids by depth") if run.case.mud.given else None,
+    ),
+    "packer": Feature(
+        "an end in a seal bore, which steady strings have", "none", ("mud.packer_bore",),
+        lambda run: ("mud.packer_bore", f"{bore:g} m") if (bore := run.case.mud.packer_bore) is not None else None,
+    ),
+    "temperature": Feature(
+        "changes of temperature", "no rows", ("temperature.tvd", "temperature.change"),
+        lambda run: ("temperature", "rows") if run.case.temperature else None,
+    ),
     "overpull": Feature(
         "a stuck bit, which steady strings have", "0", ("bit.overpull",), _key("bit.overpull", 0.0)
     ),
@@ -250,8 +264,9 @@ EVERYWHERE: Final = frozenset({
         f"string.components.{key}" for key in (
             "name", "pipe", "length", "outer_diameter", "inner_diameter", "contact_diameter", "segments",
             "segment_length", "joint_segments", "linear_mass", "youngs_modulus", "poisson_ratio", "density",
-            "yield_strength", "axial_stiffness", "bending_stiffness", "torsional_stiffness", "shear_stiffness",
-            "joint.length", "joint.tool_joint_length", "joint.tool_joint_diameter", "joint.tool_joint_inner",
+            "yield_strength", "thermal_expansion", "axial_stiffness", "bending_stiffness", "torsional_stiffness",
+            "shear_stiffness", "joint.length", "joint.tool_joint_length", "joint.tool_joint_diameter",
+            "joint.tool_joint_inner",
         )
     ),
     "limits.design_factor", "limits.torque_share", "limits.overpull_margin",
@@ -265,7 +280,7 @@ EVERYWHERE: Final = frozenset({
 UNKNOWN_KEYS: Final = "unknown keys"
 
 # Features of FCTD's own stepper.
-OWN = frozenset(FEATURES) - {"helical_force", "overpull"} | {UNKNOWN_KEYS}
+OWN = frozenset(FEATURES) - {"helical_force", "overpull", "packer"} | {UNKNOWN_KEYS}
 # With another contact method: it finds walls, in whose cake nothing is pressed and which begin below the derrick.
 ASKED = OWN - {"no_wall", "cake", "stands", UNKNOWN_KEYS}
 

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from fctd.arrays import Array
 from fctd.mechanics import state
 from fctd.mechanics.query import WALL_COLUMNS, Walls, walls_in
+from fctd.model.string_in_hole import excess_pressure
 from fctd.model.torsion import axial_period_of
 from fctd.results.buckling import Buckling
 from fctd.results.ledger import LOSSES
@@ -144,9 +145,10 @@ class Guards(Restorable):
         asked = run.case.limits
         return limit_notes(self._worst, string, walls, asked) if beyond or asked != FULL else ()
 
-    def _constants(self) -> tuple[bool, NDArray[np.bool_], NDArray[np.int64], Array]:
-        string = self.run.string
-        return self.run.case.contact.enabled, string.mid_contact(), string.component, string.table
+    def _constants(self) -> tuple[bool, NDArray[np.bool_], NDArray[np.int64], Array, Array]:
+        run, string = self.run, self.run.string
+        excess = excess_pressure(string, run.hole)
+        return run.case.contact.enabled, string.mid_contact(), string.component, string.table, excess
 
     def of_the_ledger(self) -> Note | None:
         """The note on a ledger that is off so far, as far as the run has turned over energy."""

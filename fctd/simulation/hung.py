@@ -60,7 +60,7 @@ class Hung(UpperEnd):
         self.write(S, self.stands)
         string = self.tally.string(self.stands, bit_depth)
         _, tangent = hole.at(string.top_md + np.cumsum(string.length))
-        weight = float((string.of("weight") * string.length * tangent[:, 2]).sum())
+        weight = float((string.weight * string.length * tangent[:, 2]).sum())
         self.strain = weight / float(string.of("EA")[0])
         height = -string.top_md * (1 + self.strain)
         top[topdrive.IN_DERRICK], top[topdrive.BLOCK_HEIGHT] = 1.0, height

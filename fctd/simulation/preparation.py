@@ -1,5 +1,6 @@
 """Preparation of a run: hole, string and step, and the settling of the string before the first step."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -18,9 +19,10 @@ from fctd.model.bent_housings import put_bends
 from fctd.model.derrick import with_derrick
 from fctd.model.drilling import check_weight, driller_of, drive_of, expected_drilling, rock_of
 from fctd.model.drillstring import LongSegmentError, String, lay_out
+from fctd.model.fluids import fluids_of
 from fctd.model.operations import Phase, depth_range, rad_per_s, schedule
 from fctd.model.stands import check_stands, hang, lay_out_stands
-from fctd.model.string_in_hole import check_fit, fill
+from fctd.model.string_in_hole import check_end, check_fit, fill
 from fctd.model.strokes import stand_schedule
 from fctd.model.torsion import axial_period_of, period_of
 from fctd.model.wellbore import Wellbore, build_wellbore
@@ -82,7 +84,9 @@ def _prepare(case: Case) -> tuple[Run, list[Phase]]:
         try:
             string = lay_out(case, shallowest, deepest)
             check_fit(string, hole, deepest)
-            return _fed(case, hole, string.lengthened(first - shallowest), first - shallowest, deepest - first)
+            string = replace(string.lengthened(first - shallowest), fluids=fluids_of(case, first))
+            check_end(string, hole)
+            return _fed(case, hole, string, first - shallowest, deepest - first)
         except LongSegmentError:
             if case.rig.feed == "long_segment" or shallowest == deepest or case.string.components[-1].long_segment:
                 raise
@@ -115,7 +119,7 @@ def _fed(case: Case, hole: Wellbore, string: String, longer: float, shorter: flo
 
 def _hung(case: Case, hole: Wellbore, first: float, shallowest: float, deepest: float) -> tuple[Run, list[Phase]]:
     """A run whose string hangs from a block that moves; bit depths [m]."""
-    tally = lay_out_stands(case, shallowest, deepest)
+    tally = lay_out_stands(case, shallowest, deepest).filled(fluids_of(case, first))
     hole = with_derrick(hole, case.rig.derrick_height)
     check_stands(tally, hole, shallowest)
     whole = tally.whole
@@ -126,6 +130,7 @@ def _hung(case: Case, hole: Wellbore, first: float, shallowest: float, deepest: 
     _unbalance(buffer, whole)
     put_bends(buffer, case, whole)
     stands = tally.stands_for(first)
+    check_end(tally.string(stands, first), hole)
     upper_end = Hung(tally=tally, buffer=buffer, strokes=strokes, table=hole.at(np.zeros(1))[0][0], stands=stands)
     string = upper_end.start(S, top, first, hole)
     lie_on_axis(S, string, hole)
@@ -169,7 +174,7 @@ def _run(
             f"'auto', 'largest' or at most the stable step, {limit:.4g} s", key="solver.step", value=f"{step:g} s"
         )
     tangent = hole.at(string.top_md + np.cumsum(string.length))[1][:, 2]
-    check_weight(case, float((string.of("weight") * string.length * tangent).sum()))
+    check_weight(case, float((string.weight * string.length * tangent).sum()))
     _check_cost(case, most, step, phases)
     spring = max(float(probe[state.K_TWIST + 1]) + waves.stiffness_in_torsion(probe) for probe, _ in probes)
     damper = (laws.joint_damping + laws.torsion_damping) * spring

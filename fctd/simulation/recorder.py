@@ -16,7 +16,7 @@ from fctd.mechanics.query import Walls
 from fctd.mechanics.readings import Readings
 from fctd.mechanics.rock import NO_ROCK
 from fctd.model.operations import drive_torque, weight_indicator
-from fctd.model.string_in_hole import pressure_of
+from fctd.model.string_in_hole import excess_pressure, squeeze_of
 from fctd.results import ledger
 from fctd.results.buckling import (
     HELICAL_LIMIT,
@@ -29,7 +29,7 @@ from fctd.results.buckling import (
     pipe_of,
 )
 from fctd.results.hanging_body import MOMENT
-from fctd.results.profile import Loads, at_contacts, hanging_along, profile_table, von_mises
+from fctd.results.profile import Loads, at_contacts, hanging_along, profile_table, stress_along
 from fctd.results.status import RunStatus
 from fctd.results.tables import SimulationResult
 from fctd.simulation.guards import Guards
@@ -172,7 +172,7 @@ class Recorder(Restorable):
         run, n = self.run, self.run.segments
         string = run.laid_out
         laid = state.row(run.S, state.ARM_TOP, n).sum() + state.row(run.S, state.ARM_BOTTOM, n).sum()
-        squeeze = string.of("compressibility") * pressure_of(run.case, string, run.hole)
+        squeeze = squeeze_of(run.case, string, run.hole)
         shorter = float((string.length * (1 - squeeze)).sum() - laid)
         place, arm = run.S[[state.X + n, state.Y + n, state.Z + n]], run.S[state.ARM_CONTACT + n]
         bit = place + arm * run.S[[state.AX + n, state.AY + n, state.AZ + n]]
@@ -207,14 +207,15 @@ class Recorder(Restorable):
             self.series.skip()
             return
         string, n = self.run.string, self.run.segments
-        tension, twist = (values[1:] for values in at_contacts(string, loads))
+        tension, twist = at_contacts(string, loads)
         hanging = hanging_along(self.run.hole, string, loads, walls.md, self.run.case.contact.enabled)
-        bending = hanging[1:, MOMENT]
-        stress = von_mises(tension, twist, bending, string.of("outer"), string.of("inner"))
+        excess = excess_pressure(string, self.run.hole)
+        stress = stress_along(string, tension, twist, hanging[:, MOMENT], excess)
         rows = np.full((n + 1, ROW_COLUMNS), np.nan) if limits is None else limits
         mode = np.zeros(n) if limits is None else limits[1:, MODE]
         self.series.add(
-            self.last_time, self.run.bit_depth, walls.md, (tension, twist, loads.normal, bending, stress),
+            self.last_time, self.run.bit_depth, walls.md,
+            (tension[1:], twist[1:], loads.normal, hanging[1:, MOMENT], stress[1:]),
             walls.radius - string.contact_radius(), rows[1:, [SINUSOIDAL_LIMIT, HELICAL_LIMIT]], mode, walls.offset,
         )  # fmt: skip
 

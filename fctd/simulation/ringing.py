@@ -163,7 +163,7 @@ def _forces(
     length [m] and speed [m/s] of the stride, both negative where pipe is pulled out.
     """
     n = string.segments
-    weight = string.of("weight") * string.length
+    weight = string.weight * string.length
     md = string.top_md + np.cumsum(string.length)
     for _ in range(2):
         points, tangents = run.hole.at(md)

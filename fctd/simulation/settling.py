@@ -77,7 +77,7 @@ def _settle_on_average(run: Run, progress: Settling | None) -> float:
 
 def relaxing(run: Run) -> tuple[state.Laws, float]:
     """The laws with which a string settles, and its weight [N]."""
-    weight = float((run.string.of("weight") * run.string.length).sum())
+    weight = float(np.abs(run.string.weight * run.string.length).sum())
     rate = 12 * np.sqrt(topdrive.GRAVITY / float(run.string.length.sum()))
     return run.laws._replace(friction_scale=0.0, settling=rate, rock=NOTHING), weight
 

@@ -18,9 +18,9 @@ from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.mechanics import state
 from fctd.mechanics.jit import entry, inlined, kernel
-from fctd.model.operations import SteadyRates, bit_loads
-from fctd.model.string_in_hole import damping_of, pressure_of
-from fctd.model.string_rows import WAVE_RADIUS, WAVE_STIFFNESS, WAVE_WEIGHT, fill_rows, find_contacts
+from fctd.model.operations import SteadyRates
+from fctd.model.string_in_hole import damping_of, squeeze_of
+from fctd.model.string_rows import WAVE_RADIUS, WAVE_STIFFNESS, fill_rows, find_contacts
 from fctd.model.wellbore import Wellbore
 from fctd.results.buckling import Pipe
 from fctd.steady.balance import ATTEMPTS, LARGEST_TURN
@@ -70,7 +70,9 @@ class Strings(NamedTuple):
     """Strings of a case, one after the other.
 
     first (m + 1,) : of their segments in length [m] and component (N,); long_segment (m,); bit_depth (m,) [m];
-    sections : a row for each component; damping (N, 3), pressure (N,), per_metre : see ``fill_rows``.
+    sections : a row for each component; weight (N,), damping (N, 3), squeeze (N,), per_metre : see ``fill_rows``;
+    body_weight, wave_weight (N,) : of the body alone, and of the pipe that buckles [N/m]; excess (N + m,) : pressure
+    inside less that outside, at the top and the contact points of each string [Pa].
     """
 
     first: NDArray[np.int64]
@@ -80,8 +82,12 @@ class Strings(NamedTuple):
     bit_depth: Array
     top_md: float
     sections: Array
+    weight: Array
+    body_weight: Array
+    wave_weight: Array
     damping: Array
-    pressure: Array
+    squeeze: Array
+    excess: Array
     per_metre: bool
 
 
@@ -150,7 +156,7 @@ def solve_batch(case: Case, hole: Hole, rows: Sequence[Row], work: Workspace) ->
     laid = {id(row.laid): row.laid for row in rows}
     places = {key: k for k, key in enumerate(laid)}
     which = np.array([(places[id(row.laid)], row.friction) for row in rows])
-    loads = np.array([(*row.rates, *bit_loads(case, row.operation)) for row in rows], float)
+    loads = np.array([(*row.rates, *row.laid.bit_loads(case, row.operation)) for row in rows], float)
     packed = _pack(case, list(laid.values()))
     answers = np.zeros((len(rows), ANSWER))
     most = int(np.diff(packed.first).max()) + 1
@@ -170,8 +176,12 @@ def _pack(case: Case, laid: Sequence[LaidString]) -> Strings:
         np.array([string.bit_depth for string in strings], float),
         float(case.string.top_md),
         max((string.table for string in strings), key=len),
+        np.concatenate([string.weight for string in strings]),
+        np.concatenate([string.body_weight for string in strings]),
+        np.concatenate([string.wave_weight for string in strings]),
         np.concatenate([damping_of(case, string) for string in strings]),
-        np.concatenate([pressure_of(case, of.string, of.hole) for of in laid]),
+        np.concatenate([squeeze_of(case, of.string, of.hole) for of in laid]),
+        np.concatenate([of.excess for of in laid]),
         case.wellbore.stiffness_per_length is not None,
     )
 
@@ -186,31 +196,34 @@ def solve_rows(hole, strings, which, loads, w, answers, joints, contacts, walls)
     kinks = np.zeros((most, 4))
     kinks[:, 0] = 1.0
     middle, radius, tributary = np.empty(most, np.bool_), np.empty(most), np.empty(most)
-    stiffness, weight, clearing = np.empty(most), np.empty(most), np.empty(most)
+    stiffness, clearing = np.empty(most), np.empty(most)
     for r in range(len(which)):
         k = which[r, 0]
         first, last = strings.first[k], strings.first[k + 1]
         n, long_segment = last - first, strings.long_segment[k]
         length, component = strings.length[first:last], strings.component[first:last]
-        damping, pressure = strings.damping[first:last], strings.pressure[first:last]
-        fed = fill_rows(w.S, length, component, strings.sections, long_segment, damping, pressure, strings.per_metre)
+        weight, body_weight = strings.weight[first:last], strings.body_weight[first:last]
+        fed = fill_rows(
+            w.S, length, component, strings.sections, weight, long_segment, strings.damping[first:last],
+            strings.squeeze[first:last], strings.per_metre,
+        )  # fmt: skip
         find_contacts(length, component, strings.sections, long_segment, middle, radius, tributary)
         for j in range(n):
             section = strings.sections[component[j]]
-            stiffness[j], weight[j] = section[WAVE_STIFFNESS], section[WAVE_WEIGHT]
-            clearing[j] = max(radius[j], section[WAVE_RADIUS])
-        pipe = Pipe(stiffness[:n], weight[:n], clearing[:n], length, middle[:n])
+            stiffness[j], clearing[j] = section[WAVE_STIFFNESS], max(radius[j], section[WAVE_RADIUS])
+        pipe = Pipe(stiffness[:n], strings.wave_weight[first:last], clearing[:n], length, middle[:n])
         solve_row(
             w, n, kinks, hole.pieces[which[r, 1]], hole, pipe, radius[:n], fed, length[0] if long_segment else 0.0,
-            strings.top_md, strings.bit_depth[k], strings.sections, component, loads[r], answers[r],
-            joints[r, : n + 1], contacts[r, : n + 1], walls[r, 1 : n + 1],
+            strings.top_md, strings.bit_depth[k], strings.sections, component, body_weight,
+            strings.excess[first + k : last + k + 1], loads[r], answers[r], joints[r, : n + 1],
+            contacts[r, : n + 1], walls[r, 1 : n + 1],
         )  # fmt: skip
 
 
 @kernel
 def solve_row(
-    w, n, kinks, C, hole, pipe, radius, fed, top_length, top_md, bit_depth, sections, component, loads, answer, joints,
-    contacts, walls,
+    w, n, kinks, C, hole, pipe, radius, fed, top_length, top_md, bit_depth, sections, component, body_weight, excess,
+    loads, answer, joints, contacts, walls,
 ):  # fmt: skip
     """Fill the answer of one string, whose constants are in the workspace; its pose is then there too."""
     S, P, G, R, D, A, U, _W, owner = w
@@ -238,5 +251,6 @@ def solve_row(
     answer[TOP], answer[TOP + 1], answer[TOP + 2] = P[0, 0], P[0, 1], P[0, 2]
     read_shape(
         C, hole.geometry, hole.with_wall != state.OPEN, hole.bends, top_md, pipe, radius, sections, component,
-        -pressing, torque, hookload, owner[1 : n + 1], joints[1:], contacts[1:], walls, answer[SHAPE:],
+        body_weight, excess, -pressing, torque, hookload, owner[1 : n + 1], joints[1:], contacts[1:], walls,
+        answer[SHAPE:],
     )  # fmt: skip

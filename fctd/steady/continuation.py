@@ -48,9 +48,9 @@ def limits(S, n, bit_depth, weight_on_bit, pipe, top_length):
 
     pipe : fed at the top; top_length [m] : of a long segment, half of which hangs on the top drive, else 0.
     """
-    weight, stiffest = abs(weight_on_bit) + 0.5 * top_length * pipe.weight, 0.0
+    weight, stiffest = abs(weight_on_bit) + abs(0.5 * top_length * pipe.weight), 0.0
     for j in range(1, n + 1):
-        weight += S[WEIGHT + j]
+        weight += abs(S[WEIGHT + j])  # pipe that floats weighs less than nothing
         stiffest = max(stiffest, S[K_AXIAL + j])
     # The stiffness of the shortest segments turns the rounding of positions into force.
     return weight, max(TOLERANCE * weight, 16 * EPSILON * bit_depth * stiffest)

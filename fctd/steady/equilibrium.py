@@ -14,7 +14,7 @@ from fctd.case.units import LENGTH, argument
 from fctd.mechanics import state
 from fctd.model.drillstring import lay_out
 from fctd.model.operations import SteadyRates, steady_rates
-from fctd.model.string_in_hole import check_fit
+from fctd.model.string_in_hole import check_end, check_fit
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.results.buckling import NOT_BUCKLED
 from fctd.steady.batch import Row, solve_batch
@@ -47,6 +47,7 @@ class Solver:
         check_bit_depth(bit_depth, *self.depths, "bit_depth", f"{bit_depth:g} m")
         string = lay_out(self.case, bit_depth)
         check_fit(string, self.hole, bit_depth)
+        check_end(string, self.hole)
         return LaidString(self.case, self.hole, string)
 
     def solve(self, operation: str, rates: SteadyRates, bit_depth: float) -> Equilibrium:

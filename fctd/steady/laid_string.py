@@ -9,7 +9,8 @@ from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.mechanics.topdrive import PerMetre
 from fctd.model.drillstring import String
-from fctd.model.string_in_hole import fill
+from fctd.model.operations import BitLoads, bit_loads
+from fctd.model.string_in_hole import excess_pressure, fill
 from fctd.model.wellbore import Wellbore
 from fctd.results.buckling import Pipe, pipe_of
 
@@ -25,6 +26,26 @@ class LaidString:
     def put(self, S: Array) -> PerMetre:
         """Write the string into a buffer of the engine; returns the pipe at the top."""
         return fill(S, self.string, self.case, self.hole)
+
+    @cached_property
+    def excess(self) -> Array:
+        """See ``excess_pressure``."""
+        return excess_pressure(self.string, self.hole)
+
+    @cached_property
+    def _packed(self) -> float:
+        """Push of the fluids on an end that moves in a seal bore [N]: the area of the bore times their difference.
+
+        Of the steel the bore leaves the ring to its inner radius open to the pressure inside, and that to its outer one
+        to the pressure outside.  What is left of both in the effective tension is the bore alone.
+        """
+        bore = self.case.mud.packer_bore
+        return 0.0 if bore is None else 0.25 * float(np.pi) * bore**2 * float(self.excess[-1])
+
+    def bit_loads(self, case: Case, operation: str) -> BitLoads:
+        """Loads at the lower end in an operation: those of a case on its bit, and what pushes on a packer."""
+        own = bit_loads(case, operation)
+        return own._replace(weight=own.weight + self._packed) if self._packed else own
 
     @cached_property
     def is_bent(self) -> bool:

@@ -65,7 +65,7 @@ class Level(NamedTuple):
 def solve_level(stage: str, layout: str, case: Case, task: Task) -> Level:
     """Solve the strings of all operations."""
     string = lay_out(case, task.bit_depth)
-    weight = float(string.of("weight") @ string.length)
+    weight = float(np.abs(string.weight) @ string.length)
     if task.progress is not None:
         task.progress(f"{stage}: {string.segments} segments")
     points, seconds = [], []
@@ -100,7 +100,7 @@ def relative_difference(point: Equilibrium, other: Equilibrium, spin: float) -> 
     spin : rotation of both strings [rad/s].
     """
     string = lay_out(other.case, other.bit_depth)
-    scales = _scales(other, float(string.of("weight") @ string.length), spin)
+    scales = _scales(other, float(np.abs(string.weight) @ string.length), spin)
     hookload, torque = np.abs(np.subtract(_loads(point), _loads(other))) / scales
     return float(hookload), float(torque)
 

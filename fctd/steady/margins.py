@@ -205,7 +205,7 @@ def _set_down(loaded: Loaded, beyond_buckling: bool) -> Iterator[Margin]:
     that turns beyond its helix is not known: it rolls round the hole.
     """
     push, string = loaded.solver.case.rig.push, loaded.laid.string
-    most = MOST_WEIGHT * float(string.of("weight") @ string.length)
+    most = MOST_WEIGHT * float(np.abs(string.weight) @ string.length)
 
     @cache
     def mode(weight: float) -> int:

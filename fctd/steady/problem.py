@@ -13,7 +13,7 @@ from fctd.mechanics import state
 from fctd.mechanics.contact import FACTOR, FACTOR_AROUND
 from fctd.mechanics.query import WALL_COLUMNS, Walls
 from fctd.model.bent_housings import bent_joints, kink_of
-from fctd.model.operations import SteadyRates, bit_loads
+from fctd.model.operations import SteadyRates
 from fctd.model.wellbore import Wellbore
 from fctd.results.buckling import buckling_along
 from fctd.steady.block_thomas import SIZE, negative_pivots, solve_with_pivoting
@@ -166,7 +166,7 @@ class Problem:
         self.string = laid.string
         self.n = self.string.segments
         self.fed = laid.put(work.S)
-        self.weight_on_bit, self.bit_torque = bit_loads(case, operation)
+        self.weight_on_bit, self.bit_torque = laid.bit_loads(case, operation)
         self.weight, self.allowed = limits(
             work.S, self.n, self.string.bit_depth, self.weight_on_bit, self.fed, self._top_length
         )
@@ -294,7 +294,8 @@ class Problem:
         walls = np.empty((n, WALL_COLUMNS))
         read_shape(
             hole.pieces, hole.geometry, self.case.contact.enabled, hole.bends, float(string.top_md), self.laid.pipe,
-            string.contact_radius(), string.table, string.component, self.bit_tension(), self.bit_torque,
+            string.contact_radius(), string.table, string.component, string.body_weight, self.laid.excess,
+            self.bit_tension(), self.bit_torque,
             found.hookload, self.work.owner[1 : n + 1], found.joints, found.contacts, walls, numbers[SHAPE:],
         )  # fmt: skip
         if self.settle is not None:

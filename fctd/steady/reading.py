@@ -72,13 +72,14 @@ def read_top(S, n, P, kinks, C, owner, laws, R, pipe, top_length, axis, joints, 
 
 @entry
 def read_shape(
-    C, geometry, in_hole, bends, top_md, pipe, radius, sections, component, bit_tension, bit_torque, hookload, owner,
-    joints, contacts, walls, numbers,
+    C, geometry, in_hole, bends, top_md, pipe, radius, sections, component, body_weight, excess, bit_tension,
+    bit_torque, hookload, owner, joints, contacts, walls, numbers,
 ):  # fmt: skip
     """Fill walls (n, WALL_COLUMNS) and numbers (NUMBERS,) of a string with loads joints (n, ...), contacts (n, ...).
 
     bends : of the hole; pipe : ``buckling.Pipe``; radius (n,) : at the contact points [m]; sections : a row for each
-    part of the string, component (n,) : that of each segment; owner (n,) : pieces of the hole near the contact points.
+    part of the string, component (n,) : that of each segment; body_weight (n,), excess (n + 1,) : see
+    ``batch.Strings``; owner (n,) : pieces of the hole near the contact points.
     """
     n = len(joints)
     query_walls(C, geometry, contacts[:, :3].copy(), owner.copy(), walls)
@@ -96,11 +97,12 @@ def read_shape(
     rows, md, hanging = np.empty((n + 1, ROW_COLUMNS)), walls[:, 6].copy(), np.empty((n + 1, HANGING_COLUMNS))
     find_hanging(
         bends, top_md, md, in_hole, joints[:, JOINT_TENSION].copy(), bit_tension, joints[:, JOINT_BENDING].copy(),
-        pipe.length, pipe.middle, component, sections, hanging,
+        pipe.length, pipe.middle, component, sections, body_weight, hanging,
     )  # fmt: skip
     numbers[NOTED] = find_shares(
         joints[:, JOINT_TENSION], joints[:, JOINT_TORQUE], hanging, bit_tension, bit_torque, hookload, walls[:, :3],
-        walls[:, 3], radius, in_hole, pipe.middle, component, sections, numbers[SHARES:].reshape(-1, WORST),
+        walls[:, 3], radius, in_hole, pipe.middle, component, sections, excess,
+        numbers[SHARES:].reshape(-1, WORST),
     )  # fmt: skip
     if not in_hole or least >= 0:
         return

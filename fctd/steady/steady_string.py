@@ -14,7 +14,7 @@ from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.case.text import counted
 from fctd.model.frames import steady_offsets
-from fctd.model.operations import SteadyRates, bit_loads, drive_torque, weight_indicator
+from fctd.model.operations import SteadyRates, drive_torque, weight_indicator
 from fctd.model.tortuosity import shortfall
 from fctd.model.wellbore import Wellbore
 from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling
@@ -178,7 +178,7 @@ def steady_string(
     code : of the iteration; negative : number of unstable modes; method : name of the rung that found it (ladder.py).
     """
     kind, numbers = KINDS[operation], answer.numbers
-    at_bit = bit_loads(case, operation)
+    at_bit = laid.bit_loads(case, operation)
     shape = Shape(
         hole, laid, numbers[TOP:SHAPE], answer.joints, answer.contacts, answer.walls, numbers[SHAPE:],
         -at_bit.weight, at_bit.torque,

@@ -164,7 +164,7 @@ class WaveForce:
         self.wound = buckled & (self.wound | (coarse & self._are_long(rows[:, MODE] == HELICAL, compression)))
         snakes = coarse & ~self.wound & buckled
         # Between its two limits a hanging string hardly presses on the wall.
-        hanging = HANGING_SINUSOIDAL * np.cbrt(string.of("EI") * string.of("weight") ** 2)
+        hanging = HANGING_SINUSOIDAL * np.cbrt(string.of("EI") * string.weight**2)
         snakes &= rows[:, SINUSOIDAL_LIMIT] > hanging
         found = self.wound.astype(float)
         found[snakes] = snaking_over_helix(compression[snakes] / rows[snakes, SINUSOIDAL_LIMIT])

@@ -82,6 +82,8 @@ def steady(case: Case, bit_depth: float, segments: int = 1) -> Steady:
 def pipe_and_hole(case: Case) -> tuple[Section, Surroundings]:
     """The section of a case's only pipe, and its hole and mud; raises InputError as ``beam_of``."""
     parts, hole = case.string.components, case.wellbore
+    if case.mud.given:
+        raise InputError("one density of the mud, for planar finite elements", key="mud")
     sections = {section_of(part, case.mud.density) for part in parts}
     if len(sections) > 1 or any(part.joint_segments is not None for part in parts):
         raise InputError("components of one section, for planar finite elements", key="string.components")

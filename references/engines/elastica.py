@@ -86,7 +86,7 @@ class _Surroundings:
         n = run.segments
         self.run, self.owner, self.walls = run, run.owner[1 : n + 1].copy(), np.empty((n, WALL_COLUMNS))
         # A long segment hangs half by its lower end, like any other element by its two nodes.
-        weight = run.string.of("weight") * _lengths(run)
+        weight = run.string.weight * _lengths(run)
         self.weight = 0.5 * (np.append(weight, 0.0) + np.append(0.0, weight))
         self.axis = run.S[[state.AX, state.AY, state.AZ]].copy()  # axis of the top drive
         # The driven end starts with the velocity of the first segment if pipe is fed: the whole segment then moves.

@@ -31,6 +31,7 @@ from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.model import survey
 from fctd.model.drillstring import lay_out
+from fctd.model.section import buoyed
 from references.soft_string.directions import Direction, associated
 from references.soft_string.sliding import Friction, loads_at_bit, motion_of, split_friction
 
@@ -205,7 +206,8 @@ def _pieces(
     string = lay_out(case, bit_depth)
     last = np.append(np.diff(string.component) != 0, True)  # segments at the lower end of their component
     ends, components = (string.top_md + np.cumsum(string.length))[last], string.component[last]
-    breaks = np.unique(np.concatenate([[string.top_md], stations, to_md, ends]))
+    met = [] if string.fluids is None else [*string.fluids.inside.end, *string.fluids.outside.end]
+    breaks = np.unique(np.concatenate([[string.top_md], stations, to_md, ends, bit_depth - np.array(met)]))
     breaks = breaks[(breaks >= string.top_md) & (breaks <= ends[-1])]
     breaks = breaks[np.append(np.diff(breaks) > SAME_DEPTH, True)]
     pieces = []
@@ -217,7 +219,11 @@ def _pieces(
             case.contact.friction_law, there.friction, motion, section.contact_radius, there.friction_around, direction
         )
         course = int(np.searchsorted(stations, middle)) - 1
-        pieces.append(Piece(float(top), float(bottom), course, section.weight, section.contact_radius, friction))
+        weight = section.weight
+        if string.fluids is not None:
+            (inside,), (outside,) = string.fluids.densities(*np.array([[bit_depth - top], [bit_depth - bottom]]))
+            weight = float(buoyed(section.mass, section.density, section.inner, outside, inside))
+        pieces.append(Piece(float(top), float(bottom), course, weight, section.contact_radius, friction))
     return pieces
 
 

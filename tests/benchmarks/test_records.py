@@ -14,7 +14,7 @@ def test_the_hook_load_of_a_turning_chain_is_its_vertical_weight():
     run, _ = moving(chain(20), 1.0)
     assert records.vertical_weight(run) == pytest.approx(426.5e3, rel=2e-3)
     run, _ = moving(hanging(20), 1.0)
-    weight = float((run.string.of("weight") * run.string.length).sum())
+    weight = float((run.string.weight * run.string.length).sum())
     assert records.vertical_weight(run) == pytest.approx(weight, rel=1e-3)
 
 

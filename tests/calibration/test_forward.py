@@ -8,7 +8,7 @@ import pytest
 from fctd.calibration.forward import Forward
 from fctd.calibration.rows import Range, Row
 from fctd.calibration.setup import Setup
-from fctd.calibration.unknowns import find_unknowns, parse_fits
+from fctd.calibration.unknowns import find_unknowns, parse_fits, with_values
 from fctd.model.operations import SteadyRates
 from fctd.steady.equilibrium import equilibrium
 from tests.calibration.wells import TRUTH, TURN, blank_rows, well
@@ -138,3 +138,20 @@ def test_some_rows_are_solved_alone() -> None:
     assert np.array_equal(part.slopes, whole.slopes[[2, 3, 8, 9]])
     gains = forward.gains(values)
     assert gains[:4] == pytest.approx([0.95, 0.0, 1 / 0.95, 0.0])
+
+
+def test_fluids_by_depth_stay_beside_an_unknown_density() -> None:
+    """Air inside a floated string, outside which the mud is of the density that is fitted."""
+    case = well(mud={"density": 1200.0, "inside": [{"density": 0.0}], "float": True})
+    rows, names = blank_rows(case)[:3], ["mud.density", "mass.collars"]
+    forward = Forward(rows, {"": case}, find_unknowns(parse_fits(names), SETUP, [case]), SETUP)
+    found = forward.evaluate(np.array([1300.0, 90.0]))
+    changed = with_values(case, {"mud.density": 1300.0, "mass.collars": 90.0})
+    for reading, value in zip(forward.readings, found.value, strict=True):
+        row = rows[reading.row]
+        point = equilibrium(changed, row.operation, row.bit_depth, rpm=row.rates.spin / TURN or None)
+        expected = point.weight_indicator if reading.load == "hookload" else point.drive_torque
+        assert value == pytest.approx(expected, rel=1e-9, abs=1e-3)
+    # The mud lifts what the string encloses: a heavier one takes weight off, mass adds it.
+    lifted, heavier = found.slopes[0]
+    assert lifted < 0 < heavier

@@ -87,7 +87,7 @@ def balance(case: Case, hole: Wellbore, point: Equilibrium) -> Iterator[str]:
         yield f"a tension of {profile['effective_tension_N'].iloc[-1]} N at the bit"
     yield from _in_the_hole(profile, string, point)
 
-    weight = float(string.of("weight") @ string.length)
+    weight = float(string.weight @ string.length)
     if point.imbalance > 1e-6 * (weight + weight_on_bit):
         yield f"an imbalance of {point.imbalance:.3g} N"
     lifted = hanging_weight(string, hole)
@@ -175,7 +175,7 @@ def run(case: Case, result: SimulationResult) -> Iterator[str]:
     if abs(history["bit_md_m"].iloc[-1] - end) > 0.005 * end + 1:
         yield f"a bit at {history['bit_md_m'].iloc[-1]} m along the hole when {end} m deep"
     string = lay_out(case, end)
-    weight = float(string.of("weight") @ string.length)
+    weight = float(string.weight @ string.length)
     if not -weight <= history["hookload_N"].mean() <= 3 * weight:
         yield f"a hook load of {history['hookload_N'].mean():.6g} N of a string that weighs {weight:.6g} N"
 
@@ -183,7 +183,7 @@ def run(case: Case, result: SimulationResult) -> Iterator[str]:
 def hanging_weight(string: String, hole: Wellbore) -> float:
     """Weight of a string along its hole [N]: buoyed weight times the vertical extent of every segment."""
     ends = string.top_md + np.concatenate([[0.0], np.cumsum(string.length)])
-    return float(string.of("weight") @ np.diff(hole.at(ends)[0][:, 2]))
+    return float(string.weight @ np.diff(hole.at(ends)[0][:, 2]))
 
 
 def _friction(hole: Wellbore, profile: pd.DataFrame) -> list[np.ndarray]:

@@ -49,7 +49,7 @@ def test_a_hanging_string_carries_them_to_its_top(asked: bool) -> None:
     run.laws = run.laws._replace(given=True)
     put(run.S, 6, (state.GIVEN_FORCE,), [2e4])
     put(run.S, 3, (state.GIVEN_TORQUE,), [-4e3])
-    weight = float(run.string.of("weight") @ run.string.length)
+    weight = float(run.string.weight @ run.string.length)
     list(simulation)
     result = simulation.result()
     late = result.history[result.history["time_s"] > 3]

@@ -4,6 +4,8 @@ import math
 from itertools import pairwise
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from fctd.case.pipes.catalogue import INCH, catalogue, pipe_named
 from fctd.case.pipes.grades import KSI
@@ -122,3 +124,16 @@ def test_strength_falls_with_wear_and_rises_with_the_grade() -> None:
             assert getattr(worn, of) < getattr(new, of)
         assert new.collapse > 0
         assert math.isclose(new.tension, pipe.yield_strength * new.area)
+
+
+@given(strength=st.floats(1e6, 5e9), outer=st.floats(0.02, 0.6), share=st.floats(0.005, 0.5))
+def test_pipe_of_any_strength_collapses_between_nothing_and_its_yield(
+    strength: float, outer: float, share: float
+) -> None:
+    """Also of no grade, for which the fits of the API have negative pressures and roots."""
+    body = Body(outer, outer * (1 - 2 * share), strength)
+    ratio = 1 / share
+    elastic = 46.95e6 * PSI / (ratio * (ratio - 1) ** 2)
+    assert 0 < body.collapse <= max(2 * strength * (ratio - 1) / ratio**2, elastic) * 1.01
+    if strength < 20e3 * PSI:
+        assert body.collapse <= 1.01 * elastic

@@ -45,6 +45,18 @@ def mean(string: String, name: str, origin: int) -> float:
     return float(np.average(string.of(name)[of], weights=string.length[of]))
 
 
+@given(part=jointed(), depth=st.floats(40.0, 900.0), inside=st.sampled_from([0.0, 900.0, 1500.0]))
+def test_other_fluids_inside_weigh_the_parts_as_the_component(
+    part: dict[str, Any], depth: float, inside: float
+) -> None:
+    """In all; the pipe that buckles has the weight of the component everywhere."""
+    mud = {"density": 1200.0, "inside": [{"density": inside}], "float": True}
+    whole = {key: value for key, value in part.items() if key != "joint_segments"} | {"segment_length": 20.0}
+    parts, coarse = (lay_out(make_case(components=[of], mud=mud), depth) for of in (part, whole))
+    assert parts.weight @ parts.length == pytest.approx(coarse.weight @ coarse.length, rel=1e-9)
+    assert parts.wave_weight == pytest.approx(coarse.weight[0], rel=1e-12)
+
+
 @settings(max_examples=60)
 @given(components=strings(), depth=st.floats(40.0, 900.0), shallower=st.floats(0.3, 1.0))
 def test_parts_add_up_to_their_component(components: list[dict[str, Any]], depth: float, shallower: float) -> None:

@@ -56,7 +56,7 @@ def test_a_layout_is_the_same_string(components: list[dict[str, Any]], bit: floa
         Case.model_validate(cut.model_dump())
         string = lay_out(cut, bit)
         assert string.bit_depth == pytest.approx(bit, abs=1e-6)
-        assert string.of("weight") @ string.length == pytest.approx(whole.of("weight") @ whole.length, rel=1e-6)
+        assert string.weight @ string.length == pytest.approx(whole.weight @ whole.length, rel=1e-6)
         assert string.long_segment == whole.long_segment
         given_lengths = [part.length for part in cut.string.components]
         if None not in given_lengths:

@@ -21,7 +21,7 @@ EI = 30e6 * 6894.757 * math.pi / 64 * ((5 * INCH) ** 4 - (4.276 * INCH) ** 4)
 HALF, ROOM = 180 * INCH, 0.8125 * INCH
 DOGLEG = math.radians(3.25) / (100 * FOOT)
 body = kernel(lambda *given: bend_body(*given))
-matters = kernel(lambda row, tension, own: may_yield(row, tension, own))
+matters = kernel(lambda row, weight, tension, own: may_yield(row, weight, tension, own))
 
 
 def factor(tension: float, dogleg: float = DOGLEG, tool_joint: float = 0.0, weight: float = 0.0) -> tuple[float, float]:
@@ -230,9 +230,9 @@ def test_what_is_left_out_of_the_assumed_moment_is_below_half_of_the_yield_stren
     """The bounds hold: the stress of tension and bending with usual joints is at most half of the strength."""
     inner = outer - 2 * wall
     part = pipe(None, 4, outer=outer, inner=inner, contact_diameter=outer + 0.03, yield_strength=400e6)
-    section = section_of(make_case(components=[part]).string.components[0], 0.0)._replace(body_weight=weight)
+    section = section_of(make_case(components=[part]).string.components[0], 0.0)
     own = section.EI * curvature
-    if matters(np.array(section), tension, own):
+    if matters(np.array(section), weight, tension, own):
         return
     moment, _ = body(
         tension, own, section.EI, USUAL, USUAL_TOOL_JOINT, 0.015, 0.0, 0.0, curvature, 0.0, 0.0, towards * weight

@@ -10,7 +10,7 @@ from fctd.model.drillstring import String, lay_out
 from fctd.results.hanging_body import HANGING_COLUMNS, MOMENT
 from fctd.results.limits import LIMITS, ROW, SHARE, WORST, find_shares
 from fctd.results.notes import Note, limit_notes
-from fctd.results.profile import Loads, at_contacts, von_mises
+from fctd.results.profile import Loads, at_contacts, stress_along, von_mises, von_mises_pressed
 from tests.cases import make_case, pipe
 
 PARTS = [pipe(2, 1, outer=0.165, contact_diameter=0.2, contact="point"), pipe(58, 4), pipe(None, 1, outer=0.11)]
@@ -35,13 +35,15 @@ def hanging_of(string: String, loads: Loads) -> np.ndarray:
     return rows
 
 
-def shares_of(string: String, loads: Loads, hookload: float, walls: Walls, in_hole: bool = True) -> np.ndarray:
-    """The largest shares (limits, WORST) along a string."""
+def shares_of(
+    string: String, loads: Loads, hookload: float, walls: Walls, in_hole: bool = True, excess: np.ndarray | None = None
+) -> np.ndarray:
+    """The largest shares (limits, WORST) along a string; excess (n + 1,) : of the pressure inside [Pa], else 0."""
     worst = np.empty((len(LIMITS), WORST))
     beyond = find_shares(
         loads.tension, loads.torque, hanging_of(string, loads), loads.bit_tension, loads.bit_torque, float(hookload),
         walls.offset, walls.radius, string.contact_radius(), in_hole, string.mid_contact(), string.component,
-        string.table, worst,
+        string.table, np.zeros(string.segments + 1) if excess is None else excess, worst,
     )  # fmt: skip
     assert beyond == (worst[:, SHARE] > 1).any()
     return worst
@@ -77,6 +79,51 @@ def test_the_largest_shares_are_those_of_the_profile(
     found = string_notes(STRING, loads, hookload, walls, in_hole)
     assert [note.code for note in found] == [LIMITS[k].code for k in range(len(LIMITS)) if worst[k, SHARE] > 1]
     assert [note.excess for note in found] == [share for share in worst[:, SHARE] if share > 1]
+
+
+@given(
+    tension=st.floats(-3e6, 3e6), twist=st.floats(-5e4, 5e4), bend=st.floats(0, 1e5), excess=st.floats(-9e7, 9e7),
+)  # fmt: skip
+def test_stress_under_pressure_is_the_largest_of_both_walls(
+    tension: float, twist: float, bend: float, excess: float
+) -> None:
+    """By the principal stresses at each wall on both sides of the bend, from the pressures on both sides of the wall.
+
+    A pressure outside is taken from all of them; the pipe's share of true tension is T + p_i A_i − p_o A_o.
+    """
+    b, a, outside = 0.0635, 0.0543, 4e7
+    inside = outside + excess
+    steel, second = np.pi * (b * b - a * a), np.pi / 4 * (b**4 - a**4)
+    true = tension + inside * np.pi * a * a - outside * np.pi * b * b
+    worst = 0.0
+    for r in (a, b):
+        mean, varied = (inside * a * a - outside * b * b) / (b * b - a * a), (inside - outside) * a * a * b * b
+        varied /= (b * b - a * a) * r * r
+        for side in (1, -1):
+            tensor = np.diag([mean - varied, mean + varied, true / steel + side * bend * r / second])
+            tensor[1, 2] = tensor[2, 1] = twist * r / (2 * second)
+            x, y, z = np.linalg.eigvalsh(tensor)
+            worst = max(worst, np.sqrt(0.5 * ((x - y) ** 2 + (y - z) ** 2 + (z - x) ** 2)))
+    assert von_mises_pressed(tension, twist, bend, b, a, excess) == pytest.approx(worst, rel=1e-9, abs=1.0)
+    # Without a difference it is the stress of equal pressures.
+    same = von_mises(tension, twist, bend, b, a)
+    assert von_mises_pressed(tension, twist, bend, b, a, 0.0) == pytest.approx(same, rel=1e-9, abs=1e-3)
+
+
+def test_pressures_count_where_they_are() -> None:
+    """The share of the strength is that of the stress there; the hook load is compared where pressures are equal."""
+    loads, walls = Loads(*np.full((3, N), 1e5), np.zeros(N)), walls_of(STRING, np.full(N, -0.01))
+    excess = np.zeros(N + 1)
+    excess[3], excess[0] = -5e7, 2e7
+    worst = shares_of(STRING, loads, 1e6, walls, excess=excess)
+    share = {limit.code: row for limit, row in zip(LIMITS, worst, strict=True)}
+    section = STRING.sections[STRING.component[2]]
+    assert share["collapse"][[SHARE, ROW]] == pytest.approx([5e7 / section.collapse, 3])
+    assert share["burst"][[SHARE, ROW]] == pytest.approx([2e7 / STRING.sections[-1].burst, 0])
+    assert share["tensile_capacity"][SHARE] == 0
+    stress = stress_along(STRING, *at_contacts(STRING, loads), hanging_of(STRING, loads)[:, MOMENT], excess)
+    strengths = np.append(STRING.of("yield_strength")[0], STRING.of("yield_strength"))
+    assert share["yield"][SHARE] == pytest.approx((stress / strengths).max(), rel=1e-12)
 
 
 def test_loads_that_are_no_numbers_are_beyond_no_limit() -> None:

@@ -182,6 +182,16 @@ CROSSED: dict[str, Crossed] = {
         "surface_torque_max_N_m",
     ),
     "overpull": Crossed(lambda on: case(bit={"overpull": 1e5} if on else {}), "hookload_N"),
+    "fluids": Crossed(
+        lambda on: case(
+            mud={"density": 1200.0} | ({"inside": [{"density": 0.0}], "float": True} if on else {}),
+        ),
+        "hookload_N",
+    ),
+    "packer": Crossed(lambda on: case(mud={"packer_bore": 0.1} if on else {}), "hookload_N"),
+    "temperature": Crossed(
+        lambda on: case(UPRIGHT, temperature=[{"tvd": 0, "change": 80.0}] if on else []), "bit_md_m"
+    ),
     "helical_force": Crossed(
         lambda on: case(contact={"helical_force": "analytic"} if on else {}), "total_contact_force_N"
     ),

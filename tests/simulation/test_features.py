@@ -47,7 +47,7 @@ def test_every_feature_has_a_case() -> None:
 
 
 def test_a_simulation_refuses_what_only_the_steady_solver_has() -> None:
-    assert set(FEATURES) ^ OWN == {"helical_force", "overpull", UNKNOWN_KEYS}
+    assert set(FEATURES) ^ OWN == {"helical_force", "overpull", "packer", UNKNOWN_KEYS}
 
 
 def test_resolved_joints_are_refused_where_contact_at_the_middle_is_left_out() -> None:

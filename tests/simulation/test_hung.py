@@ -186,7 +186,7 @@ def test_a_trip_in_and_out_of_a_deviated_well() -> None:
     last = result.history[result.history["operation"] == "trip_out"].iloc[-8:]
     steady = equilibrium(case, operation="trip_out", bit_depth=float(last["bit_depth_m"].mean()))
     pull = float((last["hookload_N"] - AIR * last["block_position_m"]).mean())
-    weight = float((run.string.of("weight") * run.string.length).sum())
+    weight = float((run.string.weight * run.string.length).sum())
     assert abs(pull - steady.hookload) < 0.005 * weight
 
 

@@ -105,7 +105,7 @@ def test_the_weight_is_that_of_the_whole_string(long: bool) -> None:
     problem = solver.problem("drill_sliding", steady_rates(case, "drill_sliding"), solver.lay_out(900.0))
     string = problem.string
     assert string.long_segment == long
-    assert problem.weight == pytest.approx(float(string.of("weight") @ string.length) + 1e4, rel=1e-12)
+    assert problem.weight == pytest.approx(float(string.weight @ string.length) + 1e4, rel=1e-12)
     assert problem.allowed == pytest.approx(1e-7 * problem.weight, rel=1e-12)
 
 

@@ -114,7 +114,7 @@ def scaled(case: Case, share: float) -> Case:
 def weight_of(case: Case, depth: float) -> float:
     """Weight of a string in mud [N]."""
     string = Solver(case).lay_out(depth).string
-    return float(string.of("weight") @ string.length)
+    return float(string.weight @ string.length)
 
 
 class Row(NamedTuple):

@@ -44,7 +44,7 @@ def slide(case: Case, kind: str, depth: float, speed: float = SPEED, settles: bo
     if KINDS[kind].direction != 1 or KINDS[kind].on_bottom:
         raise ValueError(f"{kind} does not slide into the hole off bottom")
     string = Solver(case).lay_out(depth).string
-    weight = float(string.of("weight") @ string.length)
+    weight = float(string.weight @ string.length)
     begins = depth - (LONGEST if settles else FED)
     operation = {"kind": kind, "from_md": begins, "to_md": depth, "speed": speed, "ramp_time": 2.0}
     mud = case.mud.model_dump(exclude_defaults=True) | {"lateral_damping": DAMPING}

@@ -42,7 +42,7 @@ def solved(string: Drawn) -> Iterator[tuple[float, float, Equilibrium]]:
     full = Solver(case)
     solvers = [full, Solver(less, full.hole.with_friction(np.array([of.friction for of in intervals])))]
     laid = full.lay_out(string.bit_depth)
-    weight = float(laid.string.of("weight") @ laid.string.length)
+    weight = float(laid.string.weight @ laid.string.length)
     wanted = [(0, kind) for kind in rates] + [(1, kind) for kind in REPEATED if kind in rates]
     batch = [Row(laid, k, kind, rates[kind]) for k, kind in wanted]
     answers = solve_batch(case, hole_of(case, [of.hole for of in solvers]), batch, Workspace(laid.string.segments))

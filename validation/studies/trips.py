@@ -16,7 +16,7 @@ from fctd import Case, equilibrium
 from fctd.mechanics import state
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.operations import Phase
-from fctd.model.string_in_hole import pressure_of
+from fctd.model.string_in_hole import squeeze_of
 from fctd.results.notes import codes_of
 from fctd.simulation.hung import Hung
 from fctd.simulation.intervals import Interval, Window, within
@@ -126,7 +126,7 @@ def missing(run: Run) -> float:
     hung = run.upper_end
     assert isinstance(hung, Hung)
     n, tally = run.segments, hung.tally
-    squeeze = tally.whole.of("compressibility") * pressure_of(run.case, tally.whole, run.hole)
+    squeeze = squeeze_of(run.case, tally.whole, run.hole)
     length = float(tally.reach[hung.stands]) - float((tally.whole.length * squeeze)[-n:].sum())
     mass = float((tally.whole.of("mass") * tally.whole.length)[-n:].sum())
     arms = sum(float(state.row(run.S, row, n).sum()) for row in (state.ARM_TOP, state.ARM_BOTTOM))

@@ -17,7 +17,7 @@ LEAST_EFFICIENCY: Final = 0.7  # of twelve lines over old sheaves
 
 def no_mud(mud: MudSpec, td: float) -> Doubts:
     """A deep hole without mud, where the case does not say so."""
-    if td > DEEP and mud.density == 0 and "density" not in mud.model_fields_set:
+    if td > DEEP and mud.density == 0 and not mud.outside and "density" not in mud.model_fields_set:
         yield InputWarning(
             "no_mud", "mud.density", f"there is no mud, so the string hangs in air in a hole of {td:g} m",
             'give a density such as "1200 kg/m^3", or 0 for air',

@@ -26,7 +26,8 @@ def light_string(string: StringSpec, mud: MudSpec) -> Doubts:
         key, mass = f"string.components[{i}].linear_mass", part.linear_mass
         if mass is None:
             continue
-        body, displaced = float(part.density * area), float(mud.density * area)
+        around = max((row.density for row in mud.outside), default=mud.density)
+        body, displaced = float(part.density * area), float(around * area)
         if mass < displaced:
             text = f"{_name(part)} weighs {mass:.4g} kg/m, less than the mud in its place, {displaced:.4g} kg/m"
             yield InputWarning("floating_string", key, text, _REMEDY_OF_MASS)

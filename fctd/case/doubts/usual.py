@@ -53,12 +53,14 @@ class Usual(NamedTuple):
 # string by 1e3 N*s/m^2 and its rotation by 1 N*s; 3 ms of the shape end all chatter.
 IN_MUD: Final = Usual("damping", "a damping", "N*s/m^2", 0, 1e4, "up to 10 kN*s/m^2")
 IN_JOINTS: Final = Usual("damping", "a damping", "s", 0, 0.1, "up to 100 ms", (LikelyUnit(0.1, 100, " ms"),))
+# Foam and the lightest oil to mud weighted with barite or galena.
+MUD: Final = Usual(
+    "mud_density", "a mud", "kg/m^3", 600, 2600, "0.6 to 2.6 sg",
+    (LikelyUnit(0.6, 2.6, " sg"), LikelyUnit(5, 22, " ppg"), LikelyUnit(37, 165, " lb/ft^3")),
+)  # fmt: skip
 USUAL: Final = {
-    # Foam and the lightest oil to mud weighted with barite or galena.
-    "mud.density": Usual(
-        "mud_density", "a mud", "kg/m^3", 600, 2600, "0.6 to 2.6 sg",
-        (LikelyUnit(0.6, 2.6, " sg"), LikelyUnit(5, 22, " ppg"), LikelyUnit(37, 165, " lb/ft^3")),
-    ),
+    "mud.density": MUD,
+    **{f"mud.{side}.density": MUD for side in ("inside", "outside")},
     "contact.damping": Usual("damping", "a damping", "N*s/m", 0, 1e7, "up to 10 MN*s/m"),
     "mud.axial_damping": IN_MUD,
     "mud.lateral_damping": IN_MUD,
@@ -108,8 +110,8 @@ def unusual(case: Well) -> Doubts:
     for key, usual in USUAL.items():
         table, name = key.rsplit(".", 1)
         holders = [(table, attrgetter(table)(case))]
-        if table == "string.components":
-            holders = [(f"{table}[{i}]", part) for i, part in enumerate(case.string.components)]
+        if isinstance(holders[0][1], tuple):
+            holders = [(f"{table}[{i}]", part) for i, part in enumerate(attrgetter(table)(case))]
         for place, holder in holders:
             value = abs(getattr(holder, name, None) or 0.0)  # there may be no rock, and no damping
             if value != 0 and not usual.low <= value <= usual.high:

@@ -31,7 +31,7 @@ def test_what_an_engine_leaves_out_is_refused(name: str) -> None:
     run.laws = run.laws._replace(given=True)
     with pytest.raises(InputError, match=f"since {name} leaves out loads given to the string"):
         refuse(run, {*honours, *CROSSED}, name)
-    for feature in set(CROSSED) - set(honours) - {"helical_force", "overpull"}:  # no run has these
+    for feature in set(CROSSED) - set(honours) - {"helical_force", "overpull", "packer"}:  # no run has these
         run, _ = prepare(CROSSED[feature].make(True))
         with pytest.raises(InputError, match=f"since {name} leaves out"):
             refuse(run, honours, name)
@@ -61,4 +61,4 @@ def test_a_chain_hangs_as_the_string_without_a_wall() -> None:
 
 
 def test_the_own_stepper_is_an_engine_too() -> None:
-    assert set(FEATURES) - Fctd.honours == {"helical_force", "overpull", "stands"}
+    assert set(FEATURES) - Fctd.honours == {"helical_force", "overpull", "packer", "stands"}

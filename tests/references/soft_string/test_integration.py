@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from fctd import equilibrium
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.model import survey
@@ -108,7 +109,7 @@ def test_the_formulas_as_published_by_johancsik(operation: str, pull: float) -> 
         wellbore={"survey_method": "average_angle",
                   "intervals": [{"to_md": 1700, "diameter": 0.3, "friction": 0.3}]},
     )  # fmt: skip
-    weight = float(lay_out(case, 1700.0).of("weight")[0])
+    weight = float(lay_out(case, 1700.0).weight[0])
     md = np.linspace(0, 1700, 34001)
     _, inc, azi = survey.interpolate_angles(case.wellbore.trajectory, md).T
     tension = torque = 0.0
@@ -310,3 +311,17 @@ def test_johancsiks_third_example_is_a_case_for_the_stiff_engine() -> None:
     pounds = float(np.sum(string.of("mass") * string.length)) / 0.45359237
     pipe_feet = 3718 / 0.3048 - 372 - 840
     assert pounds == pytest.approx(372 * 146.9 + 840 * 46.9 + 20 * pipe_feet, rel=1e-6)
+
+
+@pytest.mark.parametrize("operation", ["trip_out", "trip_in"])
+def test_fluids_by_depth_are_those_of_the_engine(operation: str) -> None:
+    """A floated string with a plug in the bend: the soft string weighs its pieces, the engine its segments."""
+    mud = {"density": 1200.0, "inside": [{"to_md": 701.0, "density": 1200.0, "plug": True}, {"density": 0}],
+           "float": True}  # fmt: skip
+    hole = {"intervals": [{"to_md": 1500.0, "diameter": 0.3111, "friction": 0.3}], "geometry": "arcs"}
+    part = pipe(None, None, outer=0.244475, inner=0.2204974, contact_diameter=0.3, segment_length=5.0)
+    case = make_case([[0, 0, 0], [300, 0, 0], [900, 70, 0], [1500, 70, 0]], [part], wellbore=hole, mud=mud)
+    string = lay_out(case, 1500.0)
+    point, soft = equilibrium(case, operation, 1500.0), soft_string(case, operation, 1500.0)
+    assert point.hookload == pytest.approx(soft.hookload, abs=2e-3 * float(string.weight @ string.length))
+    assert soft.hookload == pytest.approx(soft_string_ode(case, operation, 1500.0).hookload, rel=1e-6)
