@@ -28,6 +28,7 @@ from fctd.steady.continuation import CONVERGED
 from fctd.steady.equilibrium import Solver
 from fctd.steady.feed import ARRIVING, End, FedString, Start
 from fctd.steady.problem import Allowance, Problem, Share
+from fctd.steady.steady_string import HOMOGENISED
 from fctd.steady.tangent import NORMAL_FORCE
 from fctd.steady.torque_drag import with_friction
 from validation.cases.wells import real_well
@@ -319,7 +320,7 @@ def locked_of(strings: Iterable[tuple[Drawn, Row]]) -> Iterator[Locked]:
     """The strings that no push moves, locked up at a known share of their friction, on segments that follow them."""
     for string, row in strings:
         point = row.point
-        if point is None or row.arrival != NOT or point.shape == "none":
+        if point is None or row.arrival != NOT or point.shape == "none" or point.method == HOMOGENISED:
             continue
         if np.isfinite(point.locked_up_at):
             yield string, point
