@@ -3,7 +3,7 @@
 In a bend of the hole the body turns as far as the hole does, but not evenly: in tension at the tool joints, where its
 curvature is that of the hole times KL/tanh KL (Lubinski 1961), in compression in its middle, times KL/sin KL, with
 K = √(|T|/EI) and L half of a joint.  Its lateral weight bends it as a beam that is clamped at both ends.  A tool joint
-does not bend: the body between them, of half length l, has all of the turn, and factors of Kl with L/l in front.
+bends less than the body for a moment: the body between them, of half length l, has most of the turn, and factors of Kl.
 
 A coarse string, whose contact points lie where its segments end, knows the mean curvature alone; these closed forms
 correct its bending moment.  They hold while the body does not touch the wall.
@@ -78,11 +78,12 @@ def length_of(x, y, z):
 
 
 @inlined
-def bend_body(tension, own, stiffness, joint, tool_joint, room, kx, ky, kz, qx, qy, qz):
+def bend_body(tension, own, stiffness, joint, tool_joint, give, room, kx, ky, kz, qx, qy, qz):
     """Bending moment of a body [N m] and the share of its room that it takes.
 
-    own : the bending moment of the mean curvature [N m]; joint, tool_joint : lengths [m]; room : by which the tool
-    joints stand out [m]; k : curvature of the hole [1/m], of which the direction counts; q : lateral weight [N/m].
+    own : the bending moment of the mean curvature [N m]; joint, tool_joint : lengths [m]; give : curvature of the tool
+    joint over that of a body with its moment; room : by which the tool joints stand out [m]; k : curvature of the hole
+    [1/m], of which the direction counts; q : lateral weight [N/m].
     """
     half, free = 0.5 * joint, 0.5 * (joint - tool_joint)
     x = math.sqrt(abs(tension) / stiffness) * free
@@ -98,7 +99,8 @@ def bend_body(tension, own, stiffness, joint, tool_joint, room, kx, ky, kz, qx, 
     elif load > 0:
         ux, uy, uz = qx / load, qy / load, qz / load
     kx, ky, kz = curvature * ux, curvature * uy, curvature * uz
-    by_turn, by_load = stiffness * half / free, free * free
+    turns = half / (1 + 0.5 * end * tool_joint * give / free)  # of the body, in the hole's curvature
+    by_turn, by_load = stiffness * turns / free, free * free
     at_end = length_of(
         by_turn * end * kx + by_load * end_by_load * qx, by_turn * end * ky + by_load * end_by_load * qy,
         by_turn * end * kz + by_load * end_by_load * qz,
@@ -108,12 +110,18 @@ def bend_body(tension, own, stiffness, joint, tool_joint, room, kx, ky, kz, qx, 
         by_turn * middle * kz + by_load * middle_by_load * qz,
     )  # fmt: skip
     # The hole's arc is half² κ/2 from its chord; the tool joints lie on the side to which tension and weight press.
-    of_turn, of_load = free * (0.5 * free - half * turned), sagged * free**4 / stiffness
+    of_turn, of_load = free * (0.5 * free - turns * turned), sagged * free**4 / stiffness
     dx, dy, dz = of_turn * kx + of_load * qx, of_turn * ky + of_load * qy, of_turn * kz + of_load * qz
     px, py, pz = tension * kx + qx, tension * ky + qy, tension * kz + qz
     pressed = length_of(px, py, pz)
     towards = (dx * px + dy * py + dz * pz) / pressed if pressed > 0 else 0.0
     return max(at_end, in_middle), max(towards, 0.0) / room
+
+
+@inlined
+def give_of(outer, inner, tool_joint):
+    """Curvature of a tool joint over that of the body with the same moment, by their radii [m]; same steel and bore."""
+    return (outer**4 - inner**4) / (tool_joint**4 - inner**4)
 
 
 @inlined
@@ -206,7 +214,8 @@ def find_hanging(
         k = course_of(bends, k, s)
         tx, ty, tz, bx, by, bz = tangent_of(bends, k, s)
         moment, taken = bend_body(
-            pull, own, row[EI], joint if given else USUAL, tool_joint if given else USUAL_TOOL_JOINT, room,
+            pull, own, row[EI], joint if given else USUAL, tool_joint if given else USUAL_TOOL_JOINT,
+            give_of(row[OUTER], row[INNER], row[CONTACT_RADIUS]), room,
             bx, by, bz, -weight * tz * tx, -weight * tz * ty, weight * (tx * tx + ty * ty),
         )  # fmt: skip
         if given:

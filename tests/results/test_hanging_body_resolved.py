@@ -126,12 +126,11 @@ def test_a_beam_over_its_segments_is_that_of_a_solved_chain(
 
 
 def test_the_coarse_string_agrees_and_neither_is_corrected_twice() -> None:
-    """Within 3 %, with tool joints of 20 mm; real ones give way by themselves, which the closed form leaves out."""
-    for tool_joint, apart in ((SHORT_JOINT, 0.03), (21 * INCH, 0.05)):
+    """With tool joints of 20 mm and with real ones, which give way by themselves."""
+    for tool_joint in (SHORT_JOINT, 21 * INCH):
         fine, coarse = (in_bend(dogleg(n, tool_joint=tool_joint, tool_joint_inner=3.25 * INCH)) for n in (32, None))
-        assert coarse["bending_moment_N_m"].max() == pytest.approx(fine["bending_moment_N_m"].max(), rel=apart)
-        assert coarse["bending_moment_N_m"].max() >= fine["bending_moment_N_m"].max()
-        assert coarse["von_mises_Pa"].max() == pytest.approx(fine["von_mises_Pa"].max(), rel=apart)
+        assert coarse["bending_moment_N_m"].max() == pytest.approx(fine["bending_moment_N_m"].max(), rel=0.01)
+        assert coarse["von_mises_Pa"].max() == pytest.approx(fine["von_mises_Pa"].max(), rel=0.01)
 
 
 def test_no_closed_form_speaks_of_resolved_joints() -> None:
