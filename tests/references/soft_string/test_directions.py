@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fctd import Case
-from fctd.model.drillstring import section_of
+from fctd.model.section import section_of
 from references.soft_string.closed_forms import capstan, drop, sum_up
 from references.soft_string.directions import LAWS, associated, by_components, largest_turn
 from references.soft_string.integration import soft_string, soft_string_ode
