@@ -178,7 +178,8 @@ def _hoisted(loaded: Loaded, capacity: float) -> Margin:
     """The overpull at which the weight indicator reads what the hoist lifts."""
 
     def excess(overpull: float) -> float:
-        return loaded.pulled(overpull).weight_indicator / capacity - 1
+        point = loaded.pulled(overpull)
+        return point.weight_indicator / capacity - 1 if point.answered else NAN
 
     share = loaded.free.weight_indicator / capacity
     used = First("hoist", share, "none", NAN)
@@ -273,7 +274,8 @@ def _driven(loaded: Loaded, capacity: float) -> Margin:
     """The torque at the bit at which the drive has no more."""
 
     def excess(torque: float) -> float:
-        return loaded.pressed(0.0, torque).drive_torque / capacity - 1
+        point = loaded.pressed(0.0, torque)
+        return point.drive_torque / capacity - 1 if point.answered else NAN
 
     share = loaded.free.drive_torque / capacity
     used = First("drive", share, "none", NAN)
