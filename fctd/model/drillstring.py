@@ -15,7 +15,7 @@ from fctd.model.default_layout import DefaultLayout
 from fctd.model.fluids import Fluids, fluids_of
 from fctd.model.joints import Part, Pieces, cut_joints, joint_of, joints_in, sections_of, segments_in
 from fctd.model.section import Section, buoyed
-from fctd.model.string_rows import BODY_WEIGHT, WAVE_WEIGHT, WEIGHT, find_contacts, find_stiffness
+from fctd.model.string_rows import find_contacts, find_stiffness
 
 # A long segment must be this long [m].
 SHORTEST_LONG_SEGMENT = 10.0
@@ -30,6 +30,11 @@ class LongSegmentError(InputError):
 @lru_cache(maxsize=64)  # of a string that hangs from a block, every record asks
 def _table_of(sections: tuple[Section, ...]) -> Array:
     return np.array(sections)
+
+
+@lru_cache(maxsize=64)
+def _weights_of(sections: tuple[Section, ...]) -> Array:
+    return np.array([(of.weight, of.body_weight, of.wave_weight) for of in sections]).T
 
 
 @dataclass(frozen=True)
@@ -99,26 +104,31 @@ class String:
         """Mean densities of the fluids inside and outside every segment (n,) [kg/m³]; None where ``fluids`` is."""
         return None if self.fluids is None else self.fluids.densities(self.above_bit[:-1], self.above_bit[1:])
 
-    @cached_property
+    @property
     def weight(self) -> Array:
         """Buoyed weight of every segment (n,) [N/m]."""
-        return self._weight("mass", WEIGHT)
+        return self._weights[0]
 
-    @cached_property
+    @property
     def body_weight(self) -> Array:
         """Buoyed weight of the body alone of every segment (n,) [N/m]."""
-        return self._weight("body_mass", BODY_WEIGHT)
+        return self._weights[1]
 
-    @cached_property
+    @property
     def wave_weight(self) -> Array:
         """Buoyed weight of the pipe as a whole, with which every segment buckles (n,) [N/m]."""
-        return self._weight("wave_mass", WAVE_WEIGHT)
+        return self._weights[2]
 
-    def _weight(self, mass: str, column: int) -> Array:
+    @cached_property
+    def _weights(self) -> Array:
+        """Weights (3, n) of the whole, of the body and of the pipe that buckles; a row of a chart asks for all."""
         if self.densities is None:
-            return np.asarray(self.table[self.component, column])
+            return np.ascontiguousarray(_weights_of(self.sections)[:, self.component])
         inside, outside = self.densities
-        return np.asarray(buoyed(self.of(mass), self.of("density"), self.of("inner"), outside, inside))
+        density, inner = self.of("density"), self.of("inner")
+        return np.array(
+            [buoyed(self.of(mass), density, inner, outside, inside) for mass in ("mass", "body_mass", "wave_mass")]
+        )
 
     def lengthened(self, by: float) -> "String":
         """The same string with ``by`` [m] more in its top segment."""

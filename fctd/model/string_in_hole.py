@@ -10,7 +10,7 @@ from fctd.model.drillstring import LongSegmentError, String
 from fctd.model.fluids import depth_at
 from fctd.model.mud import hole_radius, steady_resistance
 from fctd.model.pieces import RADIUS, TO_MD
-from fctd.model.string_rows import fill_rows
+from fctd.model.string_rows import COMPRESSIBILITY, fill_rows
 from fctd.model.wellbore import Wellbore
 
 # A long segment hangs straight: where it lies the hole must be this close to vertical [rad].
@@ -105,7 +105,7 @@ def squeeze_of(case: Case, string: String, hole: Wellbore) -> Array:
         )
         bore, body = string.of("inner") ** 2, string.of("outer") ** 2
         pressure = outside - (inside - outside) * bore / (body - bore)
-    squeeze = string.of("compressibility") * pressure
+    squeeze = string.table[string.component, COMPRESSIBILITY] * pressure
     if case.temperature:
         rows = np.array([(row.tvd, row.change) for row in case.temperature])
         squeeze -= string.of("expansion") * np.interp(depth, rows[:, 0], rows[:, 1])

@@ -45,6 +45,8 @@ class LaidString:
     def bit_loads(self, case: Case, operation: str) -> BitLoads:
         """Loads at the lower end in an operation: those of a case on its bit, and what pushes on a packer."""
         own = bit_loads(case, operation)
+        if case.mud.packer_bore is None:
+            return own
         return own._replace(weight=own.weight + self._packed) if self._packed else own
 
     @cached_property
