@@ -1,7 +1,7 @@
 """The string: components laid from the bit up become rigid segments with springs between them (§3.2, 5.1)."""
 
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,14 +27,21 @@ class LongSegmentError(InputError):
     """The long segment cannot be fed: its hole is not vertical, it is too short, or its component ends."""
 
 
-@lru_cache(maxsize=64)  # of a string that hangs from a block, every record asks
-def _table_of(sections: tuple[Section, ...]) -> Array:
-    return np.array(sections)
+# By the identities of sections, which each entry keeps alive: hashing their numbers would take a tenth of a chart row.
+_TABLES: dict[tuple[int, ...], tuple[tuple[Section, ...], Array, Array]] = {}
+MOST_TABLES = 64
 
 
-@lru_cache(maxsize=64)
-def _weights_of(sections: tuple[Section, ...]) -> Array:
-    return np.array([(of.weight, of.body_weight, of.wave_weight) for of in sections]).T
+def _tables_of(sections: tuple[Section, ...]) -> tuple[Array, Array]:
+    """The sections as rows (k, ...), and their weights (3, k): of the whole, of the body, of the pipe that buckles."""
+    key = tuple(map(id, sections))
+    found = _TABLES.get(key)
+    if found is None:
+        if len(_TABLES) >= MOST_TABLES:
+            _TABLES.clear()
+        weights = np.array([(of.weight, of.body_weight, of.wave_weight) for of in sections]).T
+        found = _TABLES[key] = sections, np.array(sections), weights
+    return found[1:]
 
 
 @dataclass(frozen=True)
@@ -122,9 +129,9 @@ class String:
     @cached_property
     def _weights(self) -> Array:
         """Weights (3, n) of the whole, of the body and of the pipe that buckles; a row of a chart asks for all."""
-        if self.densities is None:
-            return np.ascontiguousarray(_weights_of(self.sections)[:, self.component])
-        inside, outside = self.densities
+        if self.fluids is None:
+            return np.ascontiguousarray(_tables_of(self.sections)[1][:, self.component])
+        inside, outside = self.fluids.densities(self.above_bit[:-1], self.above_bit[1:])
         density, inner = self.of("density"), self.of("inner")
         return np.array(
             [buoyed(self.of(mass), density, inner, outside, inside) for mass in ("mass", "body_mass", "wave_mass")]
@@ -138,7 +145,7 @@ class String:
     @cached_property
     def table(self) -> Array:
         """The sections (k, ...), a column for each property."""
-        return _table_of(self.sections)
+        return _tables_of(self.sections)[0]
 
     @cached_property
     def _contacts(self) -> tuple[NDArray[np.bool_], Array, Array]:
