@@ -15,3 +15,8 @@ class LimitsSpec(Table):
     design_factor: units.DesignFactor = 1.0
     torque_share: units.PositiveShare = 1.0
     overpull_margin: units.Force = 0.0
+
+    @property
+    def all_used(self) -> bool:
+        """Whether all of each capacity may be used."""
+        return self.design_factor == 1.0 and self.torque_share == 1.0

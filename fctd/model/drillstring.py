@@ -73,7 +73,8 @@ class String:
         steps = self.component[:-1] - self.component[1:]
         ends = self.component[0] == len(self.sections) - 1 and self.component[-1] == 0
         ends &= len(self.parts) == len(self.sections)
-        if len(self.component) != len(self.length) or not (ends and set(steps.tolist()) <= {0, 1}):
+        # Of steps of 0 and 1, and of no others, half is 0.
+        if len(self.component) != len(self.length) or not ends or (steps >> 1).any():
             raise AssertionError("the segments do not follow the order of the components")
 
     @property
@@ -114,24 +115,28 @@ class String:
     @property
     def weight(self) -> Array:
         """Buoyed weight of every segment (n,) [N/m]."""
-        return self._weights[0]
+        of: Array = self.weights[0]
+        return of
 
     @property
     def body_weight(self) -> Array:
         """Buoyed weight of the body alone of every segment (n,) [N/m]."""
-        return self._weights[1]
+        of: Array = self.weights[1]
+        return of
 
     @property
     def wave_weight(self) -> Array:
         """Buoyed weight of the pipe as a whole, with which every segment buckles (n,) [N/m]."""
-        return self._weights[2]
+        of: Array = self.weights[2]
+        return of
 
     @cached_property
-    def _weights(self) -> Array:
-        """Weights (3, n) of the whole, of the body and of the pipe that buckles; a row of a chart asks for all."""
+    def weights(self) -> Array:
+        """Buoyed weights (3, n) [N/m]: ``weight``, ``body_weight`` and ``wave_weight``, which a row asks for."""
         if self.fluids is None:
-            return np.ascontiguousarray(_tables_of(self.sections)[1][:, self.component])
-        inside, outside = self.fluids.densities(self.above_bit[:-1], self.above_bit[1:])
+            return np.take(self._tables[1], self.component, axis=1)
+        assert self.densities is not None  # as there are fluids
+        inside, outside = self.densities
         density, inner = self.of("density"), self.of("inner")
         return np.array(
             [buoyed(self.of(mass), density, inner, outside, inside) for mass in ("mass", "body_mass", "wave_mass")]
@@ -143,9 +148,13 @@ class String:
         return replace(self, bit_depth=self.bit_depth + by, length=longer)
 
     @cached_property
+    def _tables(self) -> tuple[Array, Array]:
+        return _tables_of(self.sections)
+
+    @property
     def table(self) -> Array:
         """The sections (k, ...), a column for each property."""
-        return _tables_of(self.sections)[0]
+        return self._tables[0]
 
     @cached_property
     def _contacts(self) -> tuple[NDArray[np.bool_], Array, Array]:
@@ -202,7 +211,7 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
     lengths: list[float] = []
     owner: list[int] = []
     parts: list[Part] = []
-    taken: list[float] = []
+    laid = 0.0
     by_default = None
     if any(component.cut_by_default for component in components):
         by_default = DefaultLayout(case, bit_depth, deepest)
@@ -224,7 +233,8 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
             lengths += pieces
             owner += [len(parts)] * len(pieces)
             parts.append(part)
-        taken.append(take)
+        if abs(sum(lengths) - (laid := laid + take)) > SAME_LENGTH:
+            raise AssertionError(f"the segments of component {k} do not add up to its length in the hole, {take} m")
         remaining -= take
         if remaining <= 1e-9:
             break
@@ -249,7 +259,7 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
     if deepest is not None:
         _check_feed(case, top.origin, deepest)
     check_segments(len(lengths))
-    string = String(
+    return String(
         top_md=case.string.top_md,
         bit_depth=bit_depth,
         length=np.array(lengths[::-1]),
@@ -259,8 +269,6 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
         long_segment=long_segment,
         fluids=fluids_of(case, bit_depth),
     )
-    check_lengths(string, taken)
-    return string
 
 
 def _check_feed(case: Case, top: int, deepest: float) -> None:

@@ -102,18 +102,11 @@ def sections_of(parts: Iterable[Part], outside: float) -> tuple[Section, ...]:
     found: dict[tuple[int, Kind], Section] = {}
     sections = []
     for part in parts:
+        if part.kind is Kind.WHOLE:
+            sections.append(section_of(part.component, outside))
+            continue
         key = part.origin, part.kind
         if key not in found:
-            found[key] = _section_of(part, outside)
+            found[key] = (tool_joint_of if part.kind is Kind.TOOL_JOINT else body_of)(part.component, outside)
         sections.append(found[key])
     return tuple(sections)
-
-
-def _section_of(part: Part, outside: float) -> Section:
-    match part.kind:
-        case Kind.WHOLE:
-            return section_of(part.component, outside)
-        case Kind.TOOL_JOINT:
-            return tool_joint_of(part.component, outside)
-        case Kind.BODY:
-            return body_of(part.component, outside)

@@ -26,7 +26,7 @@ def check_fit(string: String, hole: Wellbore, deepest: float) -> None:
     Also for a long segment outside vertical hole, and for a segment that is too short to compute with.
     deepest : greatest bit depth of the run [m].
     """
-    shortest = int(np.argmin(string.length))
+    shortest = int(string.length.argmin())
     if string.length[shortest] < SHORTEST_SEGMENT:
         raise InputError(
             f"segments of at least {SHORTEST_SEGMENT:g} m",
@@ -34,7 +34,7 @@ def check_fit(string: String, hole: Wellbore, deepest: float) -> None:
             value=f"{string.length[shortest]:.3g} m of it in one segment",
         )
     fed = deepest - string.bit_depth if string.long_segment else 0.0
-    if max(section.contact_radius for section in string.sections) > hole.intervals[:, RADIUS].min():
+    if max(section.contact_radius for section in string.sections) > hole.narrowest:
         bottom = string.top_md + np.cumsum(string.lengthened(fed).length)
         check_clearance(string, hole, string.top_md + np.concatenate([[0.0], np.cumsum(string.length)[:-1]]), bottom)
     if string.long_segment:
@@ -94,7 +94,7 @@ def squeeze_of(case: Case, string: String, hole: Wellbore) -> Array:
     Steel of the area A_s has the tension T + p_i A_i − p_o A_o, and the pressures on its sides keep it from contracting
     there: its strain is T/EA + (1 − 2ν)(p_i A_i − p_o A_o)/E A_s + αΔT, with equal pressures T/EA − (1 − 2ν) p/E + αΔT.
     """
-    depth = depth_at(hole, string.top_md + np.cumsum(string.length) - 0.5 * string.length)
+    depth = depth_at(hole, string.top_md + string.length.cumsum() - 0.5 * string.length)
     if string.fluids is None:
         pressure = case.mud.density * GRAVITY * depth
     else:

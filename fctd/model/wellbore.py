@@ -20,6 +20,7 @@ from fctd.model.pieces import (
     AROUND,
     FRICTION,
     INTERVAL_COLUMNS,
+    RADIUS,
     RUN_OUT,
     TO_MD,
     arcs,
@@ -89,6 +90,11 @@ class Wellbore:
     def stiffest_wall(self) -> float:
         """Largest wall stiffness [N/m per point, or N/m/m]."""
         return float(self.pieces[:, contact.STIFFNESS].max())
+
+    @cached_property
+    def narrowest(self) -> float:
+        """Smallest radius of the hole [m]."""
+        return float(self.intervals[:, RADIUS].min())
 
     @property
     def total_depth(self) -> float:

@@ -27,7 +27,7 @@ from fctd.model.torsion import axial_period_of
 from fctd.results.buckling import Buckling
 from fctd.results.ledger import LOSSES
 from fctd.results.limits import LIMITS, WORST, find_shares
-from fctd.results.notes import FULL, Note, as_metadata, from_metadata, limit_notes, rig_notes, under_resolved
+from fctd.results.notes import Note, as_metadata, from_metadata, limit_notes, rig_notes, under_resolved
 from fctd.results.profile import Loads, hanging_along
 from fctd.results.run_notes import (
     OF_THE_WALL,
@@ -143,7 +143,7 @@ class Guards(Restorable):
             walls.radius, state.row(run.S, state.RADIUS, run.segments), *self._judged[1:], self._worst,
         )  # fmt: skip
         asked = run.case.limits
-        return limit_notes(self._worst, string, walls, asked) if beyond or asked != FULL else ()
+        return limit_notes(self._worst, string, walls, asked) if beyond or not asked.all_used else ()
 
     def _constants(self) -> tuple[bool, NDArray[np.bool_], NDArray[np.int64], Array, Array]:
         run, string = self.run, self.run.string

@@ -8,6 +8,7 @@ first attempt (balance.py) is left to the methods in Python.
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
+from itertools import accumulate
 from threading import local
 from typing import NamedTuple, TypeVar
 
@@ -47,6 +48,7 @@ from fctd.steady.reading import (
 )
 from fctd.steady.tangent import frictionless_tangent
 
+Scalar = TypeVar("Scalar", bound=np.generic)
 Part = TypeVar("Part")
 Found = TypeVar("Found")
 
@@ -70,9 +72,9 @@ class Strings(NamedTuple):
     """Strings of a case, one after the other.
 
     first (m + 1,) : of their segments in length [m] and component (N,); long_segment (m,); bit_depth (m,) [m];
-    sections : a row for each component; weight (N,), damping (N, 3), squeeze (N,), per_metre : see ``fill_rows``;
-    body_weight, wave_weight (N,) : of the body alone, and of the pipe that buckles [N/m]; excess (N + m,) : pressure
-    inside less that outside, at the top and the contact points of each string [Pa].
+    sections : a row for each component; weights (3, N) : of ``String.weights``; damping (N, 3), squeeze (N,),
+    per_metre : see ``fill_rows``; excess (N + m,) : pressure inside less that outside [Pa], at the top and the contact
+    points of each string.
     """
 
     first: NDArray[np.int64]
@@ -82,9 +84,7 @@ class Strings(NamedTuple):
     bit_depth: Array
     top_md: float
     sections: Array
-    weight: Array
-    body_weight: Array
-    wave_weight: Array
+    weights: Array
     damping: Array
     squeeze: Array
     excess: Array
@@ -159,29 +159,34 @@ def solve_batch(case: Case, hole: Hole, rows: Sequence[Row], work: Workspace) ->
     loads = np.array([(*row.rates, *row.laid.bit_loads(case, row.operation)) for row in rows], float)
     packed = _pack(case, list(laid.values()))
     answers = np.zeros((len(rows), ANSWER))
-    most = int(np.diff(packed.first).max()) + 1
+    most = max(of.string.segments for of in laid.values()) + 1
     joints, contacts, walls = (np.zeros((len(rows), most, k)) for k in SHAPE_COLUMNS)
     solve_rows(hole, packed, which, loads, work, answers, joints, contacts, walls)
     ends = [row.laid.string.segments + 1 for row in rows]
     return [Answer(answers[k], *(of[k, 1:end] for of in (joints, contacts, walls))) for k, end in enumerate(ends)]
 
 
+def _joined(arrays: Sequence[NDArray[Scalar]], axis: int = 0) -> NDArray[Scalar]:
+    """Arrays one after the other; a single one as it is, since a steady string alone has no time to copy."""
+    return arrays[0] if len(arrays) == 1 else np.concatenate(arrays, axis)
+
+
 def _pack(case: Case, laid: Sequence[LaidString]) -> Strings:
     strings = [of.string for of in laid]
+    first = np.array([0, *accumulate(string.segments for string in strings)])
+    plain, total = not case.mud.given, int(first[-1])
     return Strings(
-        np.cumsum([0, *(string.segments for string in strings)]),
-        np.concatenate([string.length for string in strings]),
-        np.concatenate([string.component for string in strings]),
+        first,
+        _joined([string.length for string in strings]),
+        _joined([string.component for string in strings]),
         np.array([string.long_segment for string in strings]),
         np.array([string.bit_depth for string in strings], float),
         float(case.string.top_md),
         max((string.table for string in strings), key=len),
-        np.concatenate([string.weight for string in strings]),
-        np.concatenate([string.body_weight for string in strings]),
-        np.concatenate([string.wave_weight for string in strings]),
-        np.concatenate([damping_of(case, string) for string in strings]),
-        np.concatenate([squeeze_of(case, of.string, of.hole) for of in laid]),
-        np.concatenate([of.excess for of in laid]),
+        _joined([string.weights for string in strings], axis=1),
+        _joined([damping_of(case, string) for string in strings]),
+        _joined([squeeze_of(case, of.string, of.hole) for of in laid]),
+        np.zeros(total + len(strings)) if plain else _joined([of.excess for of in laid]),
         case.wellbore.stiffness_per_length is not None,
     )
 
@@ -202,7 +207,7 @@ def solve_rows(hole, strings, which, loads, w, answers, joints, contacts, walls)
         first, last = strings.first[k], strings.first[k + 1]
         n, long_segment = last - first, strings.long_segment[k]
         length, component = strings.length[first:last], strings.component[first:last]
-        weight, body_weight = strings.weight[first:last], strings.body_weight[first:last]
+        weight, body_weight = strings.weights[0][first:last], strings.weights[1][first:last]
         fed = fill_rows(
             w.S, length, component, strings.sections, weight, long_segment, strings.damping[first:last],
             strings.squeeze[first:last], strings.per_metre,
@@ -211,7 +216,7 @@ def solve_rows(hole, strings, which, loads, w, answers, joints, contacts, walls)
         for j in range(n):
             section = strings.sections[component[j]]
             stiffness[j], clearing[j] = section[WAVE_STIFFNESS], max(radius[j], section[WAVE_RADIUS])
-        pipe = Pipe(stiffness[:n], strings.wave_weight[first:last], clearing[:n], length, middle[:n])
+        pipe = Pipe(stiffness[:n], strings.weights[2][first:last], clearing[:n], length, middle[:n])
         solve_row(
             w, n, kinks, hole.pieces[which[r, 1]], hole, pipe, radius[:n], fed, length[0] if long_segment else 0.0,
             strings.top_md, strings.bit_depth[k], strings.sections, component, body_weight,

@@ -21,7 +21,7 @@ from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling
 from fctd.results.columns import IN_CHART, Column
 from fctd.results.display import MAIN, html_table, load_rows
 from fctd.results.limits import WORST
-from fctd.results.notes import FULL, Note, homogenised, limit_notes, rig_notes
+from fctd.results.notes import Note, homogenised, limit_notes, rig_notes
 from fctd.results.profile import profile_table
 from fctd.results.status import SteadyStatus
 from fctd.steady.continuation import CONVERGED, NOT_FINITE
@@ -154,7 +154,7 @@ class Equilibrium:
         hanging = 0.0 if kind.direction or kind.on_bottom else self.hookload
         top = string.sections[string.component[0]]
         found = rig_notes(self.case.rig, self.weight_indicator, self.drive_torque, top, hanging)
-        if shape.numbers[NOTED] or self.case.limits != FULL:
+        if shape.numbers[NOTED] or not self.case.limits.all_used:
             found = (*limit_notes(self.shares, string, shape.walls, self.case.limits), *found)
         if self.method != HOMOGENISED:
             return found
@@ -215,7 +215,8 @@ def _judge(
         return SteadyStatus.LOCKED_UP, f"{text}; {lacks}" if coarse else text
     if coarse:
         return SteadyStatus.UNDER_RESOLVED, lacks
-    if lacks := shortfall(case.wellbore.tortuosity, shape.laid.string.longest):
+    winding = case.wellbore.tortuosity
+    if winding is not None and (lacks := shortfall(winding, shape.laid.string.longest)):
         return SteadyStatus.UNDER_RESOLVED, lacks
     if negative:
         return SteadyStatus.UNSTABLE, f"without friction the balance is unstable in {counted(negative, 'mode')}"
