@@ -7,7 +7,7 @@ those of the string under that load.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, Final, NamedTuple
@@ -79,6 +79,10 @@ class First(NamedTuple):
     md: float
 
 
+# The limit of a string of which it uses a share.
+LimitOf = Callable[[Equilibrium], First]
+
+
 def first_limit(point: Equilibrium) -> First:
     """The limit of the steel that a string uses most."""
     shape, asked = point._shape, point.case.limits
@@ -145,58 +149,60 @@ def margins(
         yield Margin("none", "none", reason=f"{loaded.free.status}: {loaded.free.message}")
         return
     if kind.direction < 0:
-        yield _overpull(loaded)
-        if rig.hoist_capacity is not None:
-            yield _hoisted(loaded, rig.hoist_capacity)
+        yield _pulled(loaded, first_limit, _weakest(laid, "tension"))
+        if (lifts := rig.hoist_capacity) is not None:
+            yield _pulled(loaded, lambda point: First("hoist", point.weight_indicator / lifts, "none", NAN), lifts)
     if kind.direction > 0:
         yield from _set_down(loaded, beyond_buckling)
     if rates.spin > 0:
         if kind.direction >= 0:
-            yield _turned(loaded)
-            if rig.largest_torque is not None:
-                yield _driven(loaded, rig.largest_torque)
+            yield _turned(loaded, first_limit, _weakest(laid, "torsion"))
+            if (turns := rig.largest_torque) is not None:
+                yield _turned(loaded, lambda point: First("drive", point.drive_torque / turns, "none", NAN), turns)
         yield _bent_to_and_fro(loaded.free, rates.spin)
     if not kind.direction and not kind.on_bottom and rig.slip_length is not None:
         yield _in_slips(loaded.free, rig.slip_length)
 
 
-def _overpull(loaded: Loaded) -> Margin:
-    """The overpull at which the first section of the string reaches a limit."""
-    used = first_limit(loaded.free)
-    capacity = _weakest(loaded.laid, "tension")
-
-    def excess(overpull: float) -> float:
-        return _excess(loaded.pulled(overpull))
-
-    found = root_of(excess, capacity)
+def _pulled(loaded: Loaded, limit_of: LimitOf, scale: float) -> Margin:
+    """The overpull at which a limit is reached; scale : about its size [N]."""
+    used, found = limit_of(loaded.free), _load_at(loaded.pulled, limit_of, scale)
     if not np.isfinite(found):
         return Margin(OVERPULL, used.code, used.part, used.md, used.share, reason=_why(used))
-    return _at_pull(loaded, found, first_limit(loaded.pulled(found)), used.share)
-
-
-def _hoisted(loaded: Loaded, capacity: float) -> Margin:
-    """The overpull at which the weight indicator reads what the hoist lifts."""
-
-    def excess(overpull: float) -> float:
-        point = loaded.pulled(overpull)
-        return point.weight_indicator / capacity - 1 if point.answered else NAN
-
-    share = loaded.free.weight_indicator / capacity
-    used = First("hoist", share, "none", NAN)
-    found = root_of(excess, capacity)
-    if not np.isfinite(found):
-        return Margin(OVERPULL, "hoist", share=share, reason=_why(used))
-    return _at_pull(loaded, found, used, share)
-
-
-def _at_pull(loaded: Loaded, overpull: float, reached: First, share: float) -> Margin:
-    point, asked = loaded.pulled(overpull), loaded.solver.case.limits.overpull_margin
-    left = point.hookload - loaded.free.hookload
+    point, asked = loaded.pulled(found), loaded.solver.case.limits.overpull_margin
+    reached, left = limit_of(point), point.hookload - loaded.free.hookload
     lacking = f"less than limits.overpull_margin = {asked / 1e3:g} kN at the hook"
     return Margin(
-        OVERPULL, reached.code, reached.part, reached.md, share, overpull, point.hookload, left,
+        OVERPULL, reached.code, reached.part, reached.md, used.share, found, point.hookload, left,
         reason="none" if left >= asked else lacking,
     )  # fmt: skip
+
+
+def _turned(loaded: Loaded, limit_of: LimitOf, scale: float) -> Margin:
+    """The torque at the bit at which a limit is reached, under the tension that is there; scale : about its size [N m]."""
+
+    def at(torque: float) -> Equilibrium:
+        return loaded.pressed(0.0, torque)
+
+    used, found = limit_of(loaded.free), _load_at(at, limit_of, scale)
+    if not np.isfinite(found):
+        return Margin(TORQUE, used.code, used.part, used.md, used.share, reason=_why(used))
+    point = at(found)
+    reached = limit_of(point)
+    return Margin(
+        TORQUE, reached.code, reached.part, reached.md, used.share, torque=found, surface_torque=point.surface_torque,
+        surface_torque_left=point.surface_torque - loaded.free.surface_torque,
+    )  # fmt: skip
+
+
+def _load_at(at: Callable[[float], Equilibrium], limit_of: LimitOf, scale: float) -> float:
+    """The load at which a string uses all of a limit; see ``root_of``."""
+
+    def excess(load: float) -> float:
+        point = at(load)
+        return limit_of(point).share - 1 if point.answered else NAN
+
+    return root_of(excess, scale)
 
 
 def _set_down(loaded: Loaded, beyond_buckling: bool) -> Iterator[Margin]:
@@ -257,42 +263,6 @@ def _at_weight(loaded: Loaded, code: str, weight: float, **contact: Any) -> Marg
     )  # fmt: skip
 
 
-def _turned(loaded: Loaded) -> Margin:
-    """The torque at the bit at which the first section reaches a limit, under the tension that it has."""
-    used, capacity = first_limit(loaded.free), _weakest(loaded.laid, "torsion")
-
-    def excess(torque: float) -> float:
-        return _excess(loaded.pressed(0.0, torque))
-
-    found = root_of(excess, capacity)
-    if not np.isfinite(found):
-        return Margin(TORQUE, used.code, used.part, used.md, used.share, reason=_why(used))
-    return _at_torque(loaded, found, first_limit(loaded.pressed(0.0, found)), used.share)
-
-
-def _driven(loaded: Loaded, capacity: float) -> Margin:
-    """The torque at the bit at which the drive has no more."""
-
-    def excess(torque: float) -> float:
-        point = loaded.pressed(0.0, torque)
-        return point.drive_torque / capacity - 1 if point.answered else NAN
-
-    share = loaded.free.drive_torque / capacity
-    used = First("drive", share, "none", NAN)
-    found = root_of(excess, capacity)
-    if not np.isfinite(found):
-        return Margin(TORQUE, "drive", share=share, reason=_why(used))
-    return _at_torque(loaded, found, used, share)
-
-
-def _at_torque(loaded: Loaded, torque: float, reached: First, share: float) -> Margin:
-    at_surface = loaded.pressed(0.0, torque).surface_torque
-    return Margin(
-        TORQUE, reached.code, reached.part, reached.md, share, torque=torque, surface_torque=at_surface,
-        surface_torque_left=at_surface - loaded.free.surface_torque,
-    )  # fmt: skip
-
-
 def _bent_to_and_fro(point: Equilibrium, spin: float) -> Margin:
     """The largest amplitude of the bending stress of a string that turns, and how often the steel is bent so."""
     string, profile = point._shape.laid.string, point.profile
@@ -331,11 +301,6 @@ def _in_slips(point: Equilibrium, length: float) -> Margin:
         SLIPS, SLIPS, part, string.top_md, point.hookload / capacity, hookload=capacity,
         hookload_left=capacity - point.hookload, reason="tests of slips find up to a fifth less",
     )  # fmt: skip
-
-
-def _excess(point: Equilibrium) -> float:
-    """By which the share of the first limit exceeds 1, NaN of a string without loads."""
-    return first_limit(point).share - 1 if point.answered else NAN
 
 
 def _weakest(laid: LaidString, load: str) -> float:
