@@ -9,14 +9,12 @@ from uuid import uuid4
 
 import numpy as np
 import typer
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from fctd.calibration.measured import read_measured
 from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
 from fctd.case.friction import parse_frictions
 from fctd.case.load import Case
-from fctd.case.operations import KINDS
 from fctd.case.text import printable
 from fctd.cli.chart_table import print_chart
 from fctd.cli.keeping import (
@@ -68,6 +66,8 @@ from fctd.cli.steady import (
     metadata_of,
     print_segments,
     read_drive,
+    read_kinds,
+    row_bar,
 )
 from fctd.model.depths import read_depths
 from fctd.model.operations import rates_of_all
@@ -223,8 +223,7 @@ def _chart(
         refuse_sources(case, path, key, [asked.measured])
     bit_depths = read_depths(asked.depths, case, "--depths", bare_length(units))
     points_measured = None if asked.measured is None else _measured(asked.measured, case, plot)
-    names = [name.strip() for text in asked.operations for name in text.split(",")]
-    kinds = list(dict.fromkeys(kind for name in names for kind in (KINDS if name == "all" else [name])))
+    kinds = read_kinds(asked.operations)
     if points_measured is not None:
         _tell_not_drawn(points_measured["operation"], kinds)
     if asked.limits and plot is None:
@@ -236,11 +235,10 @@ def _chart(
     told = tell(case, warnings, strict=asked.strict, units=units)
     limits = keeping.limits
 
-    columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with opened(case) as kept:
         with (
             _kept_on_the_way_out(kept, target, total := len(bit_depths) * len(kinds) * max(len(factors), 1)),
-            Progress(*columns, console=messages, disable=quiet, transient=True) as bar,
+            row_bar(quiet) as bar,
         ):
             task = bar.add_task("compiling", total=None)
 

@@ -6,12 +6,10 @@ from typing import TYPE_CHECKING, Annotated, Any, Final, cast
 import numpy as np
 import typer
 from rich.box import SIMPLE_HEAD
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Column, Table
 
 from fctd.case.doubts import warnings_of
 from fctd.case.load import Case, check_bit_depth, naming_file
-from fctd.case.operations import KINDS
 from fctd.case.text import printable
 from fctd.cli.chart import DEPTHS_HELP
 from fctd.cli.options import (
@@ -23,14 +21,25 @@ from fctd.cli.options import (
     bare_length,
     changes_of,
     finish,
-    messages,
     print_written,
     read_case,
     refuse_sources,
     screen,
     tell,
 )
-from fctd.cli.steady import KIND_HELP, Rpm, Speed, Units, check_table, file_option, in_units, metadata_of, read_drive
+from fctd.cli.steady import (
+    KIND_HELP,
+    Rpm,
+    Speed,
+    Units,
+    check_table,
+    file_option,
+    in_units,
+    metadata_of,
+    read_drive,
+    read_kinds,
+    row_bar,
+)
 from fctd.model.depths import read_depth, read_depths
 from fctd.results.unit_systems import System, reworded, shown
 from fctd.steady.margin_table import USUAL, margin_table
@@ -83,13 +92,11 @@ def limits_command(
     refuse_sources(case, out, "--out")
     bare = bare_length(units)
     bit_depths = read_depths(depths, case, "--depths", bare) if ":" in depths else [_one(depths, case, bare)]
-    names = [name.strip() for text in operations for name in text.split(",")]
-    kinds = list(dict.fromkeys(kind for name in names for kind in (KINDS if name == "all" else [name]))) or list(USUAL)
+    kinds = read_kinds(operations, USUAL)
     drive = read_drive(speed, rpm, units)
     warnings = warnings_of(case, kinds, **drive)
     tell(case, warnings, strict=strict, units=units)
-    columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=messages, disable=quiet, transient=True) as bar:
+    with row_bar(quiet) as bar:
         task = bar.add_task("compiling", total=None)
 
         def show(done: int, total: int) -> None:

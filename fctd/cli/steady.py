@@ -5,13 +5,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from fctd.case.errors import InputError
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.case.units import ROTATION, SPEED
-from fctd.cli.options import check_target, read_quantity, screen
+from fctd.cli.options import check_target, messages, read_quantity, screen
 from fctd.cli.pictures import PICTURES, check_package, check_pictures
 from fctd.model.drillstring import lay_out
 from fctd.model.operations import rates_of_all
@@ -70,6 +71,18 @@ def read_drive(speed: str | None, rpm: str | None, units: System = "si") -> dict
         "speed": None if speed is None else read_quantity(speed, SPEED, "--speed", units),
         "rpm": None if rpm is None else read_quantity(rpm, ROTATION, "--rpm"),
     }
+
+
+def read_kinds(texts: Sequence[str], usual: Sequence[str] = ()) -> list[str]:
+    """The kinds of operations of an option that may be repeated, with commas between them or "all"; else the usual."""
+    names = [name.strip() for text in texts for name in text.split(",")]
+    return list(dict.fromkeys(kind for name in names for kind in (KINDS if name == "all" else [name]))) or list(usual)
+
+
+def row_bar(quiet: bool) -> Progress:
+    """The progress of rows on the terminal."""
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    return Progress(*columns, console=messages, disable=quiet, transient=True)
 
 
 def check_table(out: Path | None, suffixes: Sequence[str] = TABLES) -> None:

@@ -10,7 +10,6 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
 from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
-from fctd.case.operations import KINDS
 from fctd.case.text import file_name, printable
 from fctd.cli.chart import DEPTHS_HELP
 from fctd.cli.keeping import case_of, how_far
@@ -29,7 +28,7 @@ from fctd.cli.options import (
     tell,
 )
 from fctd.cli.pictures import check_package
-from fctd.cli.steady import KIND_HELP, ResolveBuckling, Rpm, Speed, Units, file_option, read_drive
+from fctd.cli.steady import KIND_HELP, ResolveBuckling, Rpm, Speed, Units, file_option, read_drive, read_kinds
 from fctd.model.depths import read_depths, usual_depths
 from fctd.results.tables import open_result, result_files
 from fctd.results.unit_systems import System
@@ -114,7 +113,7 @@ def view_command(
         strings, told = _of_run(source, given), []
     else:
         case = read_case(source, changes_of(overrides, friction, resolve_buckling))
-        kinds = _kinds(operations)
+        kinds = read_kinds(operations, USUAL)
         wanted = (
             usual_depths(case, DEPTHS) if depths is None else read_depths(depths, case, "--depths", bare_length(units))
         )
@@ -155,11 +154,6 @@ def _of_run(folder: Path, given: dict[str, object]) -> Strings:
             f"the result of fctd simulate, or its run: this is one of fctd {about['command']}", value=folder
         )
     return of_run(kept_so_far(run_path(folder), case_of(run_path(folder), about)))
-
-
-def _kinds(operations: Sequence[str]) -> list[str]:
-    names = [name.strip() for text in operations for name in text.split(",")] or list(USUAL)
-    return list(dict.fromkeys(kind for name in names for kind in (KINDS if name == "all" else [name])))
 
 
 def _write(

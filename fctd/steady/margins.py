@@ -179,7 +179,7 @@ def _pulled(loaded: Loaded, limit_of: LimitOf, scale: float) -> Margin:
 
 
 def _turned(loaded: Loaded, limit_of: LimitOf, scale: float) -> Margin:
-    """The torque at the bit at which a limit is reached, under the tension that is there; scale : about its size [N m]."""
+    """The torque at the bit at which a limit is reached under the tension there; scale : about its size [N m]."""
 
     def at(torque: float) -> Equilibrium:
         return loaded.pressed(0.0, torque)
