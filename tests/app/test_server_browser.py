@@ -101,7 +101,8 @@ def test_a_slider_moves_all_pictures(page: Any) -> None:
     assert np.array(page.evaluate(CURVE, k))[-1] > np.array(chart)[-1]  # more friction, more load
     assert page.locator("#sliders output").nth(1).inner_text() == "0.26"
     until(page, lambda: "scene" in page.evaluate("window.drawn"))
-    assert page.evaluate("window.drawn.slice(0, 3)") == ["loads", "panels", "scene"]
+    # A key moves a slider by two events, whose second answer may paint the loads again before the scene's turn.
+    assert list(dict.fromkeys(page.evaluate("window.drawn"))) == ["loads", "panels", "scene"]
     page.wait_for_timeout(300)
     assert (pixels(page) != before).any()
     page.locator("#reset").click()
