@@ -29,6 +29,8 @@ WORK_OF_WAVES = 2e6
 TOO_FINE = f"resolving takes more than the {state.MAX_SEGMENTS} segments that a string may have: use smaller loads"
 TOO_MUCH = "resolving takes more work than solver.resolve_work allows a row"
 HOMOGENISED = "so the wall force of its waves is that of the closed forms"
+# Homogenised waves lock up earlier than feed does: study fed_limits.
+EARLY = "feed was not brought to its end, and may get the string farther: a larger solver.resolve_work lets it"
 # Shapes of a buckled string whose hook loads differ by more than this share of its weight are both stated.
 APART = 0.01
 
@@ -132,6 +134,8 @@ def homogenised(problem: Problem, so_far: Findings) -> Equilibrium | None:
         return None
     why = so_far.why_homogenised or (TOO_FINE if so_far.lacks_segments else TOO_MUCH)
     message = f"{point.message}; {why}, {HOMOGENISED}" if point.message else ""
+    if so_far.is_fed_in_part and point.status == SteadyStatus.LOCKED_UP:
+        message += f"; {EARLY}"
     return replace(point, message=message, shape="helix" if found.is_wound else "snaking")
 
 

@@ -45,12 +45,14 @@ def fed(problem: Problem, so_far: Findings) -> Equilibrium | None:
     here = None if waves is None else _compressed_by(waves)
     row = feed_row(so_far.case, so_far.lay_anew(), so_far.lay_finer, here)
     if row is None:
+        so_far.is_fed_in_part = problem.is_spent
         so_far.lay_anew()
         return None
     point = of_lower_energy(Resolved(row.problem, row.path, None), so_far)
     low, high = _both(row, point)
     so_far.resolved = point = replace(point, fed=tuple(row.string.path), hookload_low=low, hookload_high=high)
     if is_lacking(point):
+        so_far.is_fed_in_part = row.path.is_cut
         return None
     if row.path.pose is None and row.end != End.LOCKED and waves is not None and waves.path.pose is not None:
         so_far.why_homogenised = _end_in_words(row)

@@ -33,7 +33,8 @@ class Findings:
     above, if any; rung : name of the one at work, which every string that it finds carries.
     first : Newton's string from the guess; code : of the iteration; is_stable : whether that string is a balance in
     which it would stay.  resolved : the string on finer segments; why_homogenised : why it is none that
-    slides, beside too many segments and too much work.  path : balances at less than the loads, if any, and
+    slides, beside too many segments and too much work; is_fed_in_part : whether its work was spent before feed came to
+    its end.  path : balances at less than the loads, if any, and
     those at the loads; ended : the string at the path's end; is_coarse : whether the segments are too long for more
     steps of it.  found : the string whose loads the row has, before any are added.
     """
@@ -48,6 +49,7 @@ class Findings:
     is_stable: bool = False
     resolved: Equilibrium | None = None
     why_homogenised: str = ""
+    is_fed_in_part: bool = False
     path: Climb = field(default_factory=Climb)
     ended: Equilibrium | None = None
     is_coarse: bool = False

@@ -11,7 +11,7 @@ from fctd.mechanics import state
 from fctd.model.operations import steady_rates
 from fctd.model.section import Section, section_of
 from fctd.results.status import SteadyStatus
-from fctd.steady.attempts import HOMOGENISED, TOO_MUCH
+from fctd.steady.attempts import EARLY, HOMOGENISED, TOO_MUCH
 from fctd.steady.balance import ATTEMPTS, balance
 from fctd.steady.continuation import CONVERGED
 from fctd.steady.equilibrium import Solver
@@ -224,6 +224,16 @@ def test_a_homogenised_helix_that_no_push_moves_is_locked_up() -> None:
     assert (point.status, point.answered) == (SteadyStatus.LOCKED_UP, False)
     assert point.locked_up_at == pytest.approx(1 / 1.2, rel=0.05)
     assert point.message.endswith(f"{TOO_MUCH}, {HOMOGENISED}")
+
+
+@pytest.mark.parametrize("work", [50.0, 1e5])
+def test_a_row_whose_work_is_spent_before_it_is_fed_says_so(work: float) -> None:
+    length = 1.2 * lock_up_length()
+    case = spent(level_case(PUSHED, length, 20.0, friction=FRICTION))
+    case = with_tables(case, solver={"buckling": "feed", "resolve_work": work})
+    point = fctd.equilibrium(case, "drill_sliding", length)
+    assert point.status == SteadyStatus.LOCKED_UP
+    assert point.message.endswith(f"{TOO_MUCH}, {HOMOGENISED}; {EARLY}")
 
 
 def test_a_pose_has_the_loads_of_its_waves() -> None:
