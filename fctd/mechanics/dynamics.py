@@ -11,7 +11,6 @@ from typing import Any
 
 from fctd.mechanics.bit import drill, press_bit
 from fctd.mechanics.cake import press_into_cake
-from fctd.mechanics.contact import update_walls
 from fctd.mechanics.derrick import immerse
 from fctd.mechanics.friction import (
     approach,
@@ -89,6 +88,7 @@ from fctd.mechanics.state import (
     spin,
     velocity,
 )
+from fctd.mechanics.stored_walls import update_walls
 from fctd.mechanics.topdrive import IN_DERRICK, SUM_HOOKLOAD, SUM_TOP_TORQUE, drive_top, move_top_drive
 from fctd.mechanics.unbalance import swing_unbalance
 from fctd.mechanics.wall_law import stiffen_walls

@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from fctd.arrays import Array
 from fctd.mechanics import dynamics, readings, state, topdrive
-from fctd.mechanics.contact import update_walls
 from fctd.mechanics.derrick import put_immersed
 from fctd.mechanics.drive import STIFF, Drive
 from fctd.mechanics.energy import Energy, energy_of
 from fctd.mechanics.faults import Worst, check
 from fctd.mechanics.state import Laws
+from fctd.mechanics.stored_walls import update_walls
 from fctd.mechanics.topdrive import Motion, PerMetre
 from fctd.mechanics.wall_law import put_stiffness
 

@@ -10,11 +10,11 @@ import numpy as np
 
 from fctd.arrays import Array
 from fctd.mechanics import state
-from fctd.mechanics.contact import store_sticking, store_wall
 from fctd.mechanics.dynamics import load, move, padded_columns, update_axes
 from fctd.mechanics.jit import entry
 from fctd.mechanics.moving_string import MovingString
 from fctd.mechanics.state import Laws, contact_point
+from fctd.mechanics.stored_walls import store_sticking, store_wall
 from fctd.mechanics.topdrive import Motion
 from fctd.mechanics.wall_law import stiffen_walls
 from fctd.model.pieces import AROUND, DECAY, EXCESS, FRICTION, RADIUS, STIFFNESS, TO_MD

@@ -4,7 +4,7 @@ A point that moves by δ moves s = t·δ/ρ along its piece of hole, with t the 
 distance from the centre of an arc over the arc's radius (1 beside a cylinder).  Then PT changes by δ − s t, the
 direction by s κ m with m the unit vector towards the centre, and hole radius, stiffness and friction by s times their
 gains.  In the overlap of two cylinders all of these are blended, with shares that change along the first one, and the
-wall leans as the stepper's does (contact.lean_wall).
+wall leans as the stepper's does (stored_walls.lean_wall).
 
 A quantity is a tuple of four: its value, and its derivatives by the three components of the point's place.
 """
@@ -164,7 +164,7 @@ def to_the_power(a, exponent):
 
 @inlined
 def leaning(wall, gx, gy, gz, radius):
-    """A wall that presses a point with the force −K d g and the energy ½K d²: ``contact.lean_wall``."""
+    """A wall that presses a point with the force −K d g and the energy ½K d²: ``stored_walls.lean_wall``."""
     square = total(total(product(gx, gx), product(gy, gy)), product(gz, gz))
     less = (radius, 0.0, 0.0, 0.0)
     across = product(total(wall.beyond, less), to_the_power(square, -0.5))

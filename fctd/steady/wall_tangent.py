@@ -152,7 +152,7 @@ def leave_out_change_along(S, j, P, C, i, laws, D):
 
     At a shoe between arcs the wall closes in along the hole but presses square to it: a move along the hole changes the
     force across it, and not the other way round.  The half of it in a symmetric part is no stiffness of the string.
-    Between cylinders the wall leans (contact.lean_wall), and its force has an energy.
+    Between cylinders the wall leans (stored_walls.lean_wall), and its force has an energy.
     """
     x, y, z = contact_place(S, j, P)
     wall = wall_beside(C, i, laws.geometry, x, y, z, S[RADIUS + j])

@@ -4,9 +4,10 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from fctd.mechanics.contact import DIRECTION, LENGTH, START, distance_along, store_cylinder, store_wall
+from fctd.mechanics.contact import DIRECTION, LENGTH, START, distance_along
 from fctd.mechanics.dynamics import padded_columns, step, update_axes
 from fctd.mechanics.state import RADIUS, contact_point
+from fctd.mechanics.stored_walls import store_cylinder, store_wall
 
 
 @njit(error_model="numpy")
@@ -52,7 +53,7 @@ def one_cylinder(
 
 @njit(error_model="numpy")
 def find_walls(S, owner, n, packed, C, geometry):  # type: ignore[no-untyped-def]
-    """``contact.update_walls`` by the FOR-loop, which remembers no owner and knows cylinders alone."""
+    """``stored_walls.update_walls`` by the FOR-loop, which remembers no owner and knows cylinders alone."""
     for j in range(1, n + 1):
         x, y, z = contact_point(S, j)
         i = for_loop_owner(C, x, y, z)

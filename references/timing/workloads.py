@@ -15,11 +15,11 @@ from numba import njit
 from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.mechanics import state
-from fctd.mechanics.contact import update_walls
 from fctd.mechanics.dynamics import padded_columns
 from fctd.mechanics.energy import Energy, penetration
 from fctd.mechanics.moving_string import STILL
 from fctd.mechanics.query import WALL_COLUMNS, query_walls
+from fctd.mechanics.stored_walls import update_walls
 from fctd.mechanics.topdrive import Motion
 from fctd.model.wellbore import Contacts
 from fctd.results import ledger

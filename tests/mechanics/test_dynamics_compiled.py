@@ -9,8 +9,9 @@ from numba import config, njit
 from numba.core.runtime import _nrt_python, rtsys
 
 from fctd.mechanics import dynamics, joints, query, state, topdrive
-from fctd.mechanics.contact import Arc, follow_arcs, follow_cylinders
+from fctd.mechanics.contact import Arc
 from fctd.mechanics.law_names import CODES
+from fctd.mechanics.stored_walls import follow_arcs, follow_cylinders
 from fctd.simulation.preparation import prepare
 from tests.cases import make_case, pipe, rotation
 from tests.compiled import kept

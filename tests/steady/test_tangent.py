@@ -10,10 +10,10 @@ from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.mechanics import dynamics, joints, state
-from fctd.mechanics.contact import update_walls
 from fctd.mechanics.law_names import CODES
 from fctd.mechanics.rotations import turned
 from fctd.mechanics.state import LANES, Laws
+from fctd.mechanics.stored_walls import update_walls
 from fctd.model.operations import steady_rates
 from fctd.steady.equilibrium import Solver
 from fctd.steady.pose import QUATERNION, SPIN, times

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fctd.mechanics import contact, state
+from fctd.mechanics import contact, state, stored_walls
 from fctd.mechanics.energy import penetration
 from fctd.mechanics.jit import entry
 from fctd.mechanics.state import ARCS, CYLINDERS
@@ -77,7 +77,7 @@ def test_it_presses_as_the_wall_of_the_stepper(geometry: str) -> None:
         S, owner = state.new_state(1), np.array([0, i, 0])
         S[state.RADIUS + 1], S[state.TRIBUTARY + 1] = TOUCHING, 1.0
         put(S, 1, PLACE, point)
-        contact.update_walls(S, owner, 1, state.LANES, hole.pieces, hole.geometry)
+        stored_walls.update_walls(S, owner, 1, state.LANES, hole.pieces, hole.geometry)
         to_wall = np.array([S[row + 1] for row in TO_WALL])
         found = beside(hole, i, point, TOUCHING)[:, 0]
         np.testing.assert_allclose(found[PT] / np.linalg.norm(found[PT]), to_wall / np.linalg.norm(to_wall), atol=1e-9)

@@ -19,10 +19,10 @@ from numpy.typing import NDArray
 
 from fctd import Case, Wellbore, build_wellbore
 from fctd.arrays import Array
-from fctd.mechanics import contact, state
+from fctd.mechanics import contact, state, stored_walls
 from fctd.mechanics.dynamics import padded_columns
 
-Search = Callable[[Array, NDArray[np.int64], int, int, Array, int], None]  # that of ``contact.update_walls``
+Search = Callable[[Array, NDArray[np.int64], int, int, Array, int], None]  # that of ``stored_walls.update_walls``
 
 GEOMETRIES = ("cylinders", "arcs")
 STEPS, AT_REST = 150, 40  # steps of a drag; the point's depth stays the same in the last of them
@@ -111,7 +111,7 @@ class Drag(NamedTuple):
     wrong_depth: Array
 
 
-def drag(bend: Bend, count: int, rng: np.random.Generator, search: Search = contact.update_walls) -> Drag:
+def drag(bend: Bend, count: int, rng: np.random.Generator, search: Search = stored_walls.update_walls) -> Drag:
     """Drag points through a bend, each at its own speed, to and fro between the ends."""
     hole, exact = bend.hole, bend.exact
     wall, ends = exact.wall_along(), (0.5, exact.total_depth - 0.5)

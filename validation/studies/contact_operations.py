@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from fctd.arrays import Array
-from fctd.mechanics import contact, state
+from fctd.mechanics import state, stored_walls
 from fctd.simulation.preparation import contact_points, prepare
 from fctd.simulation.run import Run
 from fctd.simulation.settling import settle, start_from_rest
@@ -90,7 +90,7 @@ def paper_rows() -> list[dict[str, Any]]:
 def engine_rows(run: Run, motion: Any, moments: int) -> list[dict[str, Any]]:
     """The engine's own helpers, means over all points and times of a trip; the FOR-loop at its last time."""
     n, pieces = run.segments, Counted(run.hole.pieces)
-    follow, refresh = interpreted(contact.follow_cylinders), interpreted(contact.refresh_cylinders)
+    follow, refresh = interpreted(stored_walls.follow_cylinders), interpreted(stored_walls.refresh_cylinders)
     place, loop = interpreted(state.contact_point), interpreted(for_loop_owner)
     write = interpreted(own._write)
     followed, looked_up, searched = Counter[str](), Counter[str](), Counter[str]()

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from fctd import build_wellbore, find_contacts
-from fctd.mechanics import contact, state
+from fctd.mechanics import state, stored_walls
 from fctd.model.wellbore import hole_frame
 from references.contact.for_loop import for_loop_owners
 from validation.cases import load
@@ -93,8 +93,8 @@ def run(context: Context) -> Outcome:
 
 
 def paper_search(S, owner, n, packed, C, geometry):  # type: ignore[no-untyped-def]
-    """``contact.update_walls`` where the paper's FOR-loop finds an owner, and no wall where it finds none."""
-    contact.update_walls(S, owner, n, packed, C, geometry)
+    """``stored_walls.update_walls`` where the paper's FOR-loop finds an owner, and no wall where it finds none."""
+    stored_walls.update_walls(S, owner, n, packed, C, geometry)
     points = np.stack([state.row(S, of, n) for of in (state.X, state.Y, state.Z)], axis=1)
     state.row(S, state.HOLE, n)[for_loop_owners(C, points) < 0] = np.inf
 
