@@ -12,7 +12,7 @@ from fctd.mechanics.dual import reciprocal, root
 from fctd.mechanics.jit import inlined
 from fctd.mechanics.joints import cross
 from fctd.mechanics.rotations import arctan_ratio
-from fctd.mechanics.state import TINY
+from fctd.mechanics.state import CYLINDERS, TINY
 
 # Columns of both tables.  Start point A [m], unit axis (arcs: tangent) at A, length including the overlap
 # [m], hole radius [m], wall stiffness [N/m or N/m/m], friction factor along the string, measured depth of A [m].
@@ -63,6 +63,14 @@ def arc_owner(C, i, x, y, z):
     while i < C.shape[0] - 1 and distance_along(C, i + 1, x, y, z) >= 0:
         i += 1
     return i
+
+
+@inlined
+def owner_of(C, i, geometry, x, y, z):
+    """Stage 2: the piece that owns T, by a walk from piece i."""
+    if geometry == CYLINDERS:
+        return cylinder_owner(C, i, x, y, z)
+    return arc_owner(C, i, x, y, z)
 
 
 @inlined

@@ -22,6 +22,7 @@ from fctd.mechanics.contact import (
     wall_of_arc,
 )
 from fctd.mechanics.jit import entry, inlined, kernel
+from fctd.mechanics.sampled import sampled_wall
 from fctd.mechanics.state import ARCS, LANES
 
 # Points of one arc in a packed operation; with one or two points it does not pay.
@@ -130,3 +131,16 @@ def query_walls(C, geometry, points, owner, out):
         query_arcs(C, points, owner, out)
     else:
         query_cylinders(C, points, owner, out)
+
+
+@entry
+def query_sampled(C, points, radii, owner, out):
+    """``query_walls`` in a sampled hole, beside points of a string with contact radii (n,) [m]."""
+    for j in range(points.shape[0]):
+        x, y, z = points[j, 0], points[j, 1], points[j, 2]
+        owner[j] = arc_owner(C, owner[j], x, y, z)
+        wall = sampled_wall(C, owner[j], x, y, z, radii[j])
+        write_wall(
+            out, j,
+            (wall.px, wall.py, wall.pz, wall.hole, wall.stiffness, wall.friction, wall.md, wall.around),
+        )  # fmt: skip

@@ -116,7 +116,8 @@ ROWS = 102
 class Laws(NamedTuple):
     """Choices and constants of a run, as scalars, so that one compiled stepper serves every case.
 
-    geometry : CYLINDERS, ARCS or OPEN (no wall at all).  friction : a law's code of ``law_names.CODES``.
+    geometry : CYLINDERS, ARCS, SAMPLED (sampled.py) or OPEN (no wall at all).  friction : a law's code of
+    ``law_names.CODES``.
     friction_scale : multiplies every friction factor (0 while the string settles).
     contact_damping : wall damping [N s/m].  joint_damping : stiffness-proportional damping time [s].
     settling : artificial mass-proportional damping rate [1/s], 0 in a run.
@@ -156,7 +157,7 @@ class Laws(NamedTuple):
 # Keeps 0/0 out of packed arithmetic, where a branch would cost more, and changes no other result.
 TINY = 1e-300
 
-CYLINDERS, ARCS, OPEN = 0, 1, 2
+CYLINDERS, ARCS, OPEN, SAMPLED = 0, 1, 2, 3
 
 
 def new_state(segments: int) -> np.ndarray:

@@ -32,6 +32,7 @@ from fctd.mechanics.contact import (
 from fctd.mechanics.dual import root
 from fctd.mechanics.jit import entry, inlined, kernel
 from fctd.mechanics.joints import cross
+from fctd.mechanics.sampled import AROUND_CELLS, sampled_wall
 from fctd.mechanics.state import (
     ARCS,
     CURVE,
@@ -56,6 +57,7 @@ from fctd.mechanics.state import (
     PY,
     PZ,
     RADIUS,
+    SAMPLED,
     SLACK,
     TRIBUTARY,
     TX,
@@ -160,10 +162,32 @@ def follow_arcs(S, n):
         store_slack(S, j, u, u * S[END_COS + j] + v * S[END_SIN + j])
 
 
+@inlined
+def store_arc(S, j, C, i, changes):
+    """Write the copy of arc i beside point j; changes : whether the wall is another at every place of the arc."""
+    S[OX + j], S[OY + j], S[OZ + j] = C[i, START], C[i, START + 1], C[i, START + 2]
+    S[TX + j], S[TY + j], S[TZ + j] = C[i, DIRECTION], C[i, DIRECTION + 1], C[i, DIRECTION + 2]
+    S[NX + j], S[NY + j], S[NZ + j] = C[i, NORMAL], C[i, NORMAL + 1], C[i, NORMAL + 2]
+    k, length = C[i, CURVATURE], C[i, LENGTH]
+    angle = k * length
+    S[CURVE + j], S[END_COS + j], S[END_SIN + j] = k, np.cos(angle), np.sin(angle)
+    end = np.sin(angle) / k if angle > 1e-6 else length
+    end = end if i < C.shape[0] - 1 else np.inf
+    S[MARGIN_TOP + j] = 0.0 if i > 0 else -np.inf
+    # A wall that changes along its piece is looked up at every step.
+    S[MARGIN_END + j] = -np.inf if changes else end
+
+
+@inlined
+def changes_along(C, i):
+    """Whether the wall of arc i changes along it."""
+    changes = C[i, RADIUS_GAIN] != 0 or C[i, STIFFNESS_GAIN] != 0 or C[i, FACTOR_GAIN] != 0
+    return changes | (C[i, GAIN_AROUND] != 0)
+
+
 @kernel
 def refresh_arcs(S, owner, n, C):
     """Look up in the table every point that has left its arc, or lies in an arc whose wall changes along it."""
-    last = C.shape[0] - 1
     for j in range(1, n + 1):
         if S[SLACK + j] > 0:
             continue
@@ -173,19 +197,25 @@ def refresh_arcs(S, owner, n, C):
         px, py, pz, hole, stiffness, friction, _, around = arc_wall(C, i, x, y, z)
         store_wall(S, j, px, py, pz, hole, stiffness, friction, around)
         store_sticking(S, j, C[i, STATIC_EXCESS], C[i, DECAY_SPEED])
-        S[OX + j], S[OY + j], S[OZ + j] = C[i, START], C[i, START + 1], C[i, START + 2]
-        S[TX + j], S[TY + j], S[TZ + j] = C[i, DIRECTION], C[i, DIRECTION + 1], C[i, DIRECTION + 2]
-        S[NX + j], S[NY + j], S[NZ + j] = C[i, NORMAL], C[i, NORMAL + 1], C[i, NORMAL + 2]
-        k, length = C[i, CURVATURE], C[i, LENGTH]
-        angle = k * length
-        S[CURVE + j], S[END_COS + j], S[END_SIN + j] = k, np.cos(angle), np.sin(angle)
-        end = np.sin(angle) / k if angle > 1e-6 else length
-        changes = C[i, RADIUS_GAIN] != 0 or C[i, STIFFNESS_GAIN] != 0 or C[i, FACTOR_GAIN] != 0
-        changes |= C[i, GAIN_AROUND] != 0
-        end = end if i < last else np.inf
-        S[MARGIN_TOP + j] = 0.0 if i > 0 else -np.inf
-        # A wall that changes along its piece is looked up at every step.
-        S[MARGIN_END + j] = -np.inf if changes else end
+        store_arc(S, j, C, i, changes_along(C, i))
+
+
+@kernel
+def refresh_sampled(S, owner, n, C):
+    """``refresh_arcs`` where the hole is sampled: a point in a cell that is not round is looked up at every step."""
+    for j in range(1, n + 1):
+        if S[SLACK + j] > 0:
+            continue
+        x, y, z = contact_point(S, j)
+        i = arc_owner(C, owner[j], x, y, z)
+        owner[j] = i
+        wall = sampled_wall(C, i, x, y, z, S[RADIUS + j])
+        store_wall(S, j, wall.px, wall.py, wall.pz, wall.hole, wall.stiffness, wall.friction, wall.around)
+        is_round = C[i, AROUND_CELLS] == 0
+        if not is_round:
+            lean_wall(S, j, wall.gx, wall.gy, wall.gz)
+        store_sticking(S, j, C[i, STATIC_EXCESS], C[i, DECAY_SPEED])
+        store_arc(S, j, C, i, changes_along(C, i) or not is_round)
 
 
 @entry
@@ -202,3 +232,6 @@ def update_walls(S, owner, n, packed, C, geometry):
     elif geometry == ARCS:
         follow_arcs(S, packed)
         refresh_arcs(S, owner, n, C)
+    elif geometry == SAMPLED:
+        follow_arcs(S, packed)
+        refresh_sampled(S, owner, n, C)

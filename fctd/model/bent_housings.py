@@ -9,7 +9,8 @@ from fctd.case.load import Case
 from fctd.case.string import ComponentSpec
 from fctd.mechanics import state
 from fctd.model.drillstring import String
-from fctd.model.wellbore import Wellbore, hole_frame
+from fctd.model.frames import hole_frame
+from fctd.model.wellbore import Wellbore
 
 
 def bent_joints(string: String) -> dict[int, ComponentSpec]:

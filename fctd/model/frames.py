@@ -1,11 +1,23 @@
-"""Frames across the hole that do not jump where the high side has no meaning."""
+"""Frames across the hole: by the high side, and those that do not jump where the high side has no meaning."""
 
 import numpy as np
 
 from fctd.arrays import Array
-from fctd.model.wellbore import hole_frame
 
+# Below this inclination the high side is north [rad].
+VERTICAL = np.radians(0.1)
 INCLINED = np.radians(5.0)  # from this inclination on the high side is a steady direction
+
+
+def hole_frame(direction: Array) -> tuple[Array, Array]:
+    """Unit vectors to the high side and to the right looking downhole, for tangents (n, 3).
+
+    Within 0.1° of vertical the high side is north.
+    """
+    up = np.where(np.hypot(direction[:, 0], direction[:, 1])[:, None] < np.sin(VERTICAL), [[1.0, 0, 0]], [[0, 0, -1.0]])
+    high = up - np.sum(up * direction, axis=1, keepdims=True) * direction
+    high /= np.linalg.norm(high, axis=1, keepdims=True)
+    return high, np.cross(direction, high)
 
 
 def carried_frame(direction: Array) -> tuple[Array, Array]:

@@ -4,7 +4,7 @@ import numpy as np
 
 from fctd.arrays import Array
 from fctd.mechanics import contact
-from fctd.mechanics.state import ARCS
+from fctd.mechanics.state import CYLINDERS
 from fctd.model import survey
 
 # The first and last piece extend this far beyond surface and total depth [m].
@@ -67,13 +67,13 @@ def arcs(courses: survey.Courses, md: Array) -> Array:
 def fill_wall(pieces: Array, geometry: int, md: Array, intervals: Array, shoe: float) -> None:
     """Fill the wall's columns of laid-out pieces from the interval at the middle of each piece."""
     middle = 0.5 * (md[1:] + md[:-1])
-    if geometry == ARCS:  # with a straight piece before the first and after the last
+    if geometry != CYLINDERS:  # with a straight piece before the first and after the last
         middle = np.concatenate([md[:1], middle, md[-1:]])
     k = np.minimum(np.searchsorted(intervals[:, TO_MD], middle), len(intervals) - 1)
     values = [contact.HOLE_RADIUS, contact.STIFFNESS, contact.FACTOR, contact.FACTOR_AROUND]
     pieces[:, values] = intervals[k][:, [RADIUS, STIFFNESS, FRICTION, AROUND]]
     pieces[:, contact.STATIC_EXCESS : contact.OVERBALANCE + 1] = intervals[k][:, EXCESS : OVERBALANCE + 1]
-    if geometry == ARCS:
+    if geometry != CYLINDERS:
         _lead_into_next(pieces, md, middle, intervals, shoe)
     else:
         bend = np.linalg.norm(np.diff(pieces[:, contact.DIRECTION : contact.DIRECTION + 3], axis=0), axis=1)

@@ -1,6 +1,7 @@
 """Components of a string per metre of their length: mass, stiffness, and the weight in their fluids (§3.2, 5.1)."""
 
 import math
+from collections.abc import Iterable
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -57,6 +58,17 @@ class Section(NamedTuple):
     wave_mass: float = 0.0
     wave_stiffness: float = 0.0
     wave_radius: float = 0.0
+
+
+def contact_radii(components: Iterable[ComponentSpec]) -> tuple[float, ...]:
+    """The radii with which components, or the parts of their joints, touch the wall [m]."""
+    found = set()
+    for component in components:
+        parts = [section_of(component, 0.0)]
+        if component.joint_segments is not None:
+            parts += [tool_joint_of(component, 0.0), body_of(component, 0.0)]
+        found |= {part.contact_radius for part in parts}
+    return tuple(sorted(found))
 
 
 def shear_coefficient(outer: float, inner: float, poisson: float) -> float:

@@ -1,5 +1,6 @@
 """The hole as a table of pieces for the contact algorithm: cylinders with overlap (§5.2, Fig. 8), or arcs."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import NamedTuple
@@ -13,9 +14,10 @@ from fctd.case.hole import WellboreSpec
 from fctd.case.load import Case, naming_file
 from fctd.case.wall import IntervalSpec
 from fctd.mechanics import contact
-from fctd.mechanics.query import WALL_COLUMNS, Walls, query_walls, walls_in
-from fctd.mechanics.state import ARCS, CYLINDERS
+from fctd.mechanics.query import WALL_COLUMNS, Walls, query_sampled, query_walls, walls_in
+from fctd.mechanics.state import ARCS, CYLINDERS, SAMPLED
 from fctd.model import survey
+from fctd.model.frames import hole_frame
 from fctd.model.pieces import (
     AROUND,
     FRICTION,
@@ -27,6 +29,8 @@ from fctd.model.pieces import (
     cylinders,
     fill_wall,
 )
+from fctd.model.sampled_hole import Sampling, least_deviation, sample, sampling_of, steepest, with_mean_radii
+from fctd.model.section import contact_radii
 from fctd.model.tortuosity import winding
 
 # Largest difference between the length of a hole's axis and the sum of its pieces [m].
@@ -37,8 +41,6 @@ LONGEST_CYLINDER = 30.0
 MOST_CYLINDERS = 1_000_000
 # No point of a string is further from the origin [m]; squares of far larger numbers overflow.
 FARTHEST = 1e7
-# Below this inclination the high side is north [rad].
-VERTICAL = np.radians(0.1)
 # Largest turn [rad] and smallest distance [m] between two rows of ``bends``; the chord of a small turn θ has the
 # curvature of its arc within θ²/24.
 SMALL_TURN, APART = 0.02, 1e-3
@@ -59,7 +61,7 @@ class Contacts(NamedTuple):
 class Wellbore:
     """A hole ready for queries.
 
-    pieces : (m, COLUMNS) table of contact.py; geometry : CYLINDERS or ARCS.
+    pieces : (m, COLUMNS) table of contact.py, with further columns of sampled.py; geometry : CYLINDERS, ARCS, SAMPLED.
     md (k,) [m], points (k, 3) [m], directions (k, 3): axis sampled at the ends of the pieces.
     Raises AssertionError for pieces that do not cover the axis.
     """
@@ -73,6 +75,7 @@ class Wellbore:
     shoe: float  # length of the transition from one interval to the next [m]
     courses: survey.Courses | None = None
     derrick: float = 0.0  # height of a first piece above the rotary table, without friction [m] (derrick.py)
+    sampling: Sampling | None = None  # of a sampled hole: the caliper, and the radii whose contact its pieces hold
 
     def __post_init__(self) -> None:
         # Pieces with a gap between them, or that end early, are a defect of the program; no later check would find it.
@@ -88,13 +91,15 @@ class Wellbore:
 
     @property
     def stiffest_wall(self) -> float:
-        """Largest wall stiffness [N/m per point, or N/m/m]."""
-        return float(self.pieces[:, contact.STIFFNESS].max())
+        """Largest wall stiffness [N/m per point, or N/m/m]; a wall that leans is stiffer (stored_walls.lean_wall)."""
+        stiffest = float(self.pieces[:, contact.STIFFNESS].max())
+        return stiffest if self.sampling is None else stiffest * (1 + steepest(self.pieces) ** 2)
 
     @cached_property
     def narrowest(self) -> float:
         """Smallest radius of the hole [m]."""
-        return float(self.intervals[:, RADIUS].min())
+        nominal = float(self.intervals[:, RADIUS].min())
+        return nominal if self.sampling is None else nominal + min(least_deviation(self.pieces), 0.0)
 
     @property
     def total_depth(self) -> float:
@@ -141,7 +146,12 @@ class Wellbore:
         """The wall over measured depth, linear between rows: columns of the intervals.
 
         Below the end of an interval the values change to the next one's over one overlap, as in cylinders and arcs.
+        Where the hole is sampled, its radius is that of the circle of the same area.
         """
+        rows = self._wall_of_intervals()
+        return rows if self.sampling is None else with_mean_radii(rows, self.pieces)
+
+    def _wall_of_intervals(self) -> Array:
         if len(self.intervals) == 1:
             return self.intervals.copy()
         above, below = self.intervals[:-1].copy(), self.intervals[1:].copy()
@@ -185,22 +195,35 @@ class Wellbore:
         down = np.minimum.accumulate(self.directions[:, 2])
         return np.where(down > 0, np.arccos(np.clip(down, -1.0, 1.0)), np.inf)
 
-    def walls(self, points: Array, near: NDArray[np.int64] | None = None) -> Walls:
+    def with_radii(self, radii: Array) -> "Wellbore":
+        """The same hole, where it is sampled with the contact of discs of these radii [m] too."""
+        if self.sampling is None or self.sampling.has(radii):
+            return self
+        sampling = self.sampling.with_radii(radii)
+        return replace(self, pieces=sample(self.pieces[:, : contact.COLUMNS], sampling), sampling=sampling)
+
+    def walls(self, points: Array, near: NDArray[np.int64] | None = None, radii: Array | None = None) -> Walls:
         """Walls beside points (n, 3) [m].
 
-        near : (n,) pieces at which the search starts, for points near those of an earlier query.
+        near : (n,) pieces at which the search starts, for points near those of an earlier query; radii (n,) : of the
+        discs whose centres they are, 0 by default [m]; the walls of sampled holes depend on them.
         """
-        return walls_in(self._query(points, near)[0])
+        return walls_in(self._query(points, near, radii)[0])
 
     def owners(self, points: Array) -> NDArray[np.int64]:
         """Index of the piece that owns each point (n, 3) [m]."""
-        return self._query(points, None)[1]
+        return self._query(points, None, None)[1]
 
-    def _query(self, points: Array, near: NDArray[np.int64] | None) -> tuple[Array, NDArray[np.int64]]:
+    def _query(
+        self, points: Array, near: NDArray[np.int64] | None, radii: Array | None
+    ) -> tuple[Array, NDArray[np.int64]]:
         points = np.ascontiguousarray(np.atleast_2d(points), dtype=float)
         owner = self.nearest(points) if near is None else near.copy()
         out = np.empty((len(points), WALL_COLUMNS))
-        query_walls(self.pieces, self.geometry, points, owner, out)
+        if self.geometry == SAMPLED:
+            query_sampled(self.pieces, points, np.zeros(len(points)) if radii is None else radii, owner, out)
+        else:
+            query_walls(self.pieces, self.geometry, points, owner, out)
         return out, owner
 
     def nearest(self, points: Array) -> NDArray[np.int64]:
@@ -225,21 +248,10 @@ def find_contacts(wellbore: Wellbore, points: Array, radii: Array | float) -> Co
     for k, axis in np.argwhere(np.abs(points) > FARTHEST)[:1].tolist():
         expected = f"a point within {FARTHEST:g} m of the origin, north, east and down"
         raise InputError(expected, key=f"points[{k}][{axis}]", value=float(points[k, axis]))
-    walls = wellbore.walls(points)
+    walls = wellbore.with_radii(radii).walls(points, radii=radii)
     distance = np.linalg.norm(walls.offset, axis=1)
     normal = walls.offset / np.maximum(distance, 1e-300)[:, None]
     return Contacts(distance - walls.radius + radii, normal, walls.md)
-
-
-def hole_frame(direction: Array) -> tuple[Array, Array]:
-    """Unit vectors to the high side and to the right looking downhole, for tangents (n, 3).
-
-    Within 0.1° of vertical the high side is north.
-    """
-    up = np.where(np.hypot(direction[:, 0], direction[:, 1])[:, None] < np.sin(VERTICAL), [[1.0, 0, 0]], [[0, 0, -1.0]])
-    high = up - np.sum(up * direction, axis=1, keepdims=True) * direction
-    high /= np.linalg.norm(high, axis=1, keepdims=True)
-    return high, np.cross(direction, high)
 
 
 def build_wellbore(case: Case) -> Wellbore:
@@ -249,23 +261,26 @@ def build_wellbore(case: Case) -> Wellbore:
     joins.
     """
     with naming_file(case):
-        return _build(case.wellbore)
+        return _build(case.wellbore, contact_radii(case.string.components))
 
 
-def _build(hole: WellboreSpec) -> Wellbore:
+def _build(hole: WellboreSpec, radii: Sequence[float]) -> Wellbore:
     stations, intervals = hole.trajectory, _intervals(hole)
     if hole.tortuosity is not None:
         _courses(hole, stations)  # names a station that no arc reaches
         stations = winding(stations, hole.tortuosity)
     ends = intervals[:, TO_MD][intervals[:, TO_MD] < stations[-1, 0]]
     courses = _courses(hole, stations) if hole.survey_method == "minimum_curvature" else None
-    if hole.geometry == "arcs":
+    sampling = None if hole.geometry != "sampled" else sampling_of(hole, intervals[:, TO_MD], radii)
+    if hole.geometry != "cylinders":
         assert courses is not None  # WellboreSpec requires the method
         # Where the hole changes, a shoe as long as the overlap of cylinders leads from one size to the next.
         shoes = np.minimum(ends + hole.overlap, stations[-1, 0])
         md = np.union1d(stations[:, 0], np.concatenate([ends, shoes]))
+        if sampling is not None:
+            md = sampling.cut(md)
         points, directions = survey.along_courses(courses, md)
-        geometry, pieces = ARCS, arcs(courses, md)
+        geometry, pieces = ARCS if sampling is None else SAMPLED, arcs(courses, md)
     else:
         md = _cylinder_ends(hole, stations, ends)
         if courses is not None:
@@ -276,8 +291,10 @@ def _build(hole: WellboreSpec) -> Wellbore:
         directions = pieces[:, contact.DIRECTION : contact.DIRECTION + 3]
         directions = np.vstack([directions, directions[-1:]])
     fill_wall(pieces, geometry, md, intervals, hole.overlap)
-    kept = courses if geometry == ARCS else None
-    return Wellbore(pieces, geometry, md, points, directions, intervals, hole.overlap, kept)
+    if sampling is not None:
+        pieces = sample(pieces, sampling)
+    kept = None if geometry == CYLINDERS else courses
+    return Wellbore(pieces, geometry, md, points, directions, intervals, hole.overlap, kept, sampling=sampling)
 
 
 def _courses(hole: WellboreSpec, stations: Array) -> survey.Courses:

@@ -10,7 +10,8 @@ from fctd.arrays import Array
 from fctd.mechanics.query import Walls
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.drillstring import String
-from fctd.model.wellbore import Wellbore, hole_frame
+from fctd.model.frames import hole_frame
+from fctd.model.wellbore import Wellbore
 from fctd.results.buckling import HELICAL_LIMIT, MODE, MODES, SINUSOIDAL_LIMIT, buckling_along, pipe_of
 from fctd.results.hanging_body import HANGING_COLUMNS, MOMENT, find_hanging
 

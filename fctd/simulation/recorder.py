@@ -190,7 +190,8 @@ class Recorder(Restorable):
     def _walls(self) -> tuple[Array, Walls]:
         """Contact points (n, 3) [m] and the walls beside them."""
         points = contact_points(self.run.S, self.run.segments)
-        return points, self.run.hole.walls(points, self.run.owner[1 : self.run.segments + 1])
+        near = self.run.owner[1 : self.run.segments + 1]
+        return points, self.run.hole.walls(points, near, self.rows(state.RADIUS))
 
     def _buckling(self, loads: Loads, walls: Walls) -> tuple[Array | None, Buckling]:
         """Limits of ``buckling_along`` and where the string is buckled; a string without a wall is not judged."""

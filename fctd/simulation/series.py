@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fctd.arrays import Array
-from fctd.model.wellbore import Wellbore, hole_frame
+from fctd.model.frames import hole_frame
+from fctd.model.wellbore import Wellbore
 from fctd.results.buckling import MODES
 from fctd.store.facts import Restorable
 

@@ -22,6 +22,7 @@ from fctd.mechanics.friction import limit_around
 from fctd.mechanics.jit import entry, kernel
 from fctd.mechanics.joints import cross
 from fctd.mechanics.laws import shares
+from fctd.mechanics.sampled import sampled_wall
 from fctd.mechanics.state import (
     ARCS,
     ARM_BOTTOM,
@@ -34,6 +35,7 @@ from fctd.mechanics.state import (
     MUD_SPIN,
     OPEN,
     RADIUS,
+    SAMPLED,
     TRIBUTARY,
     WEIGHT,
 )
@@ -61,7 +63,7 @@ def axis_at(C, geometry, i, md):
     s = md - C[i, START_MD]
     x, y, z = C[i, START], C[i, START + 1], C[i, START + 2]
     tx, ty, tz = C[i, DIRECTION], C[i, DIRECTION + 1], C[i, DIRECTION + 2]
-    k = C[i, CURVATURE] if geometry == ARCS else 0.0
+    k = C[i, CURVATURE] if geometry in (ARCS, SAMPLED) else 0.0
     angle = k * s
     if angle * angle < 1e-16:
         return x + s * tx, y + s * ty, z + s * tz, tx, ty, tz
@@ -118,7 +120,10 @@ def soft_string(S, n, C, laws, top_md, bit_tension, radius, G):
             cx, cy, cz = cross(tx, ty, tz, ux, uy, uz)
             ux, uy, uz = ux - climb * cx, uy - climb * cy, uz - climb * cz
             side *= norm
-        out = C[i, HOLE_RADIUS] - radius[j - 1] + side / (C[i, STIFFNESS] * S[TRIBUTARY + j])
+        hole = C[i, HOLE_RADIUS]
+        if laws.geometry == SAMPLED:
+            hole = sampled_wall(C, i, x + hole * ux, y + hole * uy, z + hole * uz, S[RADIUS + j]).hole
+        out = hole - radius[j - 1] + side / (C[i, STIFFNESS] * S[TRIBUTARY + j])
         G[j, OFFSET], G[j, OFFSET + 1], G[j, OFFSET + 2] = out * ux, out * uy, out * uz
         tension -= along * side
         torque += around * side * S[RADIUS + j] + S[MUD_SPIN + j] * laws.spin

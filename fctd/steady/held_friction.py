@@ -10,13 +10,13 @@ the return in units of the half axes is radial, and the sliding takes most energ
 from typing import NamedTuple
 
 from fctd.arrays import Array
-from fctd.mechanics.contact import arc_owner, cylinder_owner
+from fctd.mechanics.contact import owner_of
 from fctd.mechanics.dual import reciprocal, root
 from fctd.mechanics.friction import limit_around, turning_limit
 from fctd.mechanics.jit import entry, inlined, kernel
 from fctd.mechanics.joints import cross
 from fctd.mechanics.rotations import rotation_columns
-from fctd.mechanics.state import ARCS, ARM_BOTTOM, ARM_CONTACT, OPEN, RADIUS, TINY, TRIBUTARY
+from fctd.mechanics.state import ARM_BOTTOM, ARM_CONTACT, OPEN, RADIUS, TINY, TRIBUTARY
 from fctd.steady.block_thomas import SIZE
 from fctd.steady.pose import SPIN, in_frame, quaternion, stepped
 from fctd.steady.wall_gradient import wall_beside
@@ -89,7 +89,7 @@ def add_held_wall(S, j, P, C, owner, laws, R, D, K):
     """The same as ``wall_tangent.add_wall``, with friction that remembers."""
     memory = laws.held.memory
     x, y, z = contact_place(S, j, P)
-    i = arc_owner(C, owner[j], x, y, z) if laws.geometry == ARCS else cylinder_owner(C, owner[j], x, y, z)
+    i = owner_of(C, owner[j], laws.geometry, x, y, z)
     owner[j] = i
     radius, arm, tributary = S[RADIUS + j], S[ARM_CONTACT + j], S[TRIBUTARY + j]
     wall = wall_beside(C, i, laws.geometry, x, y, z, radius)
@@ -145,7 +145,7 @@ def remember(S, n, P, C, owner, laws):
         x, y, z = contact_place(S, j, P)
         along, around = 0.0, 0.0
         if laws.geometry != OPEN:
-            i = arc_owner(C, owner[j], x, y, z) if laws.geometry == ARCS else cylinder_owner(C, owner[j], x, y, z)
+            i = owner_of(C, owner[j], laws.geometry, x, y, z)
             owner[j] = i
             radius = S[RADIUS + j]
             wall = wall_beside(C, i, laws.geometry, x, y, z, radius)

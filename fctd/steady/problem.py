@@ -306,7 +306,7 @@ class Problem:
 
     def walls(self, contacts: Array) -> Walls:
         """Walls beside the contact points (n, ...) of ``reactions``."""
-        return self.hole.walls(contacts[:, PLACE], self.work.owner[1 : self.n + 1])
+        return self.hole.walls(contacts[:, PLACE], self.work.owner[1 : self.n + 1], self.string.contact_radius())
 
     def compressed(self, share: Share = FULL) -> Compressed:
         """The string in its pose against the buckling limits."""

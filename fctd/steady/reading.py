@@ -6,7 +6,8 @@ import numpy as np
 
 from fctd.arrays import Array
 from fctd.mechanics.jit import entry
-from fctd.mechanics.query import WALL_COLUMNS, query_walls
+from fctd.mechanics.query import WALL_COLUMNS, query_sampled, query_walls
+from fctd.mechanics.state import SAMPLED
 from fctd.results.buckling import NEITHER, ROW_COLUMNS, find_buckling
 from fctd.results.hanging_body import HANGING_COLUMNS, find_hanging
 from fctd.results.limits import LIMITS, WORST, find_shares
@@ -82,7 +83,10 @@ def read_shape(
     ``batch.Strings``; owner (n,) : pieces of the hole near the contact points.
     """
     n = len(joints)
-    query_walls(C, geometry, contacts[:, :3].copy(), owner.copy(), walls)
+    if geometry == SAMPLED:
+        query_sampled(C, contacts[:, :3].copy(), radius, owner.copy(), walls)
+    else:
+        query_walls(C, geometry, contacts[:, :3].copy(), owner.copy(), walls)
     numbers[:] = 0.0
     least = bit_tension
     for j in range(n):

@@ -22,7 +22,8 @@ import numpy as np
 from fctd.mechanics.contact import arc_wall, cylinder_wall
 from fctd.mechanics.jit import entry, inlined, kernel
 from fctd.mechanics.rotations import rotation_columns, turned
-from fctd.mechanics.state import ARCS, ARM_BOTTOM, ARM_CONTACT, ARM_TOP, OPEN, RADIUS, TINY
+from fctd.mechanics.sampled import sampled_wall
+from fctd.mechanics.state import ARCS, ARM_BOTTOM, ARM_CONTACT, ARM_TOP, OPEN, RADIUS, SAMPLED, TINY
 from fctd.steady.block_thomas import eliminate
 from fctd.steady.continuation import CONVERGED, MAX_ITERATIONS, NOT_FINITE, add_pseudo_mass, imbalance
 from fctd.steady.held_friction import remember
@@ -79,6 +80,9 @@ def find_places(S, n, P, C, owner, geometry, places):
         x, y, z = P[j, 0] + arm * zx, P[j, 1] + arm * zy, P[j, 2] + arm * zz
         if geometry == ARCS:
             rx, ry, rz, hole, _, _, _, _ = arc_wall(C, owner[j], x, y, z)
+        elif geometry == SAMPLED:
+            wall = sampled_wall(C, owner[j], x, y, z, S[RADIUS + j])
+            rx, ry, rz, hole = wall.px, wall.py, wall.pz, wall.hole
         else:
             rx, ry, rz, hole, _, _, _, _ = cylinder_wall(C, owner[j], x, y, z)
         places[j, 0], places[j, 1], places[j, 2], places[j, CLEARANCE] = rx, ry, rz, hole - S[RADIUS + j]

@@ -205,7 +205,7 @@ def _frame(problem: Problem, axis: Array) -> _Frame:
     y = np.column_stack([2 * (b * c - a * d), 1 - 2 * (b * b + d * d), 2 * (c * d + a * b)])
     z = np.column_stack([2 * (b * d + a * c), 2 * (c * d - a * b), 1 - 2 * (b * b + c * c)])
     lever = state.row(w.S, state.ARM_CONTACT, n)[:, None] * z
-    walls = problem.hole.walls(pose[:, PLACE] + lever, w.owner[1 : n + 1])
+    walls = problem.hole.walls(pose[:, PLACE] + lever, w.owner[1 : n + 1], problem.string.contact_radius())
     clearance = np.maximum(walls.radius - state.row(w.S, state.RADIUS, n), 1e-4)
     p = walls.offset - lever
     return _Frame(

@@ -27,6 +27,7 @@ from fctd.mechanics.state import (
     MUD_AXIAL,
     MUD_SPIN,
     OPEN,
+    SAMPLED,
     WEIGHT,
 )
 from fctd.steady.block_thomas import SIZE
@@ -161,7 +162,7 @@ def frictionless_tangent(S, n, P, kinks, C, owner, laws, R, D, A, U):
         laws.at_axis, laws.wall_exponent, laws.wall_reference, 0.0, laws.orthotropic, None,
     )  # fmt: skip
     assemble(S, n, P, kinks, C, owner, bare, R, D, A, U)
-    if laws.geometry == ARCS:
+    if laws.geometry in (ARCS, SAMPLED):
         for j in range(1, n + 1):
             leave_out_change_along(S, j, P, C, owner[j], laws, D)
     for j in range(2, n + 1):

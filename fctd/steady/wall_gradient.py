@@ -15,10 +15,12 @@ import numpy as np
 
 from fctd.mechanics.contact import (
     ALONE_TO,
+    CURVATURE,
     DIRECTION,
     FACTOR,
     FACTOR_AROUND,
     HOLE_RADIUS,
+    NORMAL,
     OVERLAP,
     STIFFNESS,
     arc_direction,
@@ -27,9 +29,10 @@ from fctd.mechanics.contact import (
     axis_offset,
     read_arc,
 )
-from fctd.mechanics.jit import inlined
+from fctd.mechanics.jit import inlined, kernel
 from fctd.mechanics.joints import cross
-from fctd.mechanics.state import ARCS, TINY
+from fctd.mechanics.sampled import AROUND_CELLS, deviation_at, place_beside
+from fctd.mechanics.state import ARCS, SAMPLED, TINY
 
 
 class Beside(NamedTuple):
@@ -75,6 +78,15 @@ def beside_piece(
         along_hole(tz, share * mz, tx, ty, tz),
         along_hole(around, share * around_gain, tx, ty, tz),
     )
+
+
+@inlined
+def to_centre(C, i, tx, ty, tz):
+    """Unit vector towards the centre of arc i where its direction is t."""
+    bx, by, bz = cross(
+        C[i, DIRECTION], C[i, DIRECTION + 1], C[i, DIRECTION + 2], C[i, NORMAL], C[i, NORMAL + 1], C[i, NORMAL + 2]
+    )
+    return cross(bx, by, bz, tx, ty, tz)
 
 
 @inlined
@@ -213,8 +225,74 @@ def beside_cylinders(C, i, x, y, z, radius):
 
 
 @inlined
+def in_hole(value, by_s, by_angle, s, f):
+    """A quantity with slopes along the hole and by the angle around it, whose gradients are s and f."""
+    return value, by_s * s[0] + by_angle * f[0], by_s * s[1] + by_angle * f[1], by_s * s[2] + by_angle * f[2]
+
+
+@inlined
+def leaned(a, b, along, of_a, of_b, t, s):
+    """A component of a vector with the parts a, b across the hole and ``along`` it.
+
+    of_a, of_b, t : this component of the three directions, t a quantity, the others with their slopes along the hole,
+    whose gradient is s.
+    """
+    across = total(product(a, in_hole(of_a[0], of_a[1], 0.0, s, s)), product(b, in_hole(of_b[0], of_b[1], 0.0, s, s)))
+    return total(across, product(along, t))
+
+
+@kernel
+def beside_sampled(C, i, x, y, z, radius):
+    """The wall of cell i of a sampled hole beside a point of a string of ``radius`` [m], as it presses the point.
+
+    Directions that go with the hole change along it by −κ t times their part towards the centre; the angle changes by
+    e_φ/ρ.
+    """
+    wall = beside_arc(C, i, x, y, z)
+    if C[i, AROUND_CELLS] == 0:
+        return wall
+    px, py, pz = wall.x[0], wall.y[0], wall.z[0]
+    tx, ty, tz = wall.tx[0], wall.ty[0], wall.tz[0]
+    _, _, _, _, _, _, md, _ = arc_wall(C, i, x, y, z)
+    of = place_beside(C, i, x, y, z, px, py, pz, md)
+    found = deviation_at(C, i, of.s, of.a, of.b, radius)
+    distance = np.sqrt(of.a * of.a + of.b * of.b)
+    k = 1 / (distance + TINY)
+    # ∇a and ∇b are the directions across the hole, ∇s is t times ``share``, ∇φ lies around.
+    a, b = (of.a, of.ax, of.ay, of.az), (of.b, of.bx, of.by, of.bz)
+    p, q = k * k * of.a, k * k * of.b
+    f = p * of.bx - q * of.ax, p * of.by - q * of.ay, p * of.bz - q * of.az
+    s = of.share * tx, of.share * ty, of.share * tz
+    deviation = in_hole(found.value, found.by_s, found.by_angle, s, f)
+    grip = in_hole(1 + found.grip, found.grip_by_s, found.grip_by_angle, s, f)
+    wall = Beside(
+        wall.x, wall.y, wall.z, total(wall.beyond, times(-1.0, deviation)), wall.stiffness,
+        product(grip, wall.factor), wall.tx, wall.ty, wall.tz, product(grip, wall.around),
+    )  # fmt: skip
+    if wall.beyond[0] + radius <= 0 or distance == 0:
+        return wall
+    # d = ρ − R − δ presses along ∇d = e_ρ − (∂δ/∂φ) e_φ/ρ − (∂δ/∂s) ∇s: ``sampled.sampled_wall``.
+    inverse = (k, -k * k * k * px, -k * k * k * py, -k * k * k * pz)
+    turn = product(product(inverse, inverse), in_hole(found.by_angle, found.by_s_angle, found.by_angles, s, f))
+    ga = total(product(inverse, a), product(turn, b))
+    gb = total(product(inverse, b), times(-1.0, product(turn, a)))
+    curvature, (mx, my, mz) = C[i, CURVATURE], to_centre(C, i, tx, ty, tz)
+    nearer = curvature * of.share * of.share
+    share = (of.share, nearer * mx, nearer * my, nearer * mz)
+    along = times(-1.0, product(share, in_hole(found.by_s, found.by_ss, found.by_s_angle, s, f)))
+    of_a = -curvature * (mx * of.ax + my * of.ay + mz * of.az)
+    of_b = -curvature * (mx * of.bx + my * of.by + mz * of.bz)
+    gx = leaned(ga, gb, along, (of.ax, of_a * tx), (of.bx, of_b * tx), wall.tx, s)
+    gy = leaned(ga, gb, along, (of.ay, of_a * ty), (of.by, of_b * ty), wall.ty, s)
+    gz = leaned(ga, gb, along, (of.az, of_a * tz), (of.bz, of_b * tz), wall.tz, s)
+    return leaning(wall, gx, gy, gz, radius)
+
+
+@inlined
 def wall_beside(C, i, geometry, x, y, z, radius):
     """The wall of piece i beside a point of a string of ``radius`` [m], with its gradient."""
     if geometry == ARCS:
         return beside_arc(C, i, x, y, z)
+    if geometry == SAMPLED:
+        return beside_sampled(C, i, x, y, z, radius)
     return beside_cylinders(C, i, x, y, z, radius)

@@ -10,14 +10,14 @@ from typing import Any, Final
 
 import numpy as np
 
-from fctd.mechanics.contact import arc_owner, cylinder_owner
+from fctd.mechanics.contact import RADIUS_GAIN, STIFFNESS_GAIN, owner_of
 from fctd.mechanics.dual import power, reciprocal, root
 from fctd.mechanics.friction import limit_around, turning_limit
 from fctd.mechanics.jit import inlined
 from fctd.mechanics.joints import cross
 from fctd.mechanics.laws import LAWS, dispatch, steady_load
 from fctd.mechanics.rotations import rotation_columns
-from fctd.mechanics.state import ARCS, ARM_CONTACT, GIVEN_FRICTION, RADIUS, TINY, TRIBUTARY
+from fctd.mechanics.state import ARM_CONTACT, GIVEN_FRICTION, RADIUS, TINY, TRIBUTARY
 from fctd.steady.block_thomas import SIZE
 from fctd.steady.pose import in_frame, place, quaternion, stepped
 from fctd.steady.wall_gradient import wall_beside
@@ -130,7 +130,7 @@ def add_wall(S, j, P, C, owner, laws, R, D, K):
     K (12 × DIRECTIONS, flat) : work.
     """
     x, y, z = contact_place(S, j, P)
-    i = arc_owner(C, owner[j], x, y, z) if laws.geometry == ARCS else cylinder_owner(C, owner[j], x, y, z)
+    i = owner_of(C, owner[j], laws.geometry, x, y, z)
     owner[j] = i
     wall = wall_beside(C, i, laws.geometry, x, y, z, S[RADIUS + j])
     if wall.beyond[0] + S[RADIUS + j] < 0:
@@ -152,8 +152,10 @@ def leave_out_change_along(S, j, P, C, i, laws, D):
 
     At a shoe between arcs the wall closes in along the hole but presses square to it: a move along the hole changes the
     force across it, and not the other way round.  The half of it in a symmetric part is no stiffness of the string.
-    Between cylinders the wall leans (stored_walls.lean_wall), and its force has an energy.
+    Between cylinders, and where a hole is sampled, the wall leans (stored_walls.lean_wall): its force has an energy.
     """
+    if C[i, RADIUS_GAIN] == 0 and C[i, STIFFNESS_GAIN] == 0:
+        return
     x, y, z = contact_place(S, j, P)
     wall = wall_beside(C, i, laws.geometry, x, y, z, S[RADIUS + j])
     penetration = wall.beyond[0] + S[RADIUS + j]

@@ -14,8 +14,9 @@ from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
+from fctd.model.frames import hole_frame
 from fctd.model.operations import rates_of_all
-from fctd.model.wellbore import Wellbore, build_wellbore, hole_frame
+from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.plots.tracks import side_force
 from fctd.results.buckling import MODES
 from fctd.results.status import SteadyStatus

@@ -6,7 +6,7 @@ import pytest
 from fctd import find_contacts
 from fctd.mechanics import contact
 from fctd.model.derrick import with_derrick
-from fctd.model.wellbore import hole_frame
+from fctd.model.frames import hole_frame
 from tests.cases import hole_of
 
 HEIGHT = 40.0

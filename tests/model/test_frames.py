@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from fctd.model.frames import carried_frame, steady_offsets
-from fctd.model.wellbore import hole_frame
+from fctd.model.frames import carried_frame, hole_frame, steady_offsets
 
 
 def direction(inclination: np.ndarray, azimuth: np.ndarray) -> np.ndarray:

@@ -12,7 +12,7 @@ from fctd.case.errors import InputError
 from fctd.case.surveys.stations import to_radians
 from fctd.mechanics import contact
 from fctd.model import survey, wellbore
-from fctd.model.wellbore import hole_frame
+from fctd.model.frames import hole_frame
 from tests.cases import hole_of
 
 

@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 from fctd import find_contacts
 from fctd.case.errors import InputError
 from fctd.mechanics import contact
-from fctd.model.wellbore import Wellbore, hole_frame
+from fctd.model.frames import hole_frame
+from fctd.model.wellbore import Wellbore
 from references.contact.for_loop import for_loop_owners
 from tests.cases import hole_of
 

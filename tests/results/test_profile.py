@@ -8,7 +8,8 @@ import pytest
 
 from fctd import equilibrium, simulate
 from fctd.model.drillstring import lay_out
-from fctd.model.wellbore import build_wellbore, hole_frame
+from fctd.model.frames import hole_frame
+from fctd.model.wellbore import build_wellbore
 from fctd.plots.facts import heading_of_profile
 from fctd.results.profile import Loads, place_in_words, profile_table
 from tests.cases import make_case, pipe, rotation, trip

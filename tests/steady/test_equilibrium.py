@@ -15,9 +15,10 @@ from fctd import Case, InputError, equilibrium
 from fctd.case.operations import KINDS
 from fctd.mechanics import state
 from fctd.mechanics.law_names import CODES
+from fctd.model.frames import hole_frame
 from fctd.model.operations import steady_rates
 from fctd.model.section import section_of
-from fctd.model.wellbore import build_wellbore, hole_frame
+from fctd.model.wellbore import build_wellbore
 from fctd.steady.balance import IN_THE_OPEN
 from fctd.steady.block_thomas import solve_with_pivoting
 from fctd.steady.continuation import add_pseudo_mass, take_step

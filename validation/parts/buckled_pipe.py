@@ -11,9 +11,9 @@ from fctd.arrays import Array
 from fctd.case.string import ComponentSpec
 from fctd.mechanics import state
 from fctd.mechanics.rotations import rotation_columns
+from fctd.model.frames import hole_frame
 from fctd.model.operations import steady_rates
 from fctd.model.section import section_of
-from fctd.model.wellbore import hole_frame
 from fctd.steady.continuation import CONVERGED
 from fctd.steady.equilibrium import Solver
 from fctd.steady.first_guess import MD, OFFSET, TENSION

@@ -17,8 +17,8 @@ from fctd import Case, Equilibrium
 from fctd.case.errors import InputError
 from fctd.mechanics import state
 from fctd.model import layouts
+from fctd.model.frames import hole_frame
 from fctd.model.operations import steady_rates
-from fctd.model.wellbore import hole_frame
 from fctd.results.buckling import NOT_BUCKLED
 from fctd.results.status import SteadyStatus
 from fctd.steady.attempts import TOO_MUCH

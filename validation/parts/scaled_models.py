@@ -9,7 +9,7 @@ from scipy.interpolate import CubicSpline
 
 from fctd import Case, build_wellbore, simulate
 from fctd.arrays import Array
-from fctd.model.wellbore import hole_frame
+from fctd.model.frames import hole_frame
 from references.beams.case import top_of
 from references.beams.dynamics import Lowered, generalised_alpha, lower
 from references.beams.elements import Beam

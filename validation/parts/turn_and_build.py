@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 
 from fctd import Case, build_wellbore, simulate
+from fctd.model.frames import hole_frame
 from fctd.model.section import section_of
-from fctd.model.wellbore import hole_frame
 from references.beams.cosserat import rest
 from validation.cases import load, rotation
 from validation.harness.study import Check, Context

@@ -9,8 +9,8 @@ import pandas as pd
 from fctd import Case, SimulationResult, equilibrium
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.topdrive import GRAVITY
+from fctd.model.frames import hole_frame
 from fctd.model.section import section_of
-from fctd.model.wellbore import hole_frame
 from fctd.simulation.preparation import contact_points
 from fctd.simulation.run import Run
 from fctd.simulation.simulate import Simulation

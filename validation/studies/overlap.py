@@ -5,7 +5,7 @@ import pandas as pd
 
 from fctd import build_wellbore, find_contacts
 from fctd.mechanics import state, stored_walls
-from fctd.model.wellbore import hole_frame
+from fctd.model.frames import hole_frame
 from references.contact.for_loop import for_loop_owners
 from validation.cases import load
 from validation.harness.study import Check, Context, Outcome, Study
