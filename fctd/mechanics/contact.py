@@ -189,8 +189,8 @@ def read_arc(C, i):
 
 
 @inlined
-def wall_of_arc(arc, x, y, z):
-    """Stage 3 for arcs: what ``cylinder_wall`` returns."""
+def place_on_arc(arc, x, y, z):
+    """PT [m] of an arc, the distance of its closest point along it [m]; sine, cosine and ρ of ``arc_offset``."""
     dx, dy, dz = x - arc.x, y - arc.y, z - arc.z
     tx, ty, tz, nx, ny, nz, k = arc.tx, arc.ty, arc.tz, arc.nx, arc.ny, arc.nz, arc.curvature
     bx, by, bz = cross(tx, ty, tz, nx, ny, nz)
@@ -202,12 +202,26 @@ def wall_of_arc(arc, x, y, z):
     past_middle = arc.half_cos * u - arc.half_sine * cosine
     along = past_middle * reciprocal(arc.half_cos * cosine + k * arc.half_sine * sine + rho)
     s = 0.5 * arc.length + 2 * along * arctan_ratio(k * along * k * along)
+    return px, py, pz, s, sine, cosine, rho
+
+
+@inlined
+def sizes_of_arc(arc, s):
+    """Hole radius [m], wall stiffness, friction factors along and around the string, a distance s [m] along an arc."""
     within = 0.0 if s < 0 else s
     within = arc.length if s > arc.length else within
     hole = arc.hole + within * arc.hole_gain
     stiffness = arc.stiffness + within * arc.stiffness_gain
     friction = arc.friction + within * arc.friction_gain
     around = arc.around + within * arc.around_gain
+    return hole, stiffness, friction, around
+
+
+@inlined
+def wall_of_arc(arc, x, y, z):
+    """Stage 3 for arcs: what ``cylinder_wall`` returns."""
+    px, py, pz, s, _, _, _ = place_on_arc(arc, x, y, z)
+    hole, stiffness, friction, around = sizes_of_arc(arc, s)
     return px, py, pz, hole, stiffness, friction, arc.md + s, around
 
 

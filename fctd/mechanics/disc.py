@@ -52,6 +52,9 @@ def roll_disc(wall, radius, cells, ways, grips):
     sines, cosines = np.sin(beside), np.cos(beside)
     way, normal = np.empty(count), np.empty(count)
     for row in range(sections):
+        if (wall[row] == wall[row, 0]).all():
+            ways[row], grips[row] = wall[row, 0] - radius, 0.0
+            continue
         for q in range(count):
             way[q], normal[q] = touched(wall, row, q, radius, sines, cosines)
         for k in range(cells):

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fctd.mechanics.contact import COLUMNS, CURVATURE, DIRECTION, LENGTH, NORMAL, START_MD, arc_direction, arc_wall
+from fctd.mechanics.contact import COLUMNS, LENGTH, place_on_arc, read_arc, sizes_of_arc
 from fctd.mechanics.dual import root
 from fctd.mechanics.jit import inlined, kernel
 from fctd.mechanics.joints import cross
@@ -23,7 +23,7 @@ from fctd.mechanics.joints import cross
 # count; number of cells around the hole, 0 where it is round; and then tables.
 TURN_COS, TURN_SIN, AROUND_CELLS = COLUMNS, COLUMNS + 1, COLUMNS + 2
 TABLES = COLUMNS + 3
-# Columns of a table, beside a column for each cell around the hole: the contact radius [m], deviations [m], grips.
+# Columns of a table: the contact radius [m], and of each cell around the hole the deviation [m] and the grip.
 # Radii differ by more than this [m].
 SAME_RADIUS = 1e-7
 
@@ -31,15 +31,18 @@ SAME_RADIUS = 1e-7
 class Place(NamedTuple):
     """A point beside its arc.
 
-    a, b : across the hole, from the axis along the direction from which angles count and at a right angle to it [m];
-    s : along the piece [m]; share : by how much s grows with a way along the hole there; the direction (3) of the hole,
-    and the two directions (3) across it.
+    PT (3) [m]; s : along the piece [m]; share : by how much s grows with a way along the hole there; a, b : across the
+    hole, from the axis along the direction from which angles count and at a right angle to it [m]; the direction (3) of
+    the hole, the two directions (3) across it, and that (3) towards the centre of the arc.
     """
 
-    a: float
-    b: float
+    px: float
+    py: float
+    pz: float
     s: float
     share: float
+    a: float
+    b: float
     tx: float
     ty: float
     tz: float
@@ -49,25 +52,25 @@ class Place(NamedTuple):
     bx: float
     by: float
     bz: float
+    mx: float
+    my: float
+    mz: float
 
 
 @inlined
-def place_beside(C, i, x, y, z, px, py, pz, md):
-    """The place beside piece i of a point at (x, y, z), given PT (3) [m] and its measured depth [m]."""
-    tx, ty, tz = arc_direction(C, i, x, y, z)
-    # The binormal is that of the whole arc.
-    ux, uy, uz = cross(
-        C[i, DIRECTION], C[i, DIRECTION + 1], C[i, DIRECTION + 2], C[i, NORMAL], C[i, NORMAL + 1], C[i, NORMAL + 2]
-    )
-    mx, my, mz = cross(ux, uy, uz, tx, ty, tz)
+def place_beside(C, i, arc, x, y, z):
+    """The place of a point beside piece i, which is an arc."""
+    px, py, pz, s, sine, cosine, rho = place_on_arc(arc, x, y, z)
+    share = 1 / rho
+    sine, cosine = share * sine, share * cosine
+    tx, ty, tz = cosine * arc.tx + sine * arc.nx, cosine * arc.ty + sine * arc.ny, cosine * arc.tz + sine * arc.nz
+    mx, my, mz = cosine * arc.nx - sine * arc.tx, cosine * arc.ny - sine * arc.ty, cosine * arc.nz - sine * arc.tz
+    ux, uy, uz = cross(arc.tx, arc.ty, arc.tz, arc.nx, arc.ny, arc.nz)
     c, d = C[i, TURN_COS], C[i, TURN_SIN]
     ax, ay, az = c * mx + d * ux, c * my + d * uy, c * mz + d * uz
     bx, by, bz = c * ux - d * mx, c * uy - d * my, c * uz - d * mz
-    share = 1 / (1 - C[i, CURVATURE] * (px * mx + py * my + pz * mz))
-    return Place(
-        px * ax + py * ay + pz * az, px * bx + py * by + pz * bz, md - C[i, START_MD], share,
-        tx, ty, tz, ax, ay, az, bx, by, bz,
-    )  # fmt: skip
+    a, b = px * ax + py * ay + pz * az, px * bx + py * by + pz * bz
+    return Place(px, py, pz, s, share, a, b, tx, ty, tz, ax, ay, az, bx, by, bz, mx, my, mz)
 
 
 class Deviation(NamedTuple):
@@ -94,44 +97,67 @@ def table_of(C, i, cells, radius):
     return at + 1
 
 
-@kernel
+@inlined
+def wrapped(k, cells):
+    """A number of a cell around the hole, of one from −cells to 2 cells − 1."""
+    k = k + cells if k < 0 else k
+    return k - cells if k >= cells else k
+
+
+@inlined
+def along(upper, own, lower, first, third):
+    """A value between cells, of those above and below and this one, by the weights of the first and the third."""
+    return own + first * (upper - own) + third * (lower - own)
+
+
+@inlined
+def along_slope(upper, own, lower, first, third):
+    """The slope of a value between cells, by the slopes of the weights."""
+    return first * (upper - own) + third * (lower - own)
+
+
+@inlined
+def of_row(C, i, columns, weights):
+    """A value around the hole, of three cells of row i."""
+    return weights[0] * C[i, columns[0]] + weights[1] * C[i, columns[1]] + weights[2] * C[i, columns[2]]
+
+
+@inlined
 def deviation_at(C, i, s, a, b, radius):
     """The deviation for a contact radius [m] beside piece i, a distance s [m] along it and at the direction (a, b)."""
-    cells = int(C[i, AROUND_CELLS])
+    cells, length = int(C[i, AROUND_CELLS]), C[i, LENGTH]
     at = table_of(C, i, cells, radius)
     above, below = max(i - 1, 0), min(i + 1, C.shape[0] - 1)
-    length = C[i, LENGTH]
+    # Weights of the cells above and below, of pieces that may differ in length; then their slopes.
     u = min(max(s / length, 0.0), 1.0)
     p, q = length / (C[above, LENGTH] + length), length / (length + C[below, LENGTH])
-    first, third = p * (1 - u) ** 2, q * u * u
-    first_slope, third_slope = -2 * p * (1 - u) / length, 2 * q * u / length
-    first_bend, third_bend = 2 * p / (length * length), 2 * q / (length * length)
+    first, third = p * (1 - u) * (1 - u), q * u * u
+    falls, rises = -2 * p * (1 - u) / length, 2 * q * u / length
     per_angle = cells / (2 * np.pi)
     around = np.arctan2(b, a) * per_angle + 0.5
     k = int(np.floor(around))
     t = around - k
-    before, here, after = 0.5 * (1 - t) ** 2, 0.5 + t - t * t, 0.5 * t * t
-    value = by_s = by_angle = by_ss = by_s_angle = by_angles = grip = grip_by_s = grip_by_angle = 0.0
-    for step in range(3):
-        column = at + (k + step - 1 + cells) % cells
-        weight = before if step == 0 else here if step == 1 else after
-        slope = per_angle * (t - 1 if step == 0 else 1 - 2 * t if step == 1 else t)
-        bend = per_angle * per_angle * (-2.0 if step == 1 else 1.0)
-        upper, own, lower = C[above, column], C[i, column], C[below, column]
-        along = own + first * (upper - own) + third * (lower - own)
-        along_slope = first_slope * (upper - own) + third_slope * (lower - own)
-        value += weight * along
-        by_s += weight * along_slope
-        by_angle += slope * along
-        by_ss += weight * (first_bend * (upper - own) + third_bend * (lower - own))
-        by_s_angle += slope * along_slope
-        by_angles += bend * along
-        upper, own, lower = C[above, column + cells], C[i, column + cells], C[below, column + cells]
-        along = own + first * (upper - own) + third * (lower - own)
-        grip += weight * along
-        grip_by_s += weight * (first_slope * (upper - own) + third_slope * (lower - own))
-        grip_by_angle += slope * along
-    return Deviation(value, by_s, by_angle, by_ss, by_s_angle, by_angles, grip, grip_by_s, grip_by_angle)
+    columns = at + 2 * wrapped(k - 1, cells), at + 2 * wrapped(k, cells), at + 2 * wrapped(k + 1, cells)
+    weights = 0.5 * (1 - t) * (1 - t), 0.5 + t - t * t, 0.5 * t * t
+    slopes = per_angle * (t - 1), per_angle * (1 - 2 * t), per_angle * t
+    bends = per_angle * per_angle, -2 * per_angle * per_angle, per_angle * per_angle
+    values = of_row(C, above, columns, weights), of_row(C, i, columns, weights), of_row(C, below, columns, weights)
+    turned = of_row(C, above, columns, slopes), of_row(C, i, columns, slopes), of_row(C, below, columns, slopes)
+    bent = of_row(C, above, columns, bends), of_row(C, i, columns, bends), of_row(C, below, columns, bends)
+    columns = columns[0] + 1, columns[1] + 1, columns[2] + 1
+    grips = of_row(C, above, columns, weights), of_row(C, i, columns, weights), of_row(C, below, columns, weights)
+    grips_turned = of_row(C, above, columns, slopes), of_row(C, i, columns, slopes), of_row(C, below, columns, slopes)
+    return Deviation(
+        value=along(*values, first, third),
+        by_s=along_slope(*values, falls, rises),
+        by_angle=along(*turned, first, third),
+        by_ss=along_slope(*values, 2 * p / (length * length), 2 * q / (length * length)),
+        by_s_angle=along_slope(*turned, falls, rises),
+        by_angles=along(*bent, first, third),
+        grip=along(*grips, first, third),
+        grip_by_s=along_slope(*grips, falls, rises),
+        grip_by_angle=along(*grips_turned, first, third),
+    )
 
 
 class SampledWall(NamedTuple):
@@ -154,22 +180,21 @@ class SampledWall(NamedTuple):
 @kernel
 def sampled_wall(C, i, x, y, z, radius):
     """Stage 3 in a sampled hole: the wall of piece i beside a point of a string with a contact radius [m]."""
-    px, py, pz, hole, stiffness, friction, md, around = arc_wall(C, i, x, y, z)
+    arc = read_arc(C, i)
+    of = place_beside(C, i, arc, x, y, z)
+    px, py, pz, md = of.px, of.py, of.pz, arc.md + of.s
+    hole, stiffness, friction, around = sizes_of_arc(arc, of.s)
     if C[i, AROUND_CELLS] == 0:
         return SampledWall(px, py, pz, hole, stiffness, friction, around, md, px, py, pz)
-    of = place_beside(C, i, x, y, z, px, py, pz, md)
     found = deviation_at(C, i, of.s, of.a, of.b, radius)
-    distance = root(of.a * of.a + of.b * of.b)
     grip = 1 + found.grip
     gx, gy, gz = px, py, pz
-    if distance > 0:
+    square = of.a * of.a + of.b * of.b
+    if square > 0:
         # ∇d = e_ρ − (∂δ/∂φ) e_φ/ρ − (∂δ/∂s) t, of a penetration d = ρ − R − δ(s, φ) + r.
-        turn = found.by_angle / (distance * distance)
-        ga, gb = of.a / distance + turn * of.b, of.b / distance - turn * of.a
-        along = found.by_s * of.share
-        gx = ga * of.ax + gb * of.bx - along * of.tx
-        gy = ga * of.ay + gb * of.by - along * of.ty
-        gz = ga * of.az + gb * of.bz - along * of.tz
-    return SampledWall(
-        px, py, pz, hole + found.value, stiffness, grip * friction, grip * around, md, gx, gy, gz
-    )  # fmt: skip
+        k, turn, rise = 1 / root(square), found.by_angle / square, found.by_s * of.share
+        ga, gb = k * of.a + turn * of.b, k * of.b - turn * of.a
+        gx = ga * of.ax + gb * of.bx - rise * of.tx
+        gy = ga * of.ay + gb * of.by - rise * of.ty
+        gz = ga * of.az + gb * of.bz - rise * of.tz
+    return SampledWall(px, py, pz, hole + found.value, stiffness, grip * friction, grip * around, md, gx, gy, gz)

@@ -193,7 +193,7 @@ def sample(pieces: Array, sampling: Sampling) -> Array:
         deviation = ways + radius - nominal[known, None]
         deviation[np.abs(deviation) < ROUND] = 0.0
         at = sampled.TABLES + k * size + 1
-        table[known, at : at + cells], table[known, at + cells : at + 2 * cells] = deviation, grips
+        table[known, at : at + 2 * cells : 2], table[known, at + 1 : at + 2 * cells : 2] = deviation, grips
         is_round &= (deviation == 0).all(axis=1) & (grips == 0).all(axis=1)
     uneven = np.zeros(len(pieces), np.bool_)
     uneven[known] = ~is_round
@@ -206,7 +206,7 @@ def deviations(pieces: Array) -> tuple[Array, NDArray[np.int64]]:
     """Deviations (m, cells) of the wall itself [m], of the cells that are not round, and their rows (m,)."""
     (rows,) = np.nonzero(pieces[:, sampled.AROUND_CELLS])
     cells = int(pieces[:, sampled.AROUND_CELLS].max())
-    return pieces[rows, sampled.TABLES + 1 : sampled.TABLES + 1 + cells], rows
+    return pieces[rows, sampled.TABLES + 1 : sampled.TABLES + 1 + 2 * cells : 2], rows
 
 
 def least_deviation(pieces: Array) -> float:
@@ -240,7 +240,7 @@ def steepest(pieces: Array) -> float:
     cells = int(pieces[rows[0], sampled.AROUND_CELLS])
     size, worst = 1 + 2 * cells, 0.0
     for at in range(sampled.TABLES, pieces.shape[1], size):
-        radius, of = pieces[0, at], pieces[:, at + 1 : at + 1 + cells]
+        radius, of = pieces[0, at], pieces[:, at + 1 : at + 1 + 2 * cells : 2]
         apart = 0.5 * (pieces[rows[1:], contact.LENGTH] + pieces[rows[:-1], contact.LENGTH])
         along = np.abs(of[rows[1:]] - of[rows[:-1]]).max(axis=1) / apart
         way = np.maximum(pieces[rows, contact.HOLE_RADIUS][:, None] + of[rows] - radius, SHORTEST_WAY)

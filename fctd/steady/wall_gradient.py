@@ -20,7 +20,6 @@ from fctd.mechanics.contact import (
     FACTOR,
     FACTOR_AROUND,
     HOLE_RADIUS,
-    NORMAL,
     OVERLAP,
     STIFFNESS,
     arc_direction,
@@ -78,15 +77,6 @@ def beside_piece(
         along_hole(tz, share * mz, tx, ty, tz),
         along_hole(around, share * around_gain, tx, ty, tz),
     )
-
-
-@inlined
-def to_centre(C, i, tx, ty, tz):
-    """Unit vector towards the centre of arc i where its direction is t."""
-    bx, by, bz = cross(
-        C[i, DIRECTION], C[i, DIRECTION + 1], C[i, DIRECTION + 2], C[i, NORMAL], C[i, NORMAL + 1], C[i, NORMAL + 2]
-    )
-    return cross(bx, by, bz, tx, ty, tz)
 
 
 @inlined
@@ -251,10 +241,8 @@ def beside_sampled(C, i, x, y, z, radius):
     wall = beside_arc(C, i, x, y, z)
     if C[i, AROUND_CELLS] == 0:
         return wall
-    px, py, pz = wall.x[0], wall.y[0], wall.z[0]
-    tx, ty, tz = wall.tx[0], wall.ty[0], wall.tz[0]
-    _, _, _, _, _, _, md, _ = arc_wall(C, i, x, y, z)
-    of = place_beside(C, i, x, y, z, px, py, pz, md)
+    of = place_beside(C, i, read_arc(C, i), x, y, z)
+    px, py, pz, tx, ty, tz, mx, my, mz = of.px, of.py, of.pz, of.tx, of.ty, of.tz, of.mx, of.my, of.mz
     found = deviation_at(C, i, of.s, of.a, of.b, radius)
     distance = np.sqrt(of.a * of.a + of.b * of.b)
     k = 1 / (distance + TINY)
@@ -276,7 +264,7 @@ def beside_sampled(C, i, x, y, z, radius):
     turn = product(product(inverse, inverse), in_hole(found.by_angle, found.by_s_angle, found.by_angles, s, f))
     ga = total(product(inverse, a), product(turn, b))
     gb = total(product(inverse, b), times(-1.0, product(turn, a)))
-    curvature, (mx, my, mz) = C[i, CURVATURE], to_centre(C, i, tx, ty, tz)
+    curvature = C[i, CURVATURE]
     nearer = curvature * of.share * of.share
     share = (of.share, nearer * mx, nearer * my, nearer * mz)
     along = times(-1.0, product(share, in_hole(found.by_s, found.by_ss, found.by_s_angle, s, f)))
