@@ -148,10 +148,11 @@ class Wellbore:
         Below the end of an interval the values change to the next one's over one overlap, as in cylinders and arcs.
         Where the hole is sampled, its radius is that of the circle of the same area.
         """
-        rows = self._wall_of_intervals()
+        rows = self.nominal_wall()
         return rows if self.sampling is None else with_mean_radii(rows, self.pieces)
 
-    def _wall_of_intervals(self) -> Array:
+    def nominal_wall(self) -> Array:
+        """``wall_along`` with the radii of the intervals, also where the hole is sampled."""
         if len(self.intervals) == 1:
             return self.intervals.copy()
         above, below = self.intervals[:-1].copy(), self.intervals[1:].copy()
@@ -209,6 +210,17 @@ class Wellbore:
         discs whose centres they are, 0 by default [m]; the walls of sampled holes depend on them.
         """
         return walls_in(self._query(points, near, radii)[0])
+
+    def radii_towards(self, md: Array, towards: Array) -> Array:
+        """Radii (k, m) [m] of the hole at measured depths (k,) [m] in directions across it (k, m, 3)."""
+        if self.sampling is None:
+            rows = self.wall_along()
+            radii = np.interp(md, rows[:, TO_MD], rows[:, RADIUS])
+            return np.broadcast_to(radii[:, None], towards.shape[:2])
+        inside = np.clip(md, self.md[0], self.md[-1])
+        points = self.at(inside)[0][:, None] + self.narrowest * towards
+        near = np.searchsorted(self.pieces[:, contact.START_MD], inside, side="right") - 1
+        return self.walls(points.reshape(-1, 3), np.repeat(near, towards.shape[1])).radius.reshape(towards.shape[:2])
 
     def owners(self, points: Array) -> NDArray[np.int64]:
         """Index of the piece that owns each point (n, 3) [m]."""

@@ -44,7 +44,7 @@ def _points(S, n, points):
 
 @entry
 def _store(S, n, radii, penetration, normal, md, wall):
-    """Write queried walls; hole radius, stiffness and friction come from ``wall`` (Wellbore.wall_along)."""
+    """Write queried walls; hole radius, stiffness and friction come from ``wall`` (Wellbore.nominal_wall)."""
     last = wall.shape[0] - 1
     for j in range(1, n + 1):
         k = j - 1
@@ -95,7 +95,7 @@ class QueriedWall:
 
     def __init__(self, method: WallQuery, hole: Wellbore, segments: int) -> None:
         self.name, self._method = method.name, method
-        self._wall = hole.wall_along()
+        self._wall = hole.nominal_wall()  # of its radii the penetration does not depend
         self._segments = segments
         self._points = np.empty((segments, 3))
 

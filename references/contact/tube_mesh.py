@@ -1,7 +1,8 @@
 """The hole as a triangle mesh: a tube of flat facets between rings on the axis of the hole.
 
-Vertices lie on the wall, so facets lie inside it: by the sagitta r(1 − cos π/n) across the hole and by κℓ²/8 along
-the outside of a bend.  Normals point out of the hole, both ends are open.
+Vertices lie on the wall, also on that of a sampled hole.  So facets of a round hole lie inside it: by the sagitta
+r(1 − cos π/n) across the hole and by κℓ²/8 along the outside of a bend.  Normals point out of the hole, both ends are
+open.
 """
 
 from dataclasses import dataclass
@@ -16,7 +17,7 @@ from fctd.arrays import Array
 from fctd.case import units
 from fctd.case.errors import InputError, Table
 from fctd.case.load import Case
-from fctd.model.pieces import RADIUS, RUN_OUT, TO_MD
+from fctd.model.pieces import RUN_OUT, TO_MD
 from fctd.model.wellbore import Contacts, Wellbore, build_wellbore
 from references.registry import import_optional
 
@@ -135,11 +136,10 @@ def build_tube(case: Case, options: TubeOptions) -> Tube:
             value=f"{2.0 * options.facets * len(md):.3g} triangles",
         )
     centres, across, aside = _ring_frames(hole, md)
-    knots = hole.wall_along()
-    radius = np.interp(md, knots[:, TO_MD], knots[:, RADIUS])
     angle = 2 * np.pi * np.arange(options.facets) / options.facets
     spokes = np.cos(angle)[:, None] * across[:, None] + np.sin(angle)[:, None] * aside[:, None]
-    vertices = (centres[:, None] + radius[:, None, None] * spokes).reshape(-1, 3)
+    radius = hole.radii_towards(md, spokes)
+    vertices = (centres[:, None] + radius[:, :, None] * spokes).reshape(-1, 3)
     mesh = trimesh.Trimesh(vertices, _faces(len(md), options.facets), process=False, validate=False)
     tube = Tube(mesh, options, md, centres, float(radius.max()))
     check_tube(tube)
