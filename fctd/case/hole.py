@@ -10,14 +10,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self, get_args
+from typing import Any, Literal, Self, get_args
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BeforeValidator, Field, PrivateAttr, ValidationInfo, field_validator, model_validator
+from pydantic import Field, PrivateAttr, ValidationInfo, field_validator, model_validator
 
 from fctd.case import units
+from fctd.case.calipers.caliper import Caliper, CaliperSpec
 from fctd.case.errors import MISSING, InputError, Table, exclusive, known_keys
+from fctd.case.file_names import FileName
 from fctd.case.input_warnings import InputWarning
 from fctd.case.surveys import doubts
 from fctd.case.surveys.form import SURVEY, ColumnKey, ColumnSpec
@@ -25,16 +27,7 @@ from fctd.case.surveys.reading import read_survey
 from fctd.case.surveys.smoothing import smooth
 from fctd.case.surveys.stations import StationKey, Survey, Written, check
 from fctd.case.tables.headers import Choice
-from fctd.case.text import is_utf8
 from fctd.case.wall import IntervalSpec, TortuositySpec
-
-
-def _as_path(raw: object) -> object:
-    """A file name as a path; pydantic would refuse a string that is not UTF-8, which a file name may be."""
-    return Path(raw) if isinstance(raw, str) and not is_utf8(raw) else raw
-
-
-FileName = Annotated[Path, BeforeValidator(_as_path)]
 
 
 @dataclass
@@ -44,6 +37,14 @@ class _Trajectory:
     source: tuple[object, ...] = field(default=(), compare=False)
     stations: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 3)), compare=False)
     warnings: tuple[InputWarning, ...] = field(default=(), compare=False)
+
+
+@dataclass
+class _Measured:
+    """The caliper, cached, and the table it comes from; all are equal, so that holes compare by keys."""
+
+    source: CaliperSpec | None = field(default=None, compare=False)
+    caliper: Caliper | None = field(default=None, compare=False)
 
 
 class WellboreSpec(Table):
@@ -58,7 +59,8 @@ class WellboreSpec(Table):
     With `geometry` "arcs" the hole follows the circular arcs between the stations. With "cylinders" it is cut into
     straight pieces of `cylinder_length`, or so short that their chords deviate from the arc by at most
     `chord_tolerance`; neighbouring cylinders overlap by `overlap` [m]. Where the diameter of the hole changes, arcs
-    use `overlap` as the length of the shoe.
+    use `overlap` as the length of the shoe. With "sampled" the wall lies on the arcs where `caliper` measured it, in
+    cells of the length `cell` [m]; elsewhere the hole is that of arcs.
     """
 
     survey: FileName | None = Field(
@@ -77,7 +79,9 @@ class WellboreSpec(Table):
     survey_smoothing: units.Smoothing | None = None
     tortuosity: TortuositySpec | None = None
     survey_method: Literal["average_angle", "minimum_curvature"] = "minimum_curvature"
-    geometry: Literal["cylinders", "arcs"] = "cylinders"
+    geometry: Literal["cylinders", "arcs", "sampled"] = "cylinders"
+    caliper: CaliperSpec | None = None
+    cell: units.CellLength = 0.1
     cylinder_length: units.PositiveLength | None = None
     chord_tolerance: units.PositiveLength | None = Field(
         default_factory=lambda given: 0.002 if given["cylinder_length"] is None else None
@@ -89,6 +93,7 @@ class WellboreSpec(Table):
     )
     intervals: tuple[IntervalSpec, ...] = Field(description="tables [[wellbore.intervals]]")
     _trajectory: _Trajectory = PrivateAttr(default_factory=_Trajectory)
+    _measured: _Measured = PrivateAttr(default_factory=_Measured)
 
     @field_validator("columns", mode="before")
     @classmethod
@@ -125,8 +130,11 @@ class WellboreSpec(Table):
                 raise InputError(f"{key} only beside survey", key=key)
         if self.tortuosity is not None and self.survey_method != "minimum_curvature":
             raise InputError("minimum_curvature beside tortuosity", key="survey_method", value=self.survey_method)
-        if self.geometry == "arcs" and self.survey_method != "minimum_curvature":
-            raise InputError("cylinders, since arcs need survey_method minimum_curvature", key="geometry")
+        if self.geometry != "cylinders" and self.survey_method != "minimum_curvature":
+            raise InputError(f"cylinders, since {self.geometry} need survey_method minimum_curvature", key="geometry")
+        for key in ("caliper", "cell"):
+            if self.geometry != "sampled" and getattr(self, key) != type(self).model_fields[key].default:
+                raise InputError(f'"sampled" beside {key}', key="geometry", value=self.geometry)
         if self.stations is not None:
             self._resolve()
         if not self.intervals:
@@ -155,9 +163,24 @@ class WellboreSpec(Table):
         """Probable mistakes in the stations of survey file or case; read and kept as `trajectory` is."""
         return self._read_trajectory().warnings
 
+    @property
+    def calipers(self) -> Caliper | None:
+        """The radii that were measured, None without a caliper; read and kept as `trajectory` is.
+
+        Raises InputError for a file that cannot be used.
+        """
+        if self.caliper is None:
+            return None
+        if self._measured.source != self.caliper:
+            try:
+                self._measured = _Measured(self.caliper, self.caliper.read())
+            except InputError as error:
+                raise (error.at("wellbore.caliper") if error.file is None else error) from None
+        return self._measured.caliper
+
     def share_trajectory(self, other: WellboreSpec) -> None:
-        """Take the stations that another hole has read, if it has; they count where the keys of both are the same."""
-        self._trajectory = other._trajectory
+        """Take the stations and the caliper that another hole has read; they count where the keys of both are equal."""
+        self._trajectory, self._measured = other._trajectory, other._measured
 
     def _read_trajectory(self) -> _Trajectory:
         source = (self.survey, self.columns, self.sheet, self.stations, self.survey_smoothing)
@@ -173,6 +196,13 @@ class WellboreSpec(Table):
         """The same hole, with the stations of a copy of its survey file."""
         read, here = self.model_copy(update={"survey": copy})._read_trajectory(), self.model_copy()
         here._trajectory = _Trajectory((self.survey, *read.source[1:]), read.stations, read.warnings)
+        return here
+
+    def caliper_from(self, copy: Path) -> Self:
+        """The same hole, with the rows of a copy of its caliper file."""
+        assert self.caliper is not None  # there is a copy of its file
+        here = self.model_copy()
+        here._measured = _Measured(self.caliper, self.caliper.model_copy(update={"log": copy}).read())
         return here
 
     def _resolve(self) -> Survey:

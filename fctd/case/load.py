@@ -13,8 +13,9 @@ from pydantic import Field, PrivateAttr, field_validator, model_validator
 from fctd.case.doubts import warnings_of
 from fctd.case.drilling import BitSpec
 from fctd.case.errors import MISSING, InputError, Table, naming, nearest
+from fctd.case.file_names import FileName
 from fctd.case.fluids import TemperatureSpec, check_temperature
-from fctd.case.hole import FileName, WellboreSpec
+from fctd.case.hole import WellboreSpec
 from fctd.case.input_file import read_toml
 from fctd.case.input_warnings import InputWarning
 from fctd.case.limits import LimitsSpec

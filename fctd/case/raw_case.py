@@ -16,6 +16,9 @@ from fctd.case.friction import pick, split_factor
 from fctd.case.input_file import read_toml
 from fctd.case.text import is_utf8
 
+# Keys of files: their names need not be UTF-8, and a typed one is relative to the current folder.
+FILE_KEYS: Final = "wellbore.survey", "wellbore.caliper.log"
+
 
 def split_key(key: str) -> list[str | int]:
     """ "operations[0].speed" or "operations.0.speed" as ["operations", 0, "speed"]; "" as [].
@@ -74,7 +77,7 @@ def parse_override(text: str) -> tuple[str, Any]:
         raise InputError("key=value", value=text)
     if not written:
         return key, None
-    if key != "wellbore.survey" and not is_utf8(written):  # only file names need not be UTF-8
+    if key not in FILE_KEYS and not is_utf8(written):  # only file names need not be UTF-8
         raise InputError("a value in UTF-8", key=key, value=written)
     try:
         table = tomllib.loads(f"value = {written}")
@@ -91,7 +94,7 @@ def apply_override(raw: dict[str, Any], key: str, value: Any) -> None:
     elif key == "rotational_friction":
         for i, factor in _of_intervals(raw, value):
             set_key(raw, f"wellbore.intervals[{i}].{key}", factor)
-    elif key == "wellbore.survey" and isinstance(value, str | os.PathLike) and os.path.exists(value):
+    elif key in FILE_KEYS and isinstance(value, str | os.PathLike) and os.path.exists(value):
         set_key(raw, key, os.path.abspath(value))  # a typed path is relative to the current folder
     else:
         set_key(raw, key, value)

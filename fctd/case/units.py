@@ -309,6 +309,7 @@ MeasuredDepth = Annotated[float, Quantity(dimension=LENGTH)]
 Length = Annotated[float, Quantity(dimension=LENGTH, at_least=0.0)]
 PositiveLength = Annotated[float, Quantity(dimension=LENGTH, above=0.0)]
 # A joint of range 3 has up to 14 m.
+CellLength = Annotated[float, Quantity(dimension=LENGTH, at_least=0.01, at_most=10.0)]
 JointLength = Annotated[
     float, Quantity(dimension=LENGTH, above=0.0, at_most=20.0, likely_units=(LikelyUnit(20, 60, " ft"),))
 ]

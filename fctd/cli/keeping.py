@@ -60,6 +60,7 @@ MemoryLimit = Annotated[
         show_default=False,
     ),
 ]  # fmt: skip
+COPIED = "survey", "caliper"  # files that a run keeps a copy of
 BYTES = {"kB": 1e3, "MB": 1e6, "GB": 1e9, "KiB": 2.0**10, "MiB": 2.0**20, "GiB": 2.0**30}
 
 
@@ -192,10 +193,10 @@ def _refuse_changes(target: Path, about: Mapping[str, Any]) -> None:
 def description_of(
     case: Case, program: str, command: str, options: Mapping[str, Any], identity: str
 ) -> tuple[dict[str, Any], dict[str, bytes]]:
-    """What ``RunFolder.describe`` takes of a run that begins: its description, and a copy of the survey."""
+    """What ``RunFolder.describe`` takes of a run that begins: its description, and copies of survey and caliper."""
     files = files_of(case)
-    survey = files.get("survey")
-    copies = {} if survey is None else {f"survey{survey.suffix}": survey.read_bytes()}
+    kept = {name: files[name] for name in COPIED if name in files}
+    copies = {f"{name}{path.suffix}": path.read_bytes() for name, path in kept.items()}
     about = {
         "command": command, "program": program, "case": case.model_dump(mode="json"), "options": dict(options),
         "files": {name: str(path) for name, path in files.items()}, "origin": origin_of(files, hash_of_sources()),
@@ -206,13 +207,18 @@ def description_of(
 
 def files_of(case: Case) -> dict[str, Path]:
     """The files that a case was read from, absolute, by what they are."""
-    files = {"case file": case.file, "survey": case.wellbore.survey}
+    caliper = case.wellbore.caliper
+    files = {
+        "case file": case.file, "survey": case.wellbore.survey, "caliper": None if caliper is None else caliper.log,
+    }  # fmt: skip
     return {name: path.absolute() for name, path in files.items() if path is not None}
 
 
 def case_of(folder: Path, about: Mapping[str, Any]) -> Case:
-    """The case of a run as it began, with the stations of the survey as they were then; folder : of the run."""
+    """The case of a run as it began, with survey and caliper as they were then; folder : of the run."""
     case = Case.model_validate(about["case"])
     for copy in about["copies"]:
-        case = case.model_copy(update={"wellbore": case.wellbore.read_from(folder / copy)})
+        hole = case.wellbore
+        read = hole.caliper_from if Path(copy).stem == "caliper" else hole.read_from
+        case = case.model_copy(update={"wellbore": read(folder / copy)})
     return case

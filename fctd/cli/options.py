@@ -180,9 +180,10 @@ def refuse_source_files(case: Case, paths: Iterable[Path], key: str, others: Ite
     """Raise InputError where one of the files is the case file, its survey, or one of the others that are read."""
     read = [other for other in others if other is not None and other.exists()]
     for path in paths:
-        for source in (case.file, case.wellbore.survey):
+        caliper = case.wellbore.caliper
+        for source in (case.file, case.wellbore.survey, None if caliper is None else caliper.log):
             if source is not None and path.exists() and path.samefile(source):
-                raise InputError("another file than the case and its survey", key=key, value=path)
+                raise InputError("another file than the case, its survey and its caliper", key=key, value=path)
         for other in read:
             if path.exists() and path.samefile(other):
                 raise InputError(f"another file than {other}, which this command reads", key=key, value=path)

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd.arrays import Array
-from fctd.case.caliper import Caliper
+from fctd.case.calipers.caliper import Caliper
 from fctd.case.hole import WellboreSpec
 from fctd.mechanics import contact, sampled
 from fctd.mechanics.disc import roll_disc
@@ -123,7 +123,7 @@ def wall_around(radii: Array, first: Array, angles: Array) -> Array:
     t, following = place - k, (k + 1) % arms
 
     def of(values: Array, column: NDArray[np.int64]) -> Array:
-        return np.take_along_axis(values, column, axis=1)
+        return np.asarray(np.take_along_axis(values, column, axis=1))
 
     here, there = of(radii, k), of(radii, following)
     bend = (there - here) * t * t * (3 - 2 * t)
@@ -182,7 +182,7 @@ def sample(pieces: Array, sampling: Sampling) -> Array:
     measured, first_arm = in_cells(sampling.caliper, top, bottom)
     (known,) = np.nonzero(~np.isnan(nominal) & ~np.isnan(measured).any(axis=1))
     start = reference_angles(pieces, sampling.caliper.reference)[known] + first_arm[known]
-    angles: Array = 2 * np.pi / (POINTS * cells) * np.arange(POINTS * cells)
+    angles = np.linspace(0.0, 2 * np.pi, POINTS * cells, endpoint=False)
     wall = wall_around(measured[known], start, angles)
     is_round = np.ones(len(known), np.bool_)
     for k, radius in enumerate(sampling.radii):

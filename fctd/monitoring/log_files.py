@@ -1,12 +1,12 @@
 """Series in Parquet tables, LAS files and WITSML logs."""
 
-import io
 from collections.abc import Sequence
 from pathlib import Path
 
 import pandas as pd
 
 from fctd.case.errors import InputError
+from fctd.case.tables import las
 from fctd.case.tables.headers import Choices, find_columns, with_units
 from fctd.case.tables.rows import Rows
 from fctd.case.xml_file import child, read_xml, tag, text_of
@@ -25,17 +25,8 @@ def read_parquet(path: Path, choices: Choices) -> pd.DataFrame:
 
 
 def read_las(text: str, choices: Choices) -> pd.DataFrame:
-    """The rows [SI] of a LAS file.  Raises InputError where the package lasio is missing."""
-    try:
-        import lasio
-    except ModuleNotFoundError as error:
-        raise InputError("the package lasio for LAS files (pip install lasio, or the extra fctd[las])") from error
-    try:
-        las = lasio.read(io.StringIO(text))
-    except Exception as error:  # lasio raises errors of many kinds
-        raise InputError(f"a LAS file that lasio can read ({error})") from error
-    cells = pd.DataFrame({k: curve.data for k, curve in enumerate(las.curves)})
-    return _convert(cells, [c.mnemonic for c in las.curves], [c.unit for c in las.curves], choices)
+    """The rows [SI] of a LAS file; see ``fctd.case.tables.las``."""
+    return Converter().take(las.read_las(text, SERIES, choices))
 
 
 def read_witsml_log(text: str, choices: Choices) -> pd.DataFrame:

@@ -10,12 +10,9 @@ import pandas as pd
 from fctd.case.errors import InputError, nearest
 from fctd.case.operations import KINDS
 from fctd.case.tables.headers import no_unit
-from fctd.case.tables.rows import Numbers, Rows
+from fctd.case.tables.rows import NOTHING, NULLS, Numbers, Rows
 from fctd.monitoring.quantities import BY_DEPTH, OVER_TIME, QUANTITIES, SERIES
 
-# Values that stand for none in LAS and WITSML logs.
-NULLS: Final = (-999.25, -999.0, -9999.0, -9999.25, -99999.0)
-NOTHING: Final = ("", "nan", "null", "n/a", "inf", "-inf")
 _DATE: Final = re.compile(r"\d[-/:T]\d")  # or a time of day
 _TIME_OF_DAY: Final = re.compile(r"\d{1,2}:\d{2}")
 # More than this share of rows that go back in time is a series in another order.

@@ -164,7 +164,7 @@ def test_a_string_without_an_answer_is_exit_code_1_and_no_file(
         (("--out", "fine.txt"), ["--out", "fine.txt", ".toml"]),
         (("--operation", "trip"), ['--operation = "trip"', "the kind trip_in"]),
         (("--bit-depth", "950 m"), ["tiny.toml", '--bit-depth = "950 m"', "900 m"]),
-        (("--out", "tiny.toml"), ["--out", "tiny.toml", "another file than the case and its survey"]),
+        (("--out", "tiny.toml"), ["--out", "tiny.toml", "another file than the case, its survey and its caliper"]),
         (("--most", "3"), ["--most = 3", "16 to 10000"]),
     ],
 )

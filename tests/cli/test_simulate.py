@@ -82,7 +82,7 @@ def test_results_never_take_the_place_of_the_survey(small_file: Path, tmp_path: 
     survey.write_text("md_m,inc_deg,azi_deg\n0,0,0\n1000,0,0\n")
     read = ("--set", "wellbore.stations=", "--set", f"wellbore.survey={survey}")
     assert (
-        f'--out = "{survey}": expected another file than the case and its survey'
+        f'--out = "{survey}": expected another file than the case, its survey and its caliper'
         in cli("simulate", small_file, *read, "--out", tmp_path, "--csv", "--quiet", code=2).err
     )
     assert "1000,0,0" in survey.read_text()
@@ -94,7 +94,7 @@ def test_results_never_take_the_place_of_the_case(name: str, small_file: Path, c
     out.mkdir()
     case = small_file.rename(out / name)
     assert (
-        f'--out = "{case}": expected another file than the case and its survey'
+        f'--out = "{case}": expected another file than the case, its survey and its caliper'
         in cli("simulate", case, "--out", out, "--csv", "--quiet", code=2).err
     )
     assert case.read_text() == SMALL

@@ -49,7 +49,7 @@ def test_the_survey_is_not_written_over(command: str, case_file: Path, tmp_path:
     options = (CHART if command == "chart" else POINT) | {"--out": str(tmp_path / "." / "hole.csv")}
     given = [*(part for pair in options.items() for part in pair), *settings("wellbore.stations=")]
     assert (
-        "another file than the case and its survey"
+        "another file than the case, its survey and its caliper"
         in cli(command, case_file, *given, *settings(f"wellbore.survey={survey}"), code=2).err
     )
     assert survey.read_text().startswith("md_m")
@@ -67,7 +67,7 @@ def test_nor_by_a_side_file_or_a_picture(
     options |= {"--plot": str(tmp_path / "hole.png")} if option == "--plot" else {}
     given = [*(part for pair in options.items() for part in pair), *settings("wellbore.stations=")]
     assert (
-        f'{option} = "{survey}": expected another file than the case and its survey'
+        f'{option} = "{survey}": expected another file than the case, its survey and its caliper'
         in cli(command, case_file, *given, *settings(f"wellbore.survey={survey}"), code=2).err
     )
     assert survey.read_text().startswith("md_m")

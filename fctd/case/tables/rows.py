@@ -13,6 +13,9 @@ from fctd.arrays import Array
 from fctd.case.errors import MISSING, InputError
 from fctd.case.tables.fields import Column
 
+# Values that stand for none in LAS and WITSML logs.
+NULLS: Final = (-999.25, -999.0, -9999.0, -9999.25, -99999.0)
+NOTHING: Final = ("", "nan", "null", "n/a", "inf", "-inf")
 _PLAIN: Final = re.compile(r"[-+.\deE]*", re.ASCII)
 _NUMBER: Final = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
 _NOT_FINITE: Final = re.compile(r"[+-]?(?:nan|inf|infinity)", re.IGNORECASE)
