@@ -72,7 +72,7 @@ RULES: list[tuple[str, Any, str]] = [
     ("wellbore.stations[1][1]", 181, "an inclination from 0 to 180 deg"),
     ("wellbore.stations[1]", [9, 0, 0, 0], "at most 3 values"),
     ("wellbore.survey_method", "tangent", "'average_angle' or"),
-    ("wellbore.geometry", "tubes", "'cylinders' or 'arcs'"),
+    ("wellbore.geometry", "tubes", "'cylinders', 'arcs' or 'sampled'"),
     ("wellbore.chord_tolerance", 0, "a length above 0"),
     ("wellbore.cylinder_length", "0 m", "a length above 0"),
     ("wellbore.overlap", "-1 mm", "a length at least 0"),

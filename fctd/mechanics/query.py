@@ -23,7 +23,7 @@ from fctd.mechanics.contact import (
 )
 from fctd.mechanics.jit import entry, inlined, kernel
 from fctd.mechanics.sampled import sampled_wall
-from fctd.mechanics.state import ARCS, LANES
+from fctd.mechanics.state import CYLINDERS, LANES
 
 # Points of one arc in a packed operation; with one or two points it does not pay.
 TOGETHER, FEW = 64, 2
@@ -125,12 +125,14 @@ def query_arcs(C, points, owner, out):
 def query_walls(C, geometry, points, owner, out):
     """Walls beside free points.  points : (n, 3) [m]; owner : (n,) first guess in, owner out.
 
+    Where a hole is sampled they are those of its arcs: ``query_sampled`` has those of its cells.
+
     out : (n, WALL_COLUMNS); ``walls_in`` gives its columns by name.
     """
-    if geometry == ARCS:
-        query_arcs(C, points, owner, out)
-    else:
+    if geometry == CYLINDERS:
         query_cylinders(C, points, owner, out)
+    else:
+        query_arcs(C, points, owner, out)
 
 
 @entry

@@ -15,6 +15,7 @@ from fctd.case.load import Case, naming_file
 from fctd.case.wall import IntervalSpec
 from fctd.mechanics import contact
 from fctd.mechanics.query import WALL_COLUMNS, Walls, query_sampled, query_walls, walls_in
+from fctd.mechanics.sampled import AROUND_CELLS
 from fctd.mechanics.state import ARCS, CYLINDERS, SAMPLED
 from fctd.model import survey
 from fctd.model.frames import hole_frame
@@ -94,6 +95,11 @@ class Wellbore:
         """Largest wall stiffness [N/m per point, or N/m/m]; a wall that leans is stiffer (stored_walls.lean_wall)."""
         stiffest = float(self.pieces[:, contact.STIFFNESS].max())
         return stiffest if self.sampling is None else stiffest * (1 + steepest(self.pieces) ** 2)
+
+    @property
+    def is_round(self) -> bool:
+        """Whether every section of the hole is a circle of its interval's size."""
+        return self.sampling is None or not self.pieces[:, AROUND_CELLS].any()
 
     @cached_property
     def narrowest(self) -> float:

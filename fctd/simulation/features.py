@@ -179,6 +179,12 @@ FEATURES: dict[str, Feature] = {
         "friction that differs along and around the hole", "the factor of the interval's friction",
         (INTERVAL + "rotational_friction",), _at_wall(_orthotropic),
     ),
+    "caliper": Feature(
+        "holes that are not round", "none",
+        (*(f"wellbore.caliper.{key}" for key in (
+            "log", "rows", "values", "reference", "first_arm", "columns.header", "columns.unit")), "wellbore.cell"),
+        _at_wall(lambda run: None if run.hole.is_round else ("wellbore.caliper", "a table")),
+    ),
     "cake": Feature(
         "mud cake", "no overbalance",
         (INTERVAL + "overbalance", "mud.cake.thickness", "mud.cake.time", "mud.cake.friction", "mud.cake.rested"),

@@ -10,9 +10,9 @@ from fctd.model import survey
 
 
 def largest_chord(case: Case) -> float:
-    """Largest distance between a cylinder and the hole's axis [m]; 0 in a hole of arcs."""
+    """Largest distance between a cylinder and the hole's axis [m]; 0 in one of arcs."""
     hole = case.wellbore
-    if hole.geometry == "arcs":
+    if hole.geometry != "cylinders":
         return 0.0
     if hole.cylinder_length is None:
         assert hole.chord_tolerance is not None  # a case has one of the two

@@ -126,7 +126,7 @@ def refine(
 def _refine_hole(case: Case, task: Task, allowed: float) -> list[Level]:
     """Levels of ever shorter cylinders, until their error is allowed; empty for a hole without cylinders."""
     levels: list[Level] = []
-    if case.wellbore.geometry == "arcs" or not case.contact.enabled:
+    if case.wellbore.geometry != "cylinders" or not case.contact.enabled:
         return levels
     for segments in IN_HOLE:
         cut = _cut(case, task, "uniform", layouts.divided_length(case, task.bit_depth) / segments)

@@ -123,7 +123,7 @@ REFUSED: Final[list[tuple[str, Any, str]]] = [
         "one of the keys to_md, diameter, friction, rotational_friction, kind, name, stiffness, stiffness_per_length, "
         "static_friction, decay_speed, overbalance",
     ),
-    ("wellbore.geometry", "arc", "'cylinders' or 'arcs'"),
+    ("wellbore.geometry", "arc", "'cylinders', 'arcs' or 'sampled'"),
     ("string", None, "a table [string]"),
     ("string.components", {"name": "pipe"}, "a list of tables, the name of each in double brackets: [[name]]"),
     ("string.components[2].outer_diameter", None, "a length such as '12 m' or '40 ft'"),

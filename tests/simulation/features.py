@@ -181,6 +181,16 @@ CROSSED: dict[str, Crossed] = {
         ),
         "surface_torque_max_N_m",
     ),
+    "caliper": Crossed(
+        lambda on: case(
+            wellbore=_hole(
+                _interval(),
+                geometry="sampled",
+                caliper={"rows": [[md, 0.2159, 0.26 if on else 0.2159] for md in (10, 390)]},
+            )
+        ),
+        "total_contact_force_N",
+    ),
     "overpull": Crossed(lambda on: case(bit={"overpull": 1e5} if on else {}), "hookload_N"),
     "fluids": Crossed(
         lambda on: case(

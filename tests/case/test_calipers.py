@@ -1,0 +1,122 @@
+"""Calipers: tables and files, what their arms stand for, and what is refused."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from fctd import InputError
+from fctd.case.calipers.caliper import Caliper
+from tests.calipers import bent_case
+from tests.cases import make_case
+
+ROWS = [[520, 0.22, 0.25], [540, 0.23, 0.24], [560, 0.22, 0.22]]
+INCH = 0.0254
+
+
+def caliper(**keys: Any) -> Caliper:
+    found = bent_case("sampled", caliper=keys).wellbore.calipers
+    assert found is not None
+    return found
+
+
+def written(folder: Path, text: str, name: str = "caliper.csv", **keys: Any) -> Caliper:
+    (folder / name).write_text(text)
+    return caliper(log=folder / name, **keys)
+
+
+def refused(**keys: Any) -> str:
+    with pytest.raises((InputError, ValueError)) as error:
+        caliper(**keys)
+    return str(error.value)
+
+
+@given(
+    st.integers(1, 16), st.sampled_from(["diameter", "radius"]), st.floats(0, 6.28),
+    st.sampled_from(["north", "high_side"]), st.integers(0, 2**31),
+)  # fmt: skip
+def test_rows_become_radii_at_angles(arms: int, values: str, first: float, reference: str, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    md, sizes = 520 + np.cumsum(rng.uniform(0.1, 5, 4)), rng.uniform(0.15, 0.5, (4, arms))
+    rows = np.column_stack([md, sizes]).tolist()
+    found = caliper(rows=rows, values=values, first_arm=first, reference=reference)
+    np.testing.assert_array_equal(found.md, md)
+    radii = sizes if values == "radius" else 0.5 * sizes
+    if arms > 2 and values == "diameter":  # each on both sides
+        radii = np.hstack([radii, radii])
+    np.testing.assert_array_equal(found.radii, radii)
+    step = {1: 0.0, 2: np.pi / 2}.get(arms, 2 * np.pi / radii.shape[1])
+    np.testing.assert_allclose(found.angles[2], first + step * np.arange(radii.shape[1]))
+    assert found.reference == reference
+
+
+def test_a_file_has_its_units_gaps_and_orientation(tmp_path: Path) -> None:
+    text = "MD (ft),C1 (in),C2 (in),P1AZ (deg)\n1800,8.5,9,90\n1801,-999.25,9,90\n1802,8.5,,180\n"
+    found = written(tmp_path, text)
+    np.testing.assert_allclose(found.md, 0.3048 * np.array([1800, 1801, 1802]))
+    np.testing.assert_allclose(found.radii, 0.5 * INCH * np.array([[8.5, 9], [np.nan, 9], [8.5, np.nan]]))
+    np.testing.assert_allclose(np.degrees(found.angles), [[90, 180], [90, 180], [180, 270]])
+
+
+def test_a_log_in_las_is_read(tmp_path: Path) -> None:
+    pytest.importorskip("lasio")
+    text = (
+        "~Version\nVERS. 2.0:\nWRAP. NO:\n~Well\nSTRT.M 520:\nSTOP.M 521:\nSTEP.M 0.5:\nNULL. -999.25:\n"
+        "~Curve\nDEPT.M :\nGR.GAPI :\nHCAL.IN :\n~ASCII\n520 40 8.6\n520.5 41 -999.25\n521 39 8.7\n"
+    )
+    found = written(tmp_path, text, "log.las")
+    np.testing.assert_allclose(found.radii[:, 0], 0.5 * INCH * np.array([8.6, np.nan, 8.7]))
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ({"rows": [ROWS[0]]}, "two rows or more"),
+        ({"rows": [ROWS[0], [540, 0.2]]}, "rows[1] = [540.0, 0.2]: expected a depth and 2 values"),
+        ({"rows": [[520], [540]]}, "a depth and 1 to 16 values"),
+        ({"rows": [ROWS[1], ROWS[0]]}, 'rows[1] = "520 m": expected a depth below that of the row above, 540 m'),
+        ({"rows": [ROWS[0], [540, -0.2, 0.2]]}, "a diameter above 0"),
+        ({"rows": [ROWS[0], [540, 8.5, 8.5]]}, "check the unit"),
+        ({"rows": ROWS, "values": "width"}, "'diameter' or 'radius'"),
+        ({"rows": ROWS, "columns": {"md": "MD"}}, "columns only beside log"),
+        ({"rows": ROWS, "log": "caliper.csv"}, "log or rows, not both"),
+        ({}, "log or rows"),
+    ],
+)
+def test_wrong_rows_are_refused_in_one_sentence(keys: dict[str, Any], words: str) -> None:
+    assert words in refused(**keys)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("md_m,arm1\n520,0.2\n530,0.2\n", "a header with its unit"),
+        ("md_m,gamma\n520,0.2\n530,0.2\n", "column arm1_in"),
+        ("md_m,arm1_in\n520,8.5\n", "two rows or more"),
+        ("md_m,arm1_in\n520,8.5\n530,wide\n", "a number"),
+        ("md_m,arm1_in\n520,8.5\n530,-8.5\n", "a diameter above 0"),
+        ("md_m,arm1_m\n520,8.5\n530,8.5\n", "check the unit"),
+        ("md_m,arm1_in,arm3_in\n520,8.5,8\n530,8.5,8\n", "column arm2"),
+        ("md_m,arm1_in\n520,8.5\n510,8.5\n", "a depth below that of the row above, 520 m"),
+    ],
+)
+def test_wrong_files_are_refused_with_their_place(tmp_path: Path, text: str, words: str) -> None:
+    (tmp_path / "caliper.csv").write_text(text)
+    with pytest.raises(InputError) as error:
+        caliper(log=tmp_path / "caliper.csv")
+    assert words in str(error.value)
+    assert "caliper.csv" in str(error.value)
+
+
+@pytest.mark.parametrize(("key", "value"), [("caliper", {"rows": ROWS}), ("cell", 0.2)])
+def test_other_geometries_have_no_caliper(key: str, value: object) -> None:
+    with pytest.raises(ValueError, match=f'"sampled" beside {key}'):
+        bent_case("arcs", **{key: value})
+
+
+def test_a_sampled_hole_needs_arcs() -> None:
+    with pytest.raises(ValueError, match="sampled need survey_method minimum_curvature"):
+        make_case(wellbore={"geometry": "sampled", "survey_method": "average_angle"})

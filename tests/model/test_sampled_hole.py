@@ -1,0 +1,108 @@
+"""Cells of a sampled hole: what the arms measured lies where they measured it."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from fctd.arrays import Array
+from fctd.mechanics import contact, sampled
+from fctd.model.frames import hole_frame
+from fctd.model.sampled_hole import in_cells, turns, wall_around
+from fctd.model.wellbore import build_wellbore
+from tests.calipers import BEND, BORE, FIRST, LAST, bent_case, bent_hole, rough, sampled_hole
+from tests.cases import make_case, pipe
+
+
+def test_the_reference_direction_goes_with_the_hole_without_turning_about_it() -> None:
+    """From piece to piece it is the same vector; a step along the hole turns it about the hole by nothing."""
+    hole = sampled_hole(rough(1))
+    pieces, turn = hole.pieces, turns(hole.pieces)
+    tangent = pieces[:, contact.DIRECTION : contact.DIRECTION + 3]
+    normal = pieces[:, contact.NORMAL : contact.NORMAL + 3]
+    binormal = np.cross(tangent, normal)
+    angle = pieces[:, contact.CURVATURE] * pieces[:, contact.LENGTH]
+    at_end = np.cos(angle)[:, None] * normal - np.sin(angle)[:, None] * tangent
+    starts = np.cos(turn)[:, None] * normal + np.sin(turn)[:, None] * binormal
+    ends = np.cos(turn)[:, None] * at_end + np.sin(turn)[:, None] * binormal
+    np.testing.assert_allclose(ends[:-1], starts[1:], atol=1e-7)
+
+
+@pytest.mark.parametrize("reference", ["high_side", "north"])
+def test_an_oval_hole_is_widest_where_the_caliper_says(reference: str) -> None:
+    """40° clockwise from the high side, or from north, in hole that builds and turns."""
+    rows = [[md, 0.30, 0.2159] for md in np.arange(FIRST, LAST, 5.0)]
+    given = {"rows": rows, "reference": reference, "first_arm": np.radians(40)}
+    hole = build_wellbore(bent_case("sampled", caliper=given))
+    md, tangent = np.array([560.0, 700.0, 940.0]), hole.at(np.array([560.0, 700.0, 940.0]))[1]
+    up, right = hole_frame(tangent)
+    if reference == "north":
+        up = np.array([1.0, 0, 0]) - tangent[:, :1] * tangent
+        up /= np.linalg.norm(up, axis=1)[:, None]
+        right = np.cross(tangent, up)
+    for turn, radius in ((40, 0.15), (130, 0.10795), (220, 0.15), (310, 0.10795)):
+        towards = np.cos(np.radians(turn)) * up + np.sin(np.radians(turn)) * right
+        found = hole.radii_towards(md, towards[:, None])[:, 0]
+        np.testing.assert_allclose(found, radius, atol=6e-4)  # flattened by cells of 10° around the hole
+
+
+def test_casing_and_gaps_keep_the_size_of_their_interval() -> None:
+    """The caliper begins in casing, has a gap, and ends above total depth."""
+    sizes = [[md, 0.26] for md in (*range(460, 640, 4), *range(700, 900, 4))]
+    rows = [*sizes[:45], [640, 0.26], [641, 0.26], *sizes[45:]]
+    hole = build_wellbore(bent_case("sampled", caliper={"rows": sorted(rows)}))
+    wall = hole.walls(hole.at(np.array([480.0, 560.0, 950.0]))[0])
+    np.testing.assert_allclose(wall.radius, [0.15, 0.13, 0.5 * BORE], atol=1e-9)
+
+
+def test_cells_have_the_mean_of_the_rows_in_them() -> None:
+    caliper = bent_case("sampled", caliper={"rows": [[520, 0.2], [521, 0.3], [522, 0.2], [524, 0.2]]}).wellbore.calipers
+    assert caliper is not None
+    means, _ = in_cells(caliper, np.array([520.0, 520.5, 521.5]), np.array([522.0, 521.5, 524.0]))
+    np.testing.assert_allclose(means[:, 0], [0.125, 0.1375, 0.5 * (0.2 + 0.1 * 0.5 * 0.25 / 2.5)])
+
+
+@given(st.integers(3, 16), st.integers(0, 2**31))
+@settings(max_examples=30)
+def test_around_the_hole_the_wall_has_its_extremes_at_the_arms(arms: int, seed: int) -> None:
+    radii = np.random.default_rng(seed).uniform(0.1, 0.2, (3, arms))
+    first = np.array([0.0, 1.0, -2.0])
+    around = wall_around(radii, first, np.linspace(0, 2 * np.pi, 720))
+    for k in range(3):
+        at = wall_around(radii[k : k + 1], first[k : k + 1], first[k] + 2 * np.pi / arms * np.arange(arms))
+        np.testing.assert_allclose(at[0], radii[k], atol=1e-12)
+        assert radii[k].min() - 1e-12 <= around[k].min() <= around[k].max() <= radii[k].max() + 1e-12
+
+
+def test_the_wall_along_a_hole_has_circles_of_the_same_area() -> None:
+    """π a b of an oval."""
+    hole = build_wellbore(bent_case("sampled", caliper={"rows": [[FIRST, 0.30, 0.24], [LAST, 0.30, 0.24]]}))
+    rows = hole.wall_along()
+    inside = (rows[:, 0] > FIRST + 1) & (rows[:, 0] < LAST - 1)
+    np.testing.assert_allclose(rows[inside, 1], np.sqrt(0.15 * 0.12), rtol=2e-3)
+    assert hole.narrowest == pytest.approx(0.5 * BORE)  # above and below the caliper
+
+
+def test_a_hole_is_as_narrow_as_its_caliper_says() -> None:
+    narrow = [[FIRST, 0.216], [700, 0.216], [701, 0.12], [703, 0.12], [704, 0.216], [LAST, 0.216]]
+    case = make_case(BEND, [pipe(1000, 100)], wellbore=dict(bent_case("sampled", caliper={"rows": narrow}).wellbore))
+    assert build_wellbore(case).narrowest == pytest.approx(0.06, abs=1e-3)
+
+
+def test_points_of_any_radius_are_asked() -> None:
+    """Radii that no component has get tables of their own."""
+    hole = sampled_hole(rough(3))
+    assert hole.sampling is not None
+    other = hole.with_radii(np.array([0.05, 0.0635]))
+    assert other.sampling is not None
+    assert set(other.sampling.radii) == {0.0, 0.05, 0.0635}
+    assert other.with_radii(np.array([0.05])) is other
+    assert bent_hole("arcs").with_radii(np.array([0.05])).sampling is None
+
+
+def test_memory_of_a_kilometre() -> None:
+    """Of one radius beside the wall itself, in cells of 0.1 m."""
+    hole = sampled_hole(rough(4))
+    assert hole.pieces.nbytes / (LAST - FIRST) * 1000 < 30e6
+    cells: Array = hole.pieces[:, sampled.AROUND_CELLS]
+    assert cells.max() == 36
