@@ -186,10 +186,10 @@ CROSSED: dict[str, Crossed] = {
             wellbore=_hole(
                 _interval(),
                 geometry="sampled",
-                caliper={"rows": [[md, 0.2159, 0.26 if on else 0.2159] for md in (10, 390)]},
+                caliper={"rows": [[md, 0.2159, 0.4 if on else 0.2159] for md in (10, 390)]},
             )
         ),
-        "total_contact_force_N",
+        "gravity_J",
     ),
     "overpull": Crossed(lambda on: case(bit={"overpull": 1e5} if on else {}), "hookload_N"),
     "fluids": Crossed(
