@@ -40,6 +40,29 @@ def drag(tables: Tables, force: Axes, direction: Axes) -> None:
 
 
 @figure(
+    "washed_out_hole",
+    name="hole",
+    caption=(
+        "An S-shaped well with a washout, a ledge, rough hole, a key seat and an oval section: its smallest and largest "
+        "radius, and the circle of equal area that drilling programs assume (top). Force with which the turning string "
+        "is pressed onto the wall, in windows of 10 m (bottom)."
+    ),
+)
+@style.panels(4.8, 2, 1, sharex=True)
+def hole(tables: Tables, size: Axes, force: Axes) -> None:
+    """Radii of the hole over depth, and side force by each method."""
+    wall, found = tables["wall"], tables["windows"]
+    size.fill_between(wall["md_m"], 1e3 * wall["least_m"], 1e3 * wall["largest_m"], color=style.SHADE, label="wall")
+    size.plot(wall["md_m"], 1e3 * wall["equal_area_m"], **style.line(0), label="circle of equal area")
+    size.set(ylabel="radius, mm")
+    size.legend(loc="upper right")
+    for index, method in enumerate(found.columns[1:]):
+        force.step(found["from_md_m"], found[method] / 1e3, where="post", **style.line(index), label=method)
+    force.set(xlabel="measured depth, m", ylabel="side force in 10 m, kN", ylim=(0, None))
+    style.legend_above(force)
+
+
+@figure(
     "cylinder_error",
     name="errors",
     caption=(

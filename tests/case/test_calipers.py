@@ -35,7 +35,7 @@ def refused(**keys: Any) -> str:
 
 
 @given(
-    st.integers(1, 16), st.sampled_from(["diameter", "radius"]), st.floats(0, 6.28),
+    st.integers(1, 64), st.sampled_from(["diameter", "radius"]), st.floats(0, 6.28),
     st.sampled_from(["north", "high_side"]), st.integers(0, 2**31),
 )  # fmt: skip
 def test_rows_become_radii_at_angles(arms: int, values: str, first: float, reference: str, seed: int) -> None:
@@ -76,7 +76,7 @@ def test_a_log_in_las_is_read(tmp_path: Path) -> None:
     [
         ({"rows": [ROWS[0]]}, "two rows or more"),
         ({"rows": [ROWS[0], [540, 0.2]]}, "rows[1] = [540.0, 0.2]: expected a depth and 2 values"),
-        ({"rows": [[520], [540]]}, "a depth and 1 to 16 values"),
+        ({"rows": [[520], [540]]}, "a depth and 1 to 64 values"),
         ({"rows": [ROWS[1], ROWS[0]]}, 'rows[1] = "520 m": expected a depth below that of the row above, 540 m'),
         ({"rows": [ROWS[0], [540, -0.2, 0.2]]}, "a diameter above 0"),
         ({"rows": [ROWS[0], [540, 8.5, 8.5]]}, "check the unit"),

@@ -14,6 +14,7 @@ STUDIES: dict[str, str] = {
     "cylinder_ringing": "validation.studies.cylinder_ringing",
     "overlap": "validation.studies.overlap",
     "ownership": "validation.studies.ownership",
+    "washed_out_hole": "validation.studies.washed_out_hole",
     "contact_operations": "validation.studies.contact_operations",
     "rock_stiffness": "validation.studies.rock_stiffness",
     "long_segment": "validation.studies.long_segment",

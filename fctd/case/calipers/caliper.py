@@ -6,7 +6,7 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final, Literal, Self, get_args
+from typing import Any, Final, Literal, Self
 
 import numpy as np
 from pydantic import Field, ValidationInfo, field_validator, model_validator
@@ -21,9 +21,7 @@ from fctd.case.surveys.form import ColumnKey, ColumnSpec
 from fctd.case.tables.headers import Choice
 
 Reference = Literal["high_side", "north"]
-CaliperKey = Literal["md", "orientation", "arm1", "arm2", "arm3", "arm4", "arm5", "arm6", "arm7", "arm8", "arm9",
-                     "arm10", "arm11", "arm12", "arm13", "arm14", "arm15", "arm16"]  # fmt: skip
-_KEYS: Final = get_args(CaliperKey)
+_KEYS: Final = ("md", "orientation", *ARMS)
 
 
 @dataclass(frozen=True)
@@ -59,7 +57,7 @@ class CaliperSpec(Table):
     values: Literal["diameter", "radius"] = "diameter"
     reference: Reference = "high_side"
     first_arm: units.Angle = 0.0
-    columns: dict[CaliperKey, ColumnKey] | None = Field(
+    columns: dict[str, ColumnKey] | None = Field(
         default=None, description='headers of the file, or their units: {arm1 = {header = "HCAL", unit = "in"}}'
     )
 
@@ -70,7 +68,7 @@ class CaliperSpec(Table):
 
     @field_validator("columns")
     @classmethod
-    def _check_units(cls, columns: dict[CaliperKey, ColumnSpec] | None) -> dict[CaliperKey, ColumnSpec] | None:
+    def _check_units(cls, columns: dict[str, ColumnSpec] | None) -> dict[str, ColumnSpec] | None:
         for key, column in (columns or {}).items():
             field = CALIPER.field(key)
             if column.unit is not None and field.unit_of(column.unit) is None:

@@ -10,7 +10,7 @@ from fctd.case.tables.fields import Field
 from fctd.case.tables.headers import TableForm
 from fctd.case.units import ANGLE, LENGTH, Quantity
 
-MOST_ROWS, MOST_ARMS = 200_000, 16
+MOST_ROWS, MOST_ARMS = 200_000, 64
 ARMS: Final = tuple(f"arm{k}" for k in range(1, MOST_ARMS + 1))
 _NAMES: Final = ("arm", "c", "cal", "cali", "caliper", "r", "rad", "radius", "d", "diam", "diameter", "hcal")
 # The curve of a log with one.
