@@ -6,6 +6,7 @@ import numpy as np
 from rich.box import SIMPLE_HEAD
 from rich.table import Column, Table
 
+from fctd.case.calipers.caliper import Caliper
 from fctd.case.friction import factors_label
 from fctd.case.load import Case, naming_file
 from fctd.case.text import counted, printable
@@ -55,6 +56,8 @@ def _print(summary: Summary, units: System) -> None:
     screen.print(printable(summary.case.name), style="bold")
     screen.print(_facts(_path(summary, units, metre)))
     screen.print(_hole(summary.case, metre, across))
+    if summary.case.wellbore.calipers is not None:
+        screen.print(_facts(_caliper(summary.case.wellbore.calipers, metre, across)))
     screen.print(_string(summary, metre, across, force))
     screen.print(_facts(_loads(summary, units, force)))
 
@@ -111,6 +114,19 @@ def _hole(case: Case, metre: Shown, across: Shown) -> Table:
         table.add_row(_name(interval.name, k), interval.kind or "–", *cells)
         start = interval.to_md
     return table
+
+
+def _caliper(caliper: Caliper, metre: Shown, across: Shown) -> list[Row]:
+    md, size = caliper.md * metre.factor, 2 * caliper.radii * across.factor
+    arms = "round" if size.shape[1] == 1 else "an oval" if size.shape[1] == 2 else f"{size.shape[1]} radii"
+    depths = f"{metre.label}, {counted(len(md), 'row')}, {arms}"
+    missing = int(np.isnan(size).any(axis=1).sum())
+    sizes = f"{np.nanmin(size):.4g} to {np.nanmax(size):.4g}"
+    return [
+        ("caliper", f"{md[0]:.1f} to {md[-1]:.1f}", depths),
+        ("diameter", sizes, f"{across.label}, {np.nanmean(size):.4g} in the mean"),
+        *([("without a value", str(missing), "rows, where the hole has its interval's size")] if missing else []),
+    ]
 
 
 def _string(summary: Summary, metre: Shown, across: Shown, force: Shown) -> Table:

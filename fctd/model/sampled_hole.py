@@ -127,7 +127,7 @@ def wall_around(radii: Array, first: Array, angles: Array) -> Array:
 
     here, there = of(radii, k), of(radii, following)
     bend = (there - here) * t * t * (3 - 2 * t)
-    return here + bend + of(slope, k) * t * (1 - t) ** 2 - of(slope, following) * t * t * (1 - t)
+    return np.asarray(here + bend + of(slope, k) * t * (1 - t) ** 2 - of(slope, following) * t * t * (1 - t))
 
 
 def cells_around(radius: float) -> int:

@@ -43,9 +43,9 @@ def drag(tables: Tables, force: Axes, direction: Axes) -> None:
     "washed_out_hole",
     name="hole",
     caption=(
-        "An S-shaped well with a washout, a ledge, rough hole, a key seat and an oval section: its smallest and largest "
-        "radius, and the circle of equal area that drilling programs assume (top). Force with which the turning string "
-        "is pressed onto the wall, in windows of 10 m (bottom)."
+        "An S-shaped well with a washout, a ledge, rough hole, a key seat and an oval section: its smallest and "
+        "largest radius, and the circle of equal area that drilling programs assume (top). Force with which the "
+        "turning string is pressed onto the wall, in windows of 10 m (bottom)."
     ),
 )
 @style.panels(4.8, 2, 1, sharex=True)

@@ -120,3 +120,35 @@ def test_other_geometries_have_no_caliper(key: str, value: object) -> None:
 def test_a_sampled_hole_needs_arcs() -> None:
     with pytest.raises(ValueError, match="sampled need survey_method minimum_curvature"):
         make_case(wellbore={"geometry": "sampled", "survey_method": "average_angle"})
+
+
+MD = np.arange(520.0, 990.0, 1.0)
+
+
+def doubted(sizes: Any, md: Any = MD, **keys: Any) -> dict[str, str]:
+    case = bent_case("sampled", caliper={"rows": np.column_stack([md, sizes]).tolist(), **keys})
+    found: dict[str, str] = {}
+    for warning in case.warnings:
+        if warning.key == "wellbore.caliper":
+            found[warning.code] = found.get(warning.code, "") + str(warning)
+    return found
+
+
+def test_a_plausible_caliper_is_not_doubted() -> None:
+    assert doubted(0.2159 + 0.01 * np.abs(np.sin(MD))) == {}
+    assert doubted(np.where((MD > 700) & (MD < 730), 0.35, 0.22)) == {}
+
+
+@pytest.mark.parametrize(
+    ("code", "sizes", "md", "words"),
+    [
+        ("caliper_size", np.full(len(MD), 0.108), MD, "diameters or radii"),
+        ("caliper_size", np.full(len(MD), 0.55), MD, "check the unit"),
+        ("caliper_gauge", np.where(MD == 700, 0.20, 0.22), MD, "200 mm at 700 m"),
+        ("caliper_spike", np.where(MD == 700, 0.35, 0.22), MD, "1 row that differ"),
+        ("caliper_depth", np.full(len(MD), 0.22), MD / 0.3048, "probably feet"),
+        ("caliper_depth", np.full(len(MD), 0.22), MD + 1000, "no row lies in open hole"),
+    ],
+)
+def test_a_caliper_that_does_not_fit_is_doubted(code: str, sizes: Any, md: Any, words: str) -> None:
+    assert words in doubted(sizes, md)[code]

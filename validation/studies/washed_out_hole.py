@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from fctd import Case, build_wellbore, equilibrium, find_contacts, simulate
 from fctd.arrays import Array
@@ -42,7 +43,7 @@ def in_time(context: Context, seconds: float) -> tuple[pd.DataFrame, pd.DataFram
     _, wall = radii()
     rows: list[dict[str, Any]] = []
     forces: list[pd.DataFrame] = []
-    methods = {SAMPLED: (wall, None), CIRCLE: (equal_areas(wall), None)}
+    methods: dict[str, tuple[Array, int | None]] = {SAMPLED: (wall, None), CIRCLE: (equal_areas(wall), None)}
     if not context.quick:
         methods |= {name: (wall, facets) for name, facets in MESHES.items()}
     for name, (measured, facets) in context.progress(methods.items(), "methods"):
@@ -104,7 +105,7 @@ def places(context: Context) -> Rows:
         }  # fmt: skip
 
 
-def _rms(error: Array, of: Array) -> float:
+def _rms(error: Array, of: NDArray[np.bool_]) -> float:
     return float(np.sqrt((error[of] ** 2).mean()))
 
 
@@ -139,7 +140,7 @@ def _wall() -> pd.DataFrame:
 def _notes() -> list[str]:
     return [
         f"Loads are means from {SETTLES:g} s on.  Contact forces are those at the end of a run.",
-        "A mesh has one contact for a point, which jumps from side to side where a tool joint touches both of a groove.",
+        "A mesh has one contact for a point: it jumps from side to side where a tool joint touches both of a groove.",
         "A mesh is asked with a sphere at each contact point, the sampled hole with a disc across the hole: beside the "
         "ledge and the ends of the washout they are not the same body.",
     ]
@@ -182,7 +183,7 @@ def _checks(tables: dict[str, pd.DataFrame], quick: bool) -> list[Check]:
     return checks
 
 
-def _percent(found: float, expected: float) -> float:
+def _percent(found: Any, expected: Any) -> float:
     return float(100 * abs(found / expected - 1))
 
 
