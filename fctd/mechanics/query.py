@@ -136,8 +136,11 @@ def query_walls(C, geometry, points, owner, out):
 
 
 @entry
-def query_sampled(C, points, radii, owner, out):
-    """``query_walls`` in a sampled hole, beside points of a string with contact radii (n,) [m]."""
+def query_sampled(C, points, radii, owner, out, slopes):
+    """``query_walls`` in a sampled hole, beside points of a string with contact radii (n,) [m].
+
+    slopes (n, 3) : gradient of the penetration, along which the wall presses.
+    """
     for j in range(points.shape[0]):
         x, y, z = points[j, 0], points[j, 1], points[j, 2]
         owner[j] = arc_owner(C, owner[j], x, y, z)
@@ -146,3 +149,4 @@ def query_sampled(C, points, radii, owner, out):
             out, j,
             (wall.px, wall.py, wall.pz, wall.hole, wall.stiffness, wall.friction, wall.md, wall.around),
         )  # fmt: skip
+        slopes[j, 0], slopes[j, 1], slopes[j, 2] = wall.gx, wall.gy, wall.gz

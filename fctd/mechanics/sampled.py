@@ -23,7 +23,9 @@ from fctd.mechanics.joints import cross
 # count; number of cells around the hole, 0 where it is round; and then tables.
 TURN_COS, TURN_SIN, AROUND_CELLS = COLUMNS, COLUMNS + 1, COLUMNS + 2
 TABLES = COLUMNS + 3
-# Columns of a table: the contact radius [m], and of each cell around the hole the deviation [m] and the grip.
+# Columns of a table: the contact radius [m], and of each cell around the hole the deviation [m], and the corner of
+# ``disc.roll_disc`` there, two angles [rad].
+PER_CELL = 3
 # Radii differ by more than this [m].
 SAME_RADIUS = 1e-7
 
@@ -75,7 +77,8 @@ def place_beside(C, i, arc, x, y, z):
 
 class Deviation(NamedTuple):
     """How far the wall lies beyond the round hole [m], with its derivatives by the distance along the hole and by the
-    angle [rad], first and second; and the grip with its first ones."""
+    angle [rad], first and second; and the column of the cell's corner, with the weights of the rows above and below and
+    their slopes."""
 
     value: float
     by_s: float
@@ -83,15 +86,17 @@ class Deviation(NamedTuple):
     by_ss: float
     by_s_angle: float
     by_angles: float
-    grip: float
-    grip_by_s: float
-    grip_by_angle: float
+    column: int
+    first: float
+    third: float
+    falls: float
+    rises: float
 
 
 @inlined
 def table_of(C, i, cells, radius):
     """Column of the first deviation for a contact radius [m]: of the smallest table's that is no smaller."""
-    at, size = TABLES, 1 + 2 * cells
+    at, size = TABLES, 1 + PER_CELL * cells
     while C[i, at] < radius - SAME_RADIUS and at + 2 * size <= C.shape[1]:
         at += size
     return at + 1
@@ -137,16 +142,14 @@ def deviation_at(C, i, s, a, b, radius):
     around = np.arctan2(b, a) * per_angle + 0.5
     k = int(np.floor(around))
     t = around - k
-    columns = at + 2 * wrapped(k - 1, cells), at + 2 * wrapped(k, cells), at + 2 * wrapped(k + 1, cells)
+    own = at + PER_CELL * wrapped(k, cells)
+    columns = at + PER_CELL * wrapped(k - 1, cells), own, at + PER_CELL * wrapped(k + 1, cells)
     weights = 0.5 * (1 - t) * (1 - t), 0.5 + t - t * t, 0.5 * t * t
     slopes = per_angle * (t - 1), per_angle * (1 - 2 * t), per_angle * t
     bends = per_angle * per_angle, -2 * per_angle * per_angle, per_angle * per_angle
     values = of_row(C, above, columns, weights), of_row(C, i, columns, weights), of_row(C, below, columns, weights)
     turned = of_row(C, above, columns, slopes), of_row(C, i, columns, slopes), of_row(C, below, columns, slopes)
     bent = of_row(C, above, columns, bends), of_row(C, i, columns, bends), of_row(C, below, columns, bends)
-    columns = columns[0] + 1, columns[1] + 1, columns[2] + 1
-    grips = of_row(C, above, columns, weights), of_row(C, i, columns, weights), of_row(C, below, columns, weights)
-    grips_turned = of_row(C, above, columns, slopes), of_row(C, i, columns, slopes), of_row(C, below, columns, slopes)
     return Deviation(
         value=along(*values, first, third),
         by_s=along_slope(*values, falls, rises),
@@ -154,10 +157,50 @@ def deviation_at(C, i, s, a, b, radius):
         by_ss=along_slope(*values, 2 * p / (length * length), 2 * q / (length * length)),
         by_s_angle=along_slope(*turned, falls, rises),
         by_angles=along(*bent, first, third),
-        grip=along(*grips, first, third),
-        grip_by_s=along_slope(*grips, falls, rises),
-        grip_by_angle=along(*grips_turned, first, third),
+        column=own + 1,
+        first=first,
+        third=third,
+        falls=falls,
+        rises=rises,
     )
+
+
+@inlined
+def grip_at(C, i, column, angle):
+    """The grip of a corner in row i for a force at an angle [rad], less 1, and its derivative by the angle.
+
+    A disc that touches two places is pressed onto each by more than the force that holds it there: with the two normals
+    at β to either side of their middle, and the force at δ from it, both are cos δ/cos β times as large together.
+    """
+    half = C[i, column + 1]
+    if half == 0:
+        return 0.0, 0.0
+    off = angle - C[i, column]
+    off -= 2 * np.pi * np.floor(off / (2 * np.pi) + 0.5)
+    if abs(off) >= half:
+        return 0.0, 0.0
+    return np.cos(off) / np.cos(half) - 1, -np.sin(off) / np.cos(half)
+
+
+@inlined
+def grip_of(C, i, found, ga, gb):
+    """By which factor the friction of a disc exceeds that of the force (ga, gb) that holds it.
+
+    Returns it with its derivatives by the force's angle [rad] and by the distance along the hole [m].
+    """
+    column = found.column
+    above, below = max(i - 1, 0), min(i + 1, C.shape[0] - 1)
+    if C[above, column + 1] == 0 and C[i, column + 1] == 0 and C[below, column + 1] == 0:
+        return 1.0, 0.0, 0.0
+    angle = np.arctan2(gb, ga)
+    upper, upper_turned = grip_at(C, above, column, angle)
+    own, own_turned = grip_at(C, i, column, angle)
+    lower, lower_turned = grip_at(C, below, column, angle)
+    return (
+        1 + along(upper, own, lower, found.first, found.third),
+        along(upper_turned, own_turned, lower_turned, found.first, found.third),
+        along_slope(upper, own, lower, found.falls, found.rises),
+    )  # fmt: skip
 
 
 class SampledWall(NamedTuple):
@@ -187,13 +230,13 @@ def sampled_wall(C, i, x, y, z, radius):
     if C[i, AROUND_CELLS] == 0:
         return SampledWall(px, py, pz, hole, stiffness, friction, around, md, px, py, pz)
     found = deviation_at(C, i, of.s, of.a, of.b, radius)
-    grip = 1 + found.grip
-    gx, gy, gz = px, py, pz
+    gx, gy, gz, grip = px, py, pz, 1.0
     square = of.a * of.a + of.b * of.b
     if square > 0:
         # ∇d = e_ρ − (∂δ/∂φ) e_φ/ρ − (∂δ/∂s) t, of a penetration d = ρ − R − δ(s, φ) + r.
         k, turn, rise = 1 / root(square), found.by_angle / square, found.by_s * of.share
         ga, gb = k * of.a + turn * of.b, k * of.b - turn * of.a
+        grip, _, _ = grip_of(C, i, found, ga, gb)
         gx = ga * of.ax + gb * of.bx - rise * of.tx
         gy = ga * of.ay + gb * of.by - rise * of.ty
         gz = ga * of.az + gb * of.bz - rise * of.tz

@@ -11,11 +11,12 @@ from fctd.case.calipers.caliper import Caliper
 from fctd.case.hole import WellboreSpec
 from fctd.mechanics import contact, sampled
 from fctd.mechanics.disc import roll_disc
+from fctd.mechanics.sampled import PER_CELL
 from fctd.model.frames import hole_frame
 from fctd.model.pieces import RADIUS, TO_MD
 
 # Longest cell around the hole [m], fewest cells, and points of the wall in each of them.
-CELL_AROUND, FEWEST, POINTS = 0.02, 16, 4
+CELL_AROUND, FEWEST, POINTS = 0.02, 16, 8
 # A wall that lies within this of the round hole is round [m].
 ROUND = 1e-9
 # Shortest piece as a share of a cell; ways of a disc that is hardly narrower than its hole count as this much [m].
@@ -171,7 +172,7 @@ def sample(pieces: Array, sampling: Sampling) -> Array:
     for first, last, radius in sampling.open_hole:
         nominal[(middle > first) & (middle < last)] = radius
     cells = cells_around(max((radius for _, _, radius in sampling.open_hole), default=0.0))
-    size = 1 + 2 * cells
+    size = 1 + PER_CELL * cells
     table = np.zeros((len(pieces), sampled.TABLES + len(sampling.radii) * size))
     table[:, : contact.COLUMNS] = pieces
     turn = turns(pieces)
@@ -186,15 +187,16 @@ def sample(pieces: Array, sampling: Sampling) -> Array:
     wall = wall_around(measured[known], start, angles)
     is_round = np.ones(len(known), np.bool_)
     for k, radius in enumerate(sampling.radii):
-        ways, grips = wall[:, ::POINTS], np.zeros((len(known), cells))
+        ways, corners = wall[:, ::POINTS], np.zeros((len(known), cells, 2))
         if radius:
-            ways = np.empty_like(grips)
-            roll_disc(wall, radius, cells, ways, grips)
+            ways = np.empty((len(known), cells))
+            roll_disc(wall, radius, cells, ways, corners)
         deviation = ways + radius - nominal[known, None]
         deviation[np.abs(deviation) < ROUND] = 0.0
         at = sampled.TABLES + k * size + 1
-        table[known, at : at + 2 * cells : 2], table[known, at + 1 : at + 2 * cells : 2] = deviation, grips
-        is_round &= (deviation == 0).all(axis=1) & (grips == 0).all(axis=1)
+        of_cells = np.concatenate([deviation[:, :, None], corners], axis=2)
+        table[known, at : at + PER_CELL * cells] = of_cells.reshape(len(known), -1)
+        is_round &= (deviation == 0).all(axis=1)
     uneven = np.zeros(len(pieces), np.bool_)
     uneven[known] = ~is_round
     beside = uneven | np.append(uneven[1:], False) | np.append(False, uneven[:-1])
@@ -206,7 +208,7 @@ def deviations(pieces: Array) -> tuple[Array, NDArray[np.int64]]:
     """Deviations (m, cells) of the wall itself [m], of the cells that are not round, and their rows (m,)."""
     (rows,) = np.nonzero(pieces[:, sampled.AROUND_CELLS])
     cells = int(pieces[:, sampled.AROUND_CELLS].max())
-    return pieces[rows, sampled.TABLES + 1 : sampled.TABLES + 1 + 2 * cells : 2], rows
+    return pieces[rows, sampled.TABLES + 1 : sampled.TABLES + 1 + PER_CELL * cells : PER_CELL], rows
 
 
 def least_deviation(pieces: Array) -> float:
@@ -238,9 +240,9 @@ def steepest(pieces: Array) -> float:
     if not len(rows):
         return 0.0
     cells = int(pieces[rows[0], sampled.AROUND_CELLS])
-    size, worst = 1 + 2 * cells, 0.0
+    size, worst = 1 + PER_CELL * cells, 0.0
     for at in range(sampled.TABLES, pieces.shape[1], size):
-        radius, of = pieces[0, at], pieces[:, at + 1 : at + 1 + 2 * cells : 2]
+        radius, of = pieces[0, at], pieces[:, at + 1 : at + 1 + PER_CELL * cells : PER_CELL]
         apart = 0.5 * (pieces[rows[1:], contact.LENGTH] + pieces[rows[:-1], contact.LENGTH])
         along = np.abs(of[rows[1:]] - of[rows[:-1]]).max(axis=1) / apart
         way = np.maximum(pieces[rows, contact.HOLE_RADIUS][:, None] + of[rows] - radius, SHORTEST_WAY)

@@ -217,6 +217,14 @@ class Wellbore:
         """
         return walls_in(self._query(points, near, radii)[0])
 
+    def contacts(self, points: Array, radii: Array) -> Contacts:
+        """Contacts of points (n, 3) [m] of strings with radii (n,) [m]."""
+        walls, _, towards = self.with_radii(radii)._query(points, None, radii)
+        found = walls_in(walls)
+        penetration = np.linalg.norm(found.offset, axis=1) - found.radius + radii
+        size = np.maximum(np.linalg.norm(towards, axis=1), 1e-300)[:, None]
+        return Contacts(penetration, towards / size, found.md)
+
     def radii_towards(self, md: Array, towards: Array) -> Array:
         """Radii (k, m) [m] of the hole at measured depths (k,) [m] in directions across it (k, m, 3)."""
         if self.sampling is None:
@@ -234,15 +242,18 @@ class Wellbore:
 
     def _query(
         self, points: Array, near: NDArray[np.int64] | None, radii: Array | None
-    ) -> tuple[Array, NDArray[np.int64]]:
+    ) -> tuple[Array, NDArray[np.int64], Array]:
+        """Walls (n, WALL_COLUMNS), owners (n,), and the directions (n, 3) in which the walls lie."""
         points = np.ascontiguousarray(np.atleast_2d(points), dtype=float)
         owner = self.nearest(points) if near is None else near.copy()
         out = np.empty((len(points), WALL_COLUMNS))
         if self.geometry == SAMPLED:
-            query_sampled(self.pieces, points, np.zeros(len(points)) if radii is None else radii, owner, out)
-        else:
-            query_walls(self.pieces, self.geometry, points, owner, out)
-        return out, owner
+            towards = np.empty((len(points), 3))
+            of = np.zeros(len(points)) if radii is None else np.ascontiguousarray(radii, dtype=float)
+            query_sampled(self.pieces, points, of, owner, out, towards)
+            return out, owner, towards
+        query_walls(self.pieces, self.geometry, points, owner, out)
+        return out, owner, walls_in(out).offset
 
     def nearest(self, points: Array) -> NDArray[np.int64]:
         """Piece nearest to each point, from samples of the axis at most half a metre apart."""
@@ -266,10 +277,7 @@ def find_contacts(wellbore: Wellbore, points: Array, radii: Array | float) -> Co
     for k, axis in np.argwhere(np.abs(points) > FARTHEST)[:1].tolist():
         expected = f"a point within {FARTHEST:g} m of the origin, north, east and down"
         raise InputError(expected, key=f"points[{k}][{axis}]", value=float(points[k, axis]))
-    walls = wellbore.with_radii(radii).walls(points, radii=radii)
-    distance = np.linalg.norm(walls.offset, axis=1)
-    normal = walls.offset / np.maximum(distance, 1e-300)[:, None]
-    return Contacts(distance - walls.radius + radii, normal, walls.md)
+    return wellbore.contacts(points, radii)
 
 
 def build_wellbore(case: Case) -> Wellbore:

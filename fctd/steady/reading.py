@@ -84,7 +84,7 @@ def read_shape(
     """
     n = len(joints)
     if geometry == SAMPLED:
-        query_sampled(C, contacts[:, :3].copy(), radius, owner.copy(), walls)
+        query_sampled(C, contacts[:, :3].copy(), radius, owner.copy(), walls, np.empty((n, 3)))
     else:
         query_walls(C, geometry, contacts[:, :3].copy(), owner.copy(), walls)
     numbers[:] = 0.0

@@ -30,7 +30,7 @@ from fctd.mechanics.contact import (
 )
 from fctd.mechanics.jit import inlined, kernel
 from fctd.mechanics.joints import cross
-from fctd.mechanics.sampled import AROUND_CELLS, deviation_at, place_beside
+from fctd.mechanics.sampled import AROUND_CELLS, deviation_at, grip_of, place_beside
 from fctd.mechanics.state import ARCS, SAMPLED, TINY
 
 
@@ -252,10 +252,9 @@ def beside_sampled(C, i, x, y, z, radius):
     f = p * of.bx - q * of.ax, p * of.by - q * of.ay, p * of.bz - q * of.az
     s = of.share * tx, of.share * ty, of.share * tz
     deviation = in_hole(found.value, found.by_s, found.by_angle, s, f)
-    grip = in_hole(1 + found.grip, found.grip_by_s, found.grip_by_angle, s, f)
     wall = Beside(
-        wall.x, wall.y, wall.z, total(wall.beyond, times(-1.0, deviation)), wall.stiffness,
-        product(grip, wall.factor), wall.tx, wall.ty, wall.tz, product(grip, wall.around),
+        wall.x, wall.y, wall.z, total(wall.beyond, times(-1.0, deviation)), wall.stiffness, wall.factor,
+        wall.tx, wall.ty, wall.tz, wall.around,
     )  # fmt: skip
     if wall.beyond[0] + radius <= 0 or distance == 0:
         return wall
@@ -273,6 +272,17 @@ def beside_sampled(C, i, x, y, z, radius):
     gx = leaned(ga, gb, along, (of.ax, of_a * tx), (of.bx, of_b * tx), wall.tx, s)
     gy = leaned(ga, gb, along, (of.ay, of_a * ty), (of.by, of_b * ty), wall.ty, s)
     gz = leaned(ga, gb, along, (of.az, of_a * tz), (of.bz, of_b * tz), wall.tz, s)
+    factor, by_angle, by_s = grip_of(C, i, found, ga[0], gb[0])
+    square = ga[0] * ga[0] + gb[0] * gb[0]
+    p, q = by_angle * ga[0] / square, by_angle * gb[0] / square  # of the force's angle
+    grip = (
+        factor, by_s * s[0] + p * gb[1] - q * ga[1], by_s * s[1] + p * gb[2] - q * ga[2],
+        by_s * s[2] + p * gb[3] - q * ga[3],
+    )  # fmt: skip
+    wall = Beside(
+        wall.x, wall.y, wall.z, wall.beyond, wall.stiffness, product(grip, wall.factor), wall.tx, wall.ty, wall.tz,
+        product(grip, wall.around),
+    )  # fmt: skip
     return leaning(wall, gx, gy, gz, radius)
 
 

@@ -5,7 +5,7 @@ Every bound lies beyond what wells and rigs have, so that a warning is worth rea
 
 from collections.abc import Sequence
 
-from fctd.case.doubts.caliper import caliper
+from fctd.case.doubts.caliper import measured_size
 from fctd.case.doubts.hole import hole_size, rough_wall, shoe_below_td, wider_below
 from fctd.case.doubts.rig import no_bit_load, no_block, no_mud, rates, sheaves_and_drive
 from fctd.case.doubts.string import (
@@ -41,7 +41,7 @@ def warnings_of(
         *hole_size(case.wellbore),
         *wider_below(case.wellbore),
         *rough_wall(case.wellbore, frictions),
-        *caliper(case.wellbore, float(stations[-1, 0])),
+        *measured_size(case.wellbore, float(stations[-1, 0])),
         *no_mud(case.mud, float(stations[-1, 0])),
         *unusual(case),
         *light_string(case.string, case.mud),

@@ -20,7 +20,7 @@ SPIKE: Final = 0.3  # of both neighbours
 BELOW_TD: Final = 10.0  # [m]
 
 
-def caliper(hole: WellboreSpec, td: float) -> Doubts:
+def measured_size(hole: WellboreSpec, td: float) -> Doubts:
     """A caliper whose sizes or depths do not fit the hole; td [m] : of the survey."""
     found = hole.calipers
     if found is None:
