@@ -13,7 +13,6 @@ from fctd.case.string import ComponentSpec
 from fctd.case.surveys import reading as surveys
 from fctd.case.tables.headers import Choice, Choices, NoUnitError
 from fctd.case.units import DENSITY, FORCE, LENGTH, LINEAR_MASS, TORQUE, Dimension, Quantity
-from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.default_layout import mean_curvature
 from fctd.model.section import section_of
 from fctd.model.templates import TEMPLATES, Part, Template, TemplateName
@@ -48,6 +47,11 @@ COMMENTS = 38
 LANDED, SHALLOWEST_SHOE, DEEPEST_SHOE = 0.95, 0.4, 0.7
 # The default damping of a contact point is for a softer wall: on a stiff one a long string would not come to rest.
 DAMPING = "1e5 N*s/m"
+# What the keys of a component are about.
+KEY_COMMENTS = {
+    "contact_diameter": "of the joints, which touch first",
+    "linear_mass": "with joints",
+}
 
 
 @dataclass(frozen=True)
@@ -78,6 +82,7 @@ class Plan:
         yield (
             f"# {self.title[0].upper()}{self.title[1:]}: change what differs in yours.",
             '# A quantity is a text with its unit ("8.5 in", "1250 kg/m^3"), or a bare number in SI.',
+            "# A pipe is one of the catalogue, which `fctd pipes` lists: sizes, mass, joints and limits come with it.",
             f"name = {json.dumps(self.name, ensure_ascii=False)}",
         )
         stiffness = f"{self.stiffness:.0e}".replace("e+0", "e")
@@ -106,6 +111,8 @@ class Plan:
             comment = "no length: it reaches the surface" if part.length is None else above
             yield aligned("[[string.components]]", comment), *self._part(part, quantity)
         yield "[mud]", entry("density", quantity(DENSITY, template.mud))
+        if template.flotation:
+            yield tuple(f"# {line}" for line in self._flotation(quantity))
         weight = quantity(FORCE, 1e3 * template.block_weight)
         yield "[rig]", entry("block_weight", weight, "added to the hook load on the indicator")
         if template.weight_on_bit:
@@ -140,12 +147,24 @@ class Plan:
         yield entry("name", part.name)
         if part.length is not None:
             yield entry("length", quantity(LENGTH, part.length or self.depth - self.shoe))
-        yield entry("outer_diameter", f"{part.outer} in")
-        yield entry("inner_diameter", f"{part.inner} in")
-        if part.contact is not None:
-            yield entry("contact_diameter", f"{part.contact} in", "of the joints, which touch first")
-        if part.mass is not None:
-            yield entry("linear_mass", quantity(LINEAR_MASS, part.mass), "with joints")
+        for key, value in part.keys.items():
+            text = value if isinstance(value, str) else quantity(LINEAR_MASS, value)
+            yield entry(key, text, KEY_COMMENTS.get(key, ""))
+
+    def _flotation(self, quantity: "Quantities") -> Iterator[str]:
+        """How the string floats: what takes the place of the table of the mud."""
+        mud = quantity(DENSITY, self.template.mud)
+        yield "Casing that floats: put this in place of [mud] and its density above, without the #."
+        yield "[mud]"
+        yield aligned("float = true", "a float shoe at the lower end")
+        yield "[[mud.outside]]"
+        yield entry("density", mud)
+        yield aligned("[[mud.inside]]", "from the surface down")
+        yield entry("to_md", quantity(LENGTH, self.shoe), "the flotation collar")
+        yield entry("density", mud)
+        yield "plug = true"
+        yield "[[mud.inside]]"
+        yield aligned("density = 0", "air")
 
     def _operation(self, quantity: "Quantities") -> tuple[str, ...]:
         end = quantity(LENGTH, self.depth)
@@ -317,16 +336,11 @@ def stiff_wall(template: Template, stations: Array, shoe: float) -> float:
     narrowest = min(float(template.cased.diameter), float(template.open.diameter))
     lengths = lengths_of(template, shoe, float(stations[-1, 0]))
     for part, length in zip(template.string, lengths, strict=True):
-        outer, inner = (0.0254 * float(size) for size in (part.outer, part.inner))
-        mass = part.mass if part.mass is not None else STEEL * np.pi / 4 * (outer**2 - inner**2)
-        buoyed = mass * GRAVITY * (1 - template.mud / STEEL)
-        weight, heaviest = weight + buoyed * length, max(heaviest, buoyed)
-        clearance = min(clearance, 0.5 * 0.0254 * (narrowest - float(part.contact or part.outer)))
+        section = section_of(_component(part), template.mud)
+        weight, heaviest = weight + section.weight * length, max(heaviest, section.weight)
+        clearance = min(clearance, 0.5 * 0.0254 * narrowest - section.contact_radius)
     sharpest = float(mean_curvature(stations, np.linspace(0.0, stations[-1, 0], 2000)).max())
     return _round_up((weight * sharpest + heaviest) / (0.01 * clearance))
-
-
-STEEL = 7850.0  # kg/m^3
 
 
 def lengths_of(template: Template, shoe: float, depth: float) -> list[float]:
@@ -339,5 +353,4 @@ def lengths_of(template: Template, shoe: float, depth: float) -> list[float]:
 
 
 def _component(part: Part) -> ComponentSpec:
-    keys = {"outer_diameter": f"{part.outer} in", "inner_diameter": f"{part.inner} in", "linear_mass": part.mass}
-    return ComponentSpec.model_validate({"name": part.name, **keys})
+    return ComponentSpec.model_validate({"name": part.name, **part.keys})

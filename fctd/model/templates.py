@@ -1,24 +1,23 @@
 """Wells to start from: path, casing, string and loads of each, in round numbers.
 
 Depths and lengths are in metres; in field units every metre is written as 3 ft, so that the numbers stay round.
-Pipe is named and sized in inches in both systems, as it is sold.
+Pipe is named and sized in inches in both systems, as it is sold.  That of the catalogue is written by its name.
 """
 
+from collections.abc import Mapping
 from itertools import accumulate, pairwise
 from typing import Final, Literal, NamedTuple
 
 
 class Part(NamedTuple):
-    """A component: diameters [in], mass with its joints [kg/m], None for that of the plain pipe; length [m].
+    """A component: name, the keys of the case that say what pipe it is, length [m].
 
+    keys : `pipe` alone where the catalogue has it, else diameters, and mass with joints.  Masses are in kg/m.
     length : None for the last one, which reaches the surface, and 0 for one as long as the hole below the shoe.
     """
 
     name: str
-    outer: str
-    inner: str
-    contact: str | None = None
-    mass: float | None = None
+    keys: Mapping[str, str | float]
     length: float | None = None
 
 
@@ -33,7 +32,8 @@ class Hole(NamedTuple):
 class Template(NamedTuple):
     """A well: title; courses (length [m], inclination at the end [deg]); azimuth [deg]; depth of the shoe [m].
 
-    weight_on_bit [kN], bit_torque [kN m] : 0 for a string that does not drill.
+    weight_on_bit [kN], bit_torque [kN m] : 0 for a string that does not drill; flotation : whether its case shows how
+    the string would be run with air below a flotation collar.
     """
 
     title: str
@@ -47,6 +47,7 @@ class Template(NamedTuple):
     block_weight: float = 250.0
     weight_on_bit: float = 0.0
     bit_torque: float = 0.0
+    flotation: bool = False
 
     @property
     def stations(self) -> list[tuple[float, float, float]]:
@@ -64,10 +65,15 @@ STATION: Final = 150.0
 TemplateName = Literal["build-hold", "horizontal", "s-well", "extended-reach", "casing-run"]
 
 CASING_9_5_8, HOLE_8_1_2 = "9 5/8 in casing, 47 lb/ft", "8 1/2 in hole"
-PIPE_5 = Part("5 in drill pipe, 19.5 lb/ft", "5", "4.276", "6.625", 31.1)
-PIPE_5_7_8 = Part("5 7/8 in drill pipe, 23.4 lb/ft", "5.875", "5.153", "7", 39.2)
-HEAVY = Part("5 in heavy-weight pipe, 49.3 lb/ft", "5", "3", "6.5", 73.4)
-COLLARS = Part("6 3/4 in drill collars", "6.75", "2.8125")
+PIPE_5 = Part("5 in drill pipe, 19.5 lb/ft", {"pipe": "5 in 19.5 S-135 NC50, premium"})
+PIPE_5_1_2 = Part("5 1/2 in drill pipe, 21.9 lb/ft", {"pipe": "5 1/2 in 21.9 S-135 HT55 7 1/8 x 3 7/8, premium"})
+# The catalogue has no heavy-weight pipe: no page was found that prints its geometry.
+HEAVY = Part(
+    "5 in heavy-weight pipe, 49.3 lb/ft",
+    {"outer_diameter": "5 in", "inner_diameter": "3 in", "contact_diameter": "6.5 in", "linear_mass": 73.4},
+)
+COLLARS = Part("6 3/4 in drill collars", {"pipe": "6 3/4 x 2 13/16 NC50 collar"})
+CASING = Part("9 5/8 in casing, 47 lb/ft", {"pipe": "9 5/8 in 47 L-80 casing"})
 
 TEMPLATES: Final[dict[TemplateName, Template]] = {
     "build-hold": Template(
@@ -115,7 +121,7 @@ TEMPLATES: Final[dict[TemplateName, Template]] = {
         3600.0,
         Hole(CASING_9_5_8, "8.681", 0.20),
         Hole(HOLE_8_1_2, "8.5", 0.25),
-        (COLLARS._replace(length=30.0), HEAVY._replace(length=90.0), PIPE_5_7_8),
+        (COLLARS._replace(length=30.0), HEAVY._replace(length=90.0), PIPE_5_1_2),
         weight_on_bit=60.0,
         bit_torque=4.0,
     ),
@@ -126,6 +132,7 @@ TEMPLATES: Final[dict[TemplateName, Template]] = {
         900.0,
         Hole("13 3/8 in casing, 68 lb/ft", "12.415", 0.25),
         Hole("12 1/4 in hole", "12.25", 0.35),
-        (Part("9 5/8 in casing, 47 lb/ft, with couplings", "9.625", "8.681", "10.625", 70.0),),
+        (CASING,),
+        flotation=True,
     ),
 }

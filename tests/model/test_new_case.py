@@ -8,6 +8,7 @@ import pytest
 
 from fctd import Case
 from fctd.case.operations import RotateOffBottom
+from fctd.case.string import ComponentSpec
 from fctd.case.units import DENSITY, FORCE, LENGTH
 from fctd.model import layouts
 from fctd.model.drillstring import lay_out
@@ -22,6 +23,7 @@ from fctd.model.new_case import (
     stiff_wall,
 )
 from fctd.model.operations import rates_of_all
+from fctd.model.section import section_of
 from fctd.model.templates import TEMPLATES, TemplateName
 from fctd.model.torsion import period_of
 from fctd.results.status import SteadyStatus
@@ -55,9 +57,11 @@ def test_the_text_is_the_template(name: TemplateName, units: UnitSystem) -> None
     assert case.depths == (0.0, pytest.approx(scale * template.stations[-1][0], abs=0.01))
     assert np.degrees(case.wellbore.trajectory[:, 1]) == pytest.approx([inc for _, inc, _ in template.stations])
     assert [i.kind for i in case.wellbore.intervals] == ["cased", "open"]
-    assert [part.outer_diameter for part in case.string.components] == pytest.approx(
-        [0.0254 * float(part.outer) for part in template.string]
-    )
+    for component, part in zip(case.string.components, template.string, strict=True):
+        named = ComponentSpec.model_validate({"name": part.name, **part.keys})
+        kept = {"outer_diameter", "inner_diameter", "contact_diameter", "joint", "yield_strength"}
+        assert component.model_dump(include=kept) == named.model_dump(include=kept)
+        assert section_of(component, 0.0).mass == pytest.approx(section_of(named, 0.0).mass, rel=1e-3)
     assert case.mud.density == pytest.approx(template.mud, rel=5e-3)  # two or three digits are written
     assert case.rig.block_weight == pytest.approx(1e3 * template.block_weight, rel=1e-2)
     assert case.bit.weight_on_bit == pytest.approx(1e3 * template.weight_on_bit, rel=4e-2)
@@ -115,7 +119,7 @@ def test_the_wall_of_a_hanging_string_by_hand() -> None:
     """Straight hole: the weight of a metre of pipe over a hundredth of its clearance, rounded up to 1, 2 or 5."""
     template = TEMPLATES["casing-run"]
     straight = np.array([[0.0, 0.0, 0.0], [1000.0, 0.0, 0.0]])
-    weight = 70.0 * 9.81 * (1 - template.mud / 7850)
+    weight = 47 * 0.4536 / 0.3048 * 9.81 * (1 - template.mud / 7850)
     clearance = 0.5 * 0.0254 * (12.25 - 10.625)
     needed = weight / (0.01 * clearance)
     assert needed == pytest.approx(2.8e6, rel=0.02)
@@ -184,6 +188,24 @@ def test_quantities_are_rounded_as_a_person_would() -> None:
     assert Quantities("field")(FORCE, 250e3) == "56 klbf"
     assert Quantities("field")(DENSITY, 1250.0) == "10.4 ppg"
     assert Quantities("metric")(LENGTH, 1500.0) == "1500 m"
+
+
+def test_casing_floats_with_the_lines_that_its_case_has_for_it() -> None:
+    """Air below the collar: the hook bears less, and so does the wall."""
+    text = plan_of("casing-run", "metric").text()
+    head, rest = text.split("[mud]\n", 1)
+    block = rest[rest.index("# [mud]") : rest.index("[rig]")]
+    floated = head + "\n".join(line.removeprefix("# ") for line in block.splitlines()) + "\n" + rest.split("\n\n", 2)[2]
+    points = []
+    for case in (case_of("casing-run"), Case.model_validate(tomllib.loads(floated))):
+        rates = rates_of_all(case, ["trip_in"])["trip_in"]
+        points.append(Solver(case).solve("trip_in", rates, case.depths[1]))
+    full, empty = points
+    assert empty.status is SteadyStatus.CONVERGED
+    assert empty.notes == ()
+    # The casing weighs 69.9 kg/m, the mud in its bore 47.7 below the collar, where the hole leans by up to 45°.
+    assert empty.total_contact_force < 0.5 * full.total_contact_force
+    assert empty.hookload < 0.8 * full.hookload
 
 
 def test_texts_are_quoted() -> None:

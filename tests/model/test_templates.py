@@ -5,6 +5,7 @@ from typing import get_args
 import numpy as np
 import pytest
 
+from fctd.case.string import ComponentSpec
 from fctd.model.templates import TEMPLATES, Template, TemplateName
 
 EACH = pytest.mark.parametrize("template", TEMPLATES.values(), ids=list(TEMPLATES))
@@ -37,3 +38,12 @@ def test_a_bend_is_one_that_is_drilled(template: Template) -> None:
 def test_the_shoe_lies_in_the_well_and_the_last_component_reaches_the_surface(template: Template) -> None:
     assert 0 < template.shoe < template.stations[-1][0]
     assert [part.length is None for part in template.string] == [False] * (len(template.string) - 1) + [True]
+
+
+@EACH
+def test_pipe_is_named_where_the_catalogue_has_it(template: Template) -> None:
+    """Drill pipe with its joints, collars and casing; heavy-weight pipe is in no row of the catalogue."""
+    for part in template.string:
+        assert (set(part.keys) == {"pipe"}) == ("heavy-weight" not in part.name)
+        component = ComponentSpec.model_validate({"name": part.name, **part.keys})
+        assert (component.joint is not None) == ("drill pipe" in part.name)
