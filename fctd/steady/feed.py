@@ -2,8 +2,8 @@
 
 As at the rig the string begins off bottom.  In increments of feed each contact point sticks until its limit and then
 slides against its own displacement (held_friction.py), and carries its friction on.  The string comes to rest after
-each increment (relaxation.py).  Where a small increment has no balance nearby, or the string would leave the one it
-has, it snaps (snap.py): friction follows every step of its release, and takes up the energy.
+each increment (relaxation.py).  Where a small increment has no balance nearby the string snaps: friction then follows
+every step of the relaxation, and takes up the energy that the snap releases.
 
 Lock-up is where further feed no longer arrives: on bottom the weight on bit, off bottom the bit's way.
 """
@@ -32,23 +32,8 @@ ABOVE = 2.0
 FIRST, SMALLEST, LARGEST = 0.1, 0.02, 1.0
 FEW, MANY, GROWTH, SHRINKAGE, CUT = 30, 60, 1.5, 0.67, 0.4
 ITERATIONS, FIRST_TIME = 100, 0.2
-
-
-class Steps(NamedTuple):
-    """Steps of a snap: their number, and how far one moves a point [m], and as a share of its clearance."""
-
-    number: int
-    shift: float
-    share: float
-
-
-# A snap goes by short steps, in so many parts at most.  Where a part moves no point farther than ``NEARLY_AT_REST`` [m],
-# friction holds for so many iterations: a string that still moves would come to rest far away.
-SHORT, PARTS, NEARLY_AT_REST, RESTING = Steps(60, 0.005, 0.1), 10, 0.015, 40
-# A string that creeps then, or goes on, comes to rest by long steps between which friction holds, tried so many times.
-LONG, LAST_TRIES = Steps(20, 0.04, 0.6), 12
-# The first pseudo-time of these steps [s], and its largest growth.
-SNAP_TIME, SNAP_GROWTH = 0.05, 1.5
+# A snap: so many times the friction follows some steps of the relaxation, and then holds.
+SNAPS, SLIPPING, SNAP_TIME = 12, 20, 0.05
 # On the way a balance may be out by this multiple of what a balance is allowed: the last one is exact.
 IMBALANCE = 30.0
 # The bit follows the block where it moves by this share of an increment.
@@ -137,7 +122,7 @@ class FedString:
             # As if each point had come down by a metre.
             walls = problem.walls(problem.reactions(self._share).contacts)
             self._memory[1 : n + 1, PLACE_THEN] -= problem.hole.at(walls.md)[1]
-        if self._rest(ITERATIONS)[0] != CONVERGED and not self._snaps():
+        if self._rest(ITERATIONS, False)[0] != CONVERGED and not self._snaps():
             return False
         self._remember()
         self._keep(False)
@@ -160,7 +145,7 @@ class FedString:
         Where it is fed on then, it has come from more friction: what it carries is another than of one fed from rest.
         """
         self.friction, self._share = friction, Share(friction, 0.0)
-        is_at_rest = self._rest(ITERATIONS)[0] == CONVERGED
+        is_at_rest = self._rest(ITERATIONS, False)[0] == CONVERGED
         if not is_at_rest and not self._snaps():
             return False
         self._remember()
@@ -188,16 +173,12 @@ class FedString:
         while self._feed - start < MOST_FEED:
             kept = self._kept()
             self._move(step)
-            code, done = self._rest(ITERATIONS)
+            code, done = self._rest(ITERATIONS, False)
             if code != CONVERGED and step > SMALLEST:
                 self._put(kept)
                 step = max(CUT * step, SMALLEST)
                 continue
-            if code != CONVERGED:
-                # Where the iterations have led to depends on the pseudo-time of the first.
-                self._put(kept)
-                self._move(step)
-            snapped = code != CONVERGED or self._leaves()
+            snapped = code != CONVERGED or not self._stays()
             if snapped and not self._snaps():
                 self._put(kept)
                 return End.LOST
@@ -269,52 +250,31 @@ class FedString:
         self.problem.work.P[0, PLACE] += step * self._axis
         self._feed += step
 
-    def _rest(self, iterations: int) -> tuple[int, int]:
-        """Let the string come to rest with the friction of the increment; returns code and iterations."""
+    def _rest(self, iterations: int, slips: bool) -> tuple[int, int]:
+        """Let the string come to rest; returns code and iterations."""
         creep = creep_of(self.problem, iterations, IMBALANCE)
-        code, done = self.problem.relax(creep._replace(tau=FIRST_TIME), self._share)
+        code, done = self.problem.relax(
+            creep._replace(tau=SNAP_TIME if slips else FIRST_TIME, slips=slips), self._share
+        )
         self.iterations += done
         return code, done
 
-    def _leaves(self) -> bool:
-        """Push the string aside where it would leave its balance; returns whether it does.
+    def _stays(self) -> bool:
+        """Push the string aside where it would leave its balance; returns whether it comes to rest beside it.
 
         A straight string stays straight above its buckling limit until something moves it aside, and friction lets it
         go while it slides along.
         """
-        return push_aside(self.problem, self._share, if_driven=True) is not None
+        aside = push_aside(self.problem, self._share, if_driven=True)
+        return aside is None or self._rest(ITERATIONS, False)[0] == CONVERGED
 
     def _snaps(self) -> bool:
         """Let the string snap into another shape; returns whether it comes to rest."""
-        return self._goes_by_short_steps() or any(
-            self._rest(ITERATIONS)[0] == CONVERGED or self._goes(LONG) for _ in range(LAST_TRIES)
-        )
-
-    def _goes_by_short_steps(self) -> bool:
-        """Let the string go until it hardly moves; returns whether it comes to rest."""
-        for _ in range(PARTS):
-            places = self._memory[:, PLACE_THEN].copy()
-            if self._goes(SHORT):
+        for _ in range(SNAPS):
+            self._rest(SLIPPING, True)
+            if self._rest(ITERATIONS, False)[0] == CONVERGED:
                 return True
-            moved = np.linalg.norm(self._memory[:, PLACE_THEN] - places, axis=1).max()
-            if moved < NEARLY_AT_REST:
-                now = self._kept()
-                if self._rest(RESTING)[0] == CONVERGED:
-                    return True
-                self._put(now)
-                return False
         return False
-
-    def _goes(self, steps: Steps) -> bool:
-        """Let the string go with friction that follows its steps; returns whether it comes to rest."""
-        creep = creep_of(self.problem, steps.number, IMBALANCE)
-        code, done = self.problem.relax(
-            creep._replace(tau=SNAP_TIME, growth=SNAP_GROWTH, share=steps.share, shift=steps.shift),
-            self._share,
-            snaps=True,
-        )
-        self.iterations += done
-        return code == CONVERGED
 
     def _remember(self) -> None:
         problem, w = self.problem, self.problem.work

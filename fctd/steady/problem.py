@@ -25,7 +25,6 @@ from fctd.steady.laws import hole_of, steady_laws
 from fctd.steady.pose import PLACE, POSE, QUATERNION
 from fctd.steady.reading import ANSWER, LONGEST, SHAPE, STEPS, TOP, Answer, read_shape, read_top
 from fctd.steady.relaxation import Creep, relax
-from fctd.steady.snap import release
 from fctd.steady.tangent import (
     CONTACT_COLUMNS,
     JOINT_COLUMNS,
@@ -251,15 +250,11 @@ class Problem:
             take_step(w.P, n, w.R, 1.0)
             done += 1
 
-    def relax(self, creep: Creep, share: Share = FULL, *, snaps: bool = False) -> tuple[int, int]:
-        """Let the string come to rest from the pose, within the allowance; returns code and iterations.
-
-        snaps : with friction that follows it, of a string that is fed (snap.py).
-        """
+    def relax(self, creep: Creep, share: Share = FULL) -> tuple[int, int]:
+        """Let the string come to rest from the pose, within the allowance; returns code and iterations."""
         most = int(self.allowance.left // self.n)
         limited = creep._replace(iterations=min(creep.iterations, most))
-        come_to_rest = release if snaps else relax
-        code, done = come_to_rest(self.work, self.n, self.kinks, self.hole.pieces, self.laws(share), limited)
+        code, done = relax(self.work, self.n, self.kinks, self.hole.pieces, self.laws(share), limited)
         self.allowance.left -= done * self.n
         return code, done
 

@@ -20,11 +20,12 @@ from typing import NamedTuple
 import numpy as np
 
 from fctd.mechanics.contact import arc_wall, cylinder_wall
-from fctd.mechanics.jit import entry, kernel
+from fctd.mechanics.jit import entry, inlined, kernel
 from fctd.mechanics.rotations import rotation_columns, turned
 from fctd.mechanics.state import ARCS, ARM_BOTTOM, ARM_CONTACT, ARM_TOP, OPEN, RADIUS, TINY
 from fctd.steady.block_thomas import eliminate
 from fctd.steady.continuation import CONVERGED, MAX_ITERATIONS, NOT_FINITE, add_pseudo_mass, imbalance
+from fctd.steady.held_friction import remember
 from fctd.steady.pose import SPIN, quaternion
 from fctd.steady.tangent import assemble
 
@@ -42,7 +43,8 @@ class Creep(NamedTuple):
     iterations : largest number.  tau : first pseudo-time [s]; growth : its factor after a step that was not shortened;
     shrink : its smallest factor after one that was.  share : a point's largest lateral step as a share of its
     clearance; shift [m] : and of any point; turn [rad] : a body's largest rotation.
-    force [N], moment [N m] : largest imbalance of a body when converged.
+    force [N], moment [N m] : largest imbalance of a body when converged.  slips : whether the friction of a string that
+    is fed (held_friction.py) follows every step, as in a snap, or remembers the last increment.
     """
 
     iterations: int
@@ -54,6 +56,14 @@ class Creep(NamedTuple):
     turn: float
     force: float
     moment: float
+    slips: bool = False
+
+
+@inlined
+def slip(held, S, n, P, C, owner, laws):
+    """Let the friction of a string that is fed follow its motion."""
+    if held is not None:
+        remember(S, n, P, C, owner, laws)
 
 
 @kernel
@@ -171,4 +181,6 @@ def relax(w, n, kinks, C, laws, creep):
         tau = creep.tau if tau > LONGEST else tau * (creep.growth if share == 1 else max(creep.shrink, share))
         find_arcs(S, n, P, R, share, places, arcs)
         move(S, n, P, R, share, arcs)
+        if creep.slips:
+            slip(laws.held, S, n, P, C, owner, laws)
     return MAX_ITERATIONS, creep.iterations
