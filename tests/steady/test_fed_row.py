@@ -30,7 +30,7 @@ def test_every_mesh_has_the_same_answer(times_onset: float) -> None:
 def test_damping_does_not_decide_the_row(times_onset: float, monkeypatch: pytest.MonkeyPatch) -> None:
     """The pseudo-time with which a string comes to rest, three values.
 
-    From two times the onset on it does, by up to 3 %: there the string comes to one of several shapes.
+    From two times the onset on it does, by up to 6 %: there the string comes to one of several shapes.
     """
     loads = []
     for time in (0.1, 0.2, 0.8):
