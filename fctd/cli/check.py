@@ -125,6 +125,7 @@ def _caliper(caliper: Caliper, metre: Shown, across: Shown) -> list[Row]:
     return [
         ("caliper", f"{md[0]:.1f} to {md[-1]:.1f}", depths),
         ("diameter", sizes, f"{across.label}, {np.nanmean(size):.4g} in the mean"),
+        ("first arm", f"{np.degrees(caliper.angles[0, 0]) % 360:.4g}", f"° from {caliper.reference.replace('_', ' ')}"),
         *([("without a value", str(missing), "rows, where the hole has its interval's size")] if missing else []),
     ]
 

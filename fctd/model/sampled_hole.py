@@ -195,7 +195,7 @@ def sample(pieces: Array, sampling: Sampling) -> Array:
         deviation[np.abs(deviation) < ROUND] = 0.0
         at = sampled.TABLES + k * size + 1
         of_cells = np.concatenate([deviation[:, :, None], corners], axis=2)
-        table[known, at : at + PER_CELL * cells] = of_cells.reshape(len(known), -1)
+        table[known, at : at + PER_CELL * cells] = of_cells.reshape(len(known), PER_CELL * cells)
         is_round &= (deviation == 0).all(axis=1)
     uneven = np.zeros(len(pieces), np.bool_)
     uneven[known] = ~is_round
@@ -211,9 +211,14 @@ def deviations(pieces: Array) -> tuple[Array, NDArray[np.int64]]:
     return pieces[rows, sampled.TABLES + 1 : sampled.TABLES + 1 + PER_CELL * cells : PER_CELL], rows
 
 
-def least_deviation(pieces: Array) -> float:
-    """Least deviation of the wall [m]: how far it lies within the round hole, below 0."""
-    return float(deviations(pieces)[0].min(initial=0.0))
+def narrow_cells(pieces: Array) -> tuple[Array, Array]:
+    """Measured depths (k, 2) [m] of the ends of cells that are not round, and half their least diameters (k,) [m]."""
+    found, rows = deviations(pieces)
+    of, half = pieces[rows], found.shape[1] // 2
+    across = 0.5 * (found[:, :half] + found[:, half:]).min(axis=1, initial=np.inf)
+    top, length = of[:, contact.START_MD], of[:, contact.LENGTH]
+    nominal = of[:, contact.HOLE_RADIUS] + np.minimum(of[:, contact.RADIUS_GAIN] * length, 0.0)
+    return np.column_stack([top, top + length]), nominal + across
 
 
 def with_mean_radii(rows: Array, pieces: Array) -> Array:

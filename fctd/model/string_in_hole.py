@@ -10,6 +10,7 @@ from fctd.model.drillstring import LongSegmentError, String
 from fctd.model.fluids import depth_at
 from fctd.model.mud import hole_radius, steady_resistance
 from fctd.model.pieces import RADIUS, TO_MD
+from fctd.model.sampled_hole import narrow_cells
 from fctd.model.string_rows import COMPRESSIBILITY, fill_rows
 from fctd.model.wellbore import Wellbore
 
@@ -70,6 +71,18 @@ def check_clearance(string: String, hole: Wellbore, top: Array, bottom: Array) -
             k = int(np.argmax(tight))
             raise InputError(
                 f"at most the hole's {2e3 * wall:.6g} mm",
+                key=f"{string.key_of(k)}.contact_diameter",
+                value=f"{2e3 * radius[k]:.6g} mm",
+            )
+    if hole.is_round:
+        return
+    ends, walls = narrow_cells(hole.pieces)
+    for k in range(len(radius)):
+        tight = (ends[:, 0] < bottom[k]) & (ends[:, 1] > top[k]) & (radius[k] > walls)
+        if tight.any():
+            i = int(np.argmin(np.where(tight, walls, np.inf)))
+            raise InputError(
+                f"at most the {2e3 * walls[i]:.4g} mm that wellbore.caliper has at {ends[i, 0]:.0f} m",
                 key=f"{string.key_of(k)}.contact_diameter",
                 value=f"{2e3 * radius[k]:.6g} mm",
             )

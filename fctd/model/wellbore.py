@@ -30,7 +30,7 @@ from fctd.model.pieces import (
     cylinders,
     fill_wall,
 )
-from fctd.model.sampled_hole import Sampling, least_deviation, sample, sampling_of, steepest, with_mean_radii
+from fctd.model.sampled_hole import Sampling, narrow_cells, sample, sampling_of, steepest, with_mean_radii
 from fctd.model.section import contact_radii
 from fctd.model.tortuosity import winding
 
@@ -105,7 +105,7 @@ class Wellbore:
     def narrowest(self) -> float:
         """Smallest radius of the hole [m]."""
         nominal = float(self.intervals[:, RADIUS].min())
-        return nominal if self.sampling is None else nominal + min(least_deviation(self.pieces), 0.0)
+        return nominal if self.is_round else min(nominal, float(narrow_cells(self.pieces)[1].min()))
 
     @property
     def total_depth(self) -> float:

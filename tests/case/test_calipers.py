@@ -61,6 +61,12 @@ def test_a_file_has_its_units_gaps_and_orientation(tmp_path: Path) -> None:
     np.testing.assert_allclose(np.degrees(found.angles), [[90, 180], [90, 180], [180, 270]])
 
 
+def test_a_log_of_a_tool_on_its_way_up_is_turned_round(tmp_path: Path) -> None:
+    found = written(tmp_path, "md_m,cali_m\n540,0.25\n530,0.24\n520,0.23\n")
+    np.testing.assert_array_equal(found.md, [520, 530, 540])
+    np.testing.assert_allclose(2 * found.radii[:, 0], [0.23, 0.24, 0.25])
+
+
 def test_a_log_in_las_is_read(tmp_path: Path) -> None:
     pytest.importorskip("lasio")
     text = (
@@ -77,7 +83,7 @@ def test_a_log_in_las_is_read(tmp_path: Path) -> None:
         ({"rows": [ROWS[0]]}, "two rows or more"),
         ({"rows": [ROWS[0], [540, 0.2]]}, "rows[1] = [540.0, 0.2]: expected a depth and 2 values"),
         ({"rows": [[520], [540]]}, "a depth and 1 to 64 values"),
-        ({"rows": [ROWS[1], ROWS[0]]}, 'rows[1] = "520 m": expected a depth below that of the row above, 540 m'),
+        ({"rows": [ROWS[1], ROWS[0]]}, 'rows[1] = "520 m": expected a depth greater than that of the row above, 540 m'),
         ({"rows": [ROWS[0], [540, -0.2, 0.2]]}, "a diameter above 0"),
         ({"rows": [ROWS[0], [540, 8.5, 8.5]]}, "check the unit"),
         ({"rows": ROWS, "values": "width"}, "'diameter' or 'radius'"),
@@ -100,7 +106,7 @@ def test_wrong_rows_are_refused_in_one_sentence(keys: dict[str, Any], words: str
         ("md_m,arm1_in\n520,8.5\n530,-8.5\n", "a diameter above 0"),
         ("md_m,arm1_m\n520,8.5\n530,8.5\n", "check the unit"),
         ("md_m,arm1_in,arm3_in\n520,8.5,8\n530,8.5,8\n", "column arm2"),
-        ("md_m,arm1_in\n520,8.5\n510,8.5\n", "a depth below that of the row above, 520 m"),
+        ("md_m,arm1_in\n520,8.5\n530,8.5\n510,8.5\n", "a depth greater than that of the row above, 530 m"),
     ],
 )
 def test_wrong_files_are_refused_with_their_place(tmp_path: Path, text: str, words: str) -> None:

@@ -5,13 +5,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import fctd
+from fctd import InputError
 from fctd.arrays import Array
 from fctd.mechanics import contact, sampled
 from fctd.model.frames import hole_frame
 from fctd.model.sampled_hole import in_cells, turns, wall_around
 from fctd.model.wellbore import build_wellbore
-from tests.calipers import BEND, BORE, FIRST, LAST, bent_case, bent_hole, rough, sampled_hole
-from tests.cases import make_case, pipe
+from tests.calipers import BORE, FIRST, LAST, bent_case, bent_hole, rough, sampled_hole
 
 
 def test_the_reference_direction_goes_with_the_hole_without_turning_about_it() -> None:
@@ -83,10 +84,25 @@ def test_the_wall_along_a_hole_has_circles_of_the_same_area() -> None:
     assert hole.narrowest == pytest.approx(0.5 * BORE)  # above and below the caliper
 
 
-def test_a_hole_is_as_narrow_as_its_caliper_says() -> None:
+def test_a_string_that_a_caliper_does_not_let_pass_is_refused() -> None:
+    """120 mm at 702 m, which pipe of 127 mm does not pass; an edge on one side alone lets it pass."""
     narrow = [[FIRST, 0.216], [700, 0.216], [701, 0.12], [703, 0.12], [704, 0.216], [LAST, 0.216]]
-    case = make_case(BEND, [pipe(1000, 100)], wellbore=dict(bent_case("sampled", caliper={"rows": narrow}).wellbore))
+    case = bent_case("sampled", caliper={"rows": narrow})
     assert build_wellbore(case).narrowest == pytest.approx(0.06, abs=1e-3)
+    with pytest.raises(InputError, match=r"that wellbore\.caliper has at 70[123] m"):
+        fctd.equilibrium(case, "trip_out", 900.0)
+    assert fctd.equilibrium(case, "trip_out", 600.0).answered
+    edge = [[md, 0.10795, 0.10795, 0.10795 - 0.02 * (700 < md < 710), 0.10795] for md in np.arange(FIRST, LAST, 2.0)]
+    beside = bent_case("sampled", caliper={"rows": edge, "values": "radius"})
+    assert fctd.equilibrium(beside, "trip_out", 900.0).answered
+
+
+def test_a_caliper_that_measured_no_open_hole_leaves_the_hole_round() -> None:
+    """In casing, below total depth, or without values."""
+    for rows in ([[10, 0.3], [400, 0.3]], [[1100, 0.3], [1200, 0.3]]):
+        hole = build_wellbore(bent_case("sampled", caliper={"rows": rows}))
+        assert hole.is_round
+        assert hole.narrowest == pytest.approx(0.5 * BORE)
 
 
 def test_points_of_any_radius_are_asked() -> None:

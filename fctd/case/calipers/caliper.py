@@ -108,7 +108,7 @@ class CaliperSpec(Table):
 def _of_rows(rows: tuple[tuple[float, ...], ...]) -> Measured:
     """The measured rows of a case."""
     if len(rows) < 2:
-        raise InputError("two rows or more", key="rows", value=len(rows))
+        raise InputError("two rows or more", key="rows", value=list(rows))
     for k, row in enumerate(rows):
         if len(row) != len(rows[0]) or not 2 <= len(row) <= MOST_ARMS + 1:
             expected = f"a depth and {len(rows[0]) - 1} values, as many as in the first row"
@@ -123,7 +123,7 @@ def _caliper(spec: CaliperSpec, found: Measured) -> Caliper:
     """The radii that measured rows stand for."""
     for row, md in enumerate(found.md.tolist()):
         if row and md <= found.md[row - 1]:
-            expected = f"a depth below that of the row above, {found.md[row - 1]:g} m"
+            expected = f"a depth greater than that of the row above, {found.md[row - 1]:g} m"
             raise InputError(expected, key=found.where(row, "md"), value=f"{md:g} m", file=spec.log)
     bad = np.argwhere((found.values <= 0) | (found.values > units.WIDEST))
     if len(bad):

@@ -39,7 +39,7 @@ def read_caliper(path: Path, choices: Choices) -> Measured:
         text = decode(read_bytes(path, _LARGEST_FILE, "a caliper file"), _KINDS)
         rows = (read_las if text.lstrip().startswith("~") else read_text)(text, CALIPER, choices)
         if len(rows) < 2:
-            raise InputError("two rows or more below the headers", value=len(rows))
+            raise InputError("two rows or more below the headers", key="rows", value=len(rows))
         keys = [key for key in ("md", "orientation", *ARMS) if key in rows.columns]
         arms = [key for key in ARMS if key in keys]
         if arms != list(ARMS[: len(arms)]):
@@ -52,7 +52,9 @@ def read_caliper(path: Path, choices: Choices) -> Measured:
         if np.isnan(table["md"]).any():
             raise rows.error(int(np.isnan(table["md"]).argmax()), "md", "a number")
         orientation = np.nan_to_num(table.get("orientation", np.zeros(len(values))))
+        # A tool logs on its way up, and files keep that order.
+        order = np.arange(len(values))[:: -1 if (np.diff(table["md"]) < 0).all() else 1]
         return Measured(
-            table["md"], np.column_stack([table[arm] for arm in arms]), orientation,
-            lambda row, key: rows.where(row, key)[0],
+            table["md"][order], np.column_stack([table[arm] for arm in arms])[order], orientation[order],
+            lambda row, key: rows.where(int(order[row]), key)[0],
         )  # fmt: skip
