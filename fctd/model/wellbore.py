@@ -12,6 +12,7 @@ from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.hole import WellboreSpec
 from fctd.case.load import Case, naming_file
+from fctd.case.string import ComponentSpec
 from fctd.case.wall import IntervalSpec
 from fctd.mechanics import contact
 from fctd.mechanics.query import WALL_COLUMNS, Walls, query_sampled, query_walls, walls_in
@@ -287,17 +288,19 @@ def build_wellbore(case: Case) -> Wellbore:
     joins.
     """
     with naming_file(case):
-        return _build(case.wellbore, contact_radii(case.string.components))
+        return _build(case.wellbore, case.string.components)
 
 
-def _build(hole: WellboreSpec, radii: Sequence[float]) -> Wellbore:
+def _build(hole: WellboreSpec, components: Sequence[ComponentSpec]) -> Wellbore:
     stations, intervals = hole.trajectory, _intervals(hole)
     if hole.tortuosity is not None:
         _courses(hole, stations)  # names a station that no arc reaches
         stations = winding(stations, hole.tortuosity)
     ends = intervals[:, TO_MD][intervals[:, TO_MD] < stations[-1, 0]]
     courses = _courses(hole, stations) if hole.survey_method == "minimum_curvature" else None
-    sampling = None if hole.geometry != "sampled" else sampling_of(hole, intervals[:, TO_MD], radii)
+    sampling = None
+    if hole.geometry == "sampled":
+        sampling = sampling_of(hole, intervals[:, TO_MD], contact_radii(components))
     if hole.geometry != "cylinders":
         assert courses is not None  # WellboreSpec requires the method
         # Where the hole changes, a shoe as long as the overlap of cylinders leads from one size to the next.
