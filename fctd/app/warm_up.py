@@ -22,6 +22,9 @@ SMALL: Final[dict[str, Any]] = {
     },
     "string": {"components": [{"name": "pipe", "outer_diameter": 0.1, "inner_diameter": 0.05, "segment_length": 25.0}]},
 }
+OVAL: Final[dict[str, Any]] = {
+    "geometry": "sampled", "caliper": {"rows": [[40.0, 0.25, 0.2], [60.0, 0.25, 0.2]]}, "cell": 10.0,
+}  # fmt: skip
 DEPTHS: Final = (60.0, 70.0, 80.0, 90.0)
 
 
@@ -31,7 +34,7 @@ def warm_up() -> None:
     rows = chart_rows(case, ["trip_out", "rotate_off_bottom"], DEPTHS)
     point = equilibrium(case, "trip_out", 90.0)
     tables = *({"solver": {"buckling": way}} for way in RESOLVING), {"contact": {"helical_force": "analytic"}}
-    for table in tables:
+    for table in (*tables, {"wellbore": SMALL["wellbore"] | OVAL}):
         buckled = Case.model_validate(SMALL | {"bit": {"weight_on_bit": 1e5}} | table)
         equilibrium(buckled, "drill_sliding", 90.0)
     strings = of_points([point])

@@ -52,6 +52,12 @@ DRILLING: dict[str, Any] = {
     ],
 }
 
+OVAL: dict[str, Any] = {
+    "wellbore": SMALL["wellbore"] | {
+        "geometry": "sampled", "caliper": {"rows": [[40.0, 0.25, 0.2], [60.0, 0.25, 0.2]]}, "cell": 10.0,
+    },
+}  # fmt: skip
+
 
 def compile_command(quiet: Quiet = False) -> None:
     """Compile the engine now; otherwise the first command that needs it compiles it."""
@@ -81,11 +87,11 @@ def compile_all() -> None:
     """Compile, and keep, every function that a run or a steady string calls."""
     case = Case.model_validate(SMALL)
     simulate(case)
-    for more in (IN_STANDS, DRILLING):
+    for more in (IN_STANDS, DRILLING, OVAL):
         simulate(Case.model_validate(SMALL | more))
     equilibrium(case, operation="trip_out", bit_depth=90.0)
     tables = *({"solver": {"buckling": way}} for way in RESOLVING), {"contact": {"helical_force": "analytic"}}
-    for table in tables:
+    for table in (*tables, OVAL):
         buckled = Case.model_validate(SMALL | {"bit": {"weight_on_bit": 1e5}} | table)
         equilibrium(buckled, operation="drill_sliding", bit_depth=90.0)
 
