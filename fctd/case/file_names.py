@@ -1,10 +1,12 @@
 """Names of files in a case."""
 
+import os
 from pathlib import Path
 from typing import Annotated
 
-from pydantic import BeforeValidator
+from pydantic import BeforeValidator, ValidationInfo
 
+from fctd.case.errors import InputError
 from fctd.case.text import is_utf8
 
 
@@ -14,3 +16,16 @@ def _as_path(raw: object) -> object:
 
 
 FileName = Annotated[Path, BeforeValidator(_as_path)]
+
+
+def beside_case(file: Path | None, info: ValidationInfo, what: str) -> Path | None:
+    """A file relative to the folder of the case file while one is loaded; InputError where there is none.
+
+    what : it is, in messages.
+    """
+    if file is None or info.context is None:
+        return file
+    path: Path = info.context["folder"] / file
+    if not os.path.exists(path):  # Path.exists raises on names too long for the file system
+        raise InputError(f"{what} that exists, looked for {path}")
+    return path

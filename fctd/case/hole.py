@@ -5,7 +5,6 @@ In all tables of a case every float is SI once validated.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from itertools import pairwise
@@ -19,10 +18,10 @@ from pydantic import Field, PrivateAttr, ValidationInfo, field_validator, model_
 from fctd.case import units
 from fctd.case.calipers.caliper import Caliper, CaliperSpec
 from fctd.case.errors import MISSING, InputError, Table, exclusive, known_keys
-from fctd.case.file_names import FileName
+from fctd.case.file_names import FileName, beside_case
 from fctd.case.input_warnings import InputWarning
 from fctd.case.surveys import doubts
-from fctd.case.surveys.form import SURVEY, ColumnKey, ColumnSpec
+from fctd.case.surveys.form import SURVEY, ColumnKey, ColumnSpec, check_units
 from fctd.case.surveys.reading import read_survey
 from fctd.case.surveys.smoothing import smooth
 from fctd.case.surveys.stations import StationKey, Survey, Written, check
@@ -103,22 +102,14 @@ class WellboreSpec(Table):
     @field_validator("columns")
     @classmethod
     def _check_units(cls, columns: dict[StationKey, ColumnSpec] | None) -> dict[StationKey, ColumnSpec] | None:
-        for key, column in (columns or {}).items():
-            field = SURVEY.field(key)
-            if column.unit is not None and field.unit_of(column.unit) is None:
-                raise InputError(field.accepted, key=f"{key}.unit", value=column.unit)
+        check_units(columns, SURVEY)
         return columns
 
     @field_validator("survey")
     @classmethod
     def _find_survey(cls, survey: Path | None, info: ValidationInfo) -> Path | None:
         """The survey, relative to the folder of the case file while one is loaded."""
-        if survey is None or info.context is None:
-            return survey
-        path: Path = info.context["folder"] / survey
-        if not os.path.exists(path):  # Path.exists raises on names too long for the file system
-            raise InputError(f"a survey file that exists, looked for {path}")
-        return path
+        return beside_case(survey, info, "a survey file")
 
     @model_validator(mode="after")
     def _check(self) -> Self:

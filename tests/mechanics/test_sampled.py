@@ -4,13 +4,11 @@ import numpy as np
 import pytest
 
 from fctd.arrays import Array
-from fctd.mechanics import sampled, state, stored_walls
-from fctd.mechanics.energy import penetration
+from fctd.mechanics import sampled
 from fctd.mechanics.jit import entry
 from fctd.model.wellbore import Wellbore, find_contacts
-from tests.bodies import TO_WALL
 from tests.calipers import BORE, FIRST, LAST, bent_hole, rough, sampled_hole
-from tests.mechanics.test_stored_walls import put_points
+from tests.mechanics.test_stored_walls import pressed, slopes_of_energy
 
 PIPE = 0.0635
 
@@ -43,25 +41,10 @@ def test_the_force_of_a_rough_wall_is_the_gradient_of_its_energy() -> None:
     """Also along the hole: −K d n of the stored wall against differences of ½ K d²."""
     hole = sampled_hole(rough(2))
     md, points = beside(hole, 3)
-    n, h, rng = len(points), 1e-6, np.random.default_rng(4)
-    S, owner = state.new_state(n), np.zeros(n + 2, np.int64)
-    state.row(S, state.RADIUS, n)[:], state.row(S, state.TRIBUTARY, n)[:] = PIPE, 2.0
-    owner[1 : n + 1] = hole.owners(points)
-
-    def pressed(at: Array) -> tuple[Array, Array]:
-        """Force (n, 3) and energy (n,) of the walls beside points, in a fresh buffer's look-up."""
-        put_points(S, at, rng)
-        state.row(S, state.SLACK, n)[:] = state.row(S, state.MARGIN_END, n)[:] = -np.inf
-        stored_walls.update_walls(S, owner, n, (n + 7) // 8 * 8, hole.pieces, hole.geometry)
-        depth, stiffness = np.maximum(penetration(S, n), 0.0), state.row(S, state.K_WALL, n)
-        normal = np.stack([state.row(S, of, n) for of in TO_WALL], axis=1)
-        normal /= np.linalg.norm(normal, axis=1)[:, None]
-        return -(stiffness * depth)[:, None] * normal, 0.5 * stiffness * depth**2
-
-    force, energy = pressed(points)
-    slopes = [(pressed(points + step)[1] - pressed(points - step)[1]) / (2 * h) for step in h * np.eye(3)]
+    force, energy = pressed(hole, points, PIPE)
+    slopes = slopes_of_energy(hole, points, PIPE)
     assert (energy > 0).mean() > 0.3
-    np.testing.assert_allclose(force, -np.column_stack(slopes), atol=1e-6 * np.abs(force).max())
+    np.testing.assert_allclose(force, -slopes, atol=1e-6 * np.abs(force).max())
     along = np.abs(np.sum(force * hole.at(md)[1], axis=1)) / np.maximum(np.linalg.norm(force, axis=1), 1.0)
     assert along.max() > 0.01
 

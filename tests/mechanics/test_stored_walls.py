@@ -6,6 +6,7 @@ import pytest
 from fctd.arrays import Array
 from fctd.mechanics import state, stored_walls
 from fctd.mechanics.energy import penetration
+from fctd.model.wellbore import Wellbore
 from tests.bodies import AXIS, PLACE, TO_WALL, put
 from tests.cases import hole_of
 
@@ -24,6 +25,26 @@ def put_points(S: Array, points: Array, rng: np.random.Generator) -> None:
         arm = S[state.ARM_CONTACT + j] = rng.uniform(-3, 3)
         put(S, j, AXIS, axis)
         put(S, j, PLACE, point - arm * axis)
+
+
+def pressed(hole: Wellbore, at: Array, radius: float) -> tuple[Array, Array]:
+    """Force (n, 3) and energy (n,) of the walls beside points of a string, of a look-up in the table."""
+    n, rng = len(at), np.random.default_rng(9)
+    S, owner = state.new_state(n), np.zeros(n + 2, np.int64)
+    state.row(S, state.RADIUS, n)[:], state.row(S, state.TRIBUTARY, n)[:] = radius, 2.0
+    owner[1 : n + 1] = hole.owners(at)
+    put_points(S, at, rng)
+    stored_walls.update_walls(S, owner, n, (n + 7) // 8 * 8, hole.pieces, hole.geometry)
+    depth, stiffness = np.maximum(penetration(S, n), 0.0), state.row(S, state.K_WALL, n)
+    normal = np.stack([state.row(S, of, n) for of in TO_WALL], axis=1)
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    return -(stiffness * depth)[:, None] * normal, 0.5 * stiffness * depth**2
+
+
+def slopes_of_energy(hole: Wellbore, points: Array, radius: float, h: float = 1e-6) -> Array:
+    """Central differences (n, 3) of the energy of the walls [N]."""
+    ends = [(pressed(hole, points + d, radius)[1], pressed(hole, points - d, radius)[1]) for d in h * np.eye(3)]
+    return np.column_stack([(ahead - behind) / (2 * h) for ahead, behind in ends])
 
 
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
@@ -61,26 +82,8 @@ def test_the_force_of_a_wall_is_the_gradient_of_its_energy_at_seams() -> None:
     md = md[md < 990]
     hole_radius = np.where(md < 500, 0.15, np.where(md > 500.4, 0.1, 0.13))
     points = hole.off_axis(md, rng.uniform(0, 2 * np.pi, len(md)), hole_radius - 0.05 + rng.uniform(0.025, 0.04))
-    n, h, force, slopes = len(points), 1e-6, np.zeros((len(md), 3)), np.zeros((len(md), 3))
-    S = state.new_state(n)
-    state.row(S, state.RADIUS, n)[:], state.row(S, state.TRIBUTARY, n)[:] = 0.05, 2.0
-    owner = np.zeros(n + 2, np.int64)
-    owner[1 : n + 1] = hole.owners(points)
-
-    def pressed(at: Array) -> tuple[Array, Array]:
-        """Force (n, 3) and energy (n,) of the walls beside points, in a fresh buffer's look-up."""
-        put_points(S, at, rng)
-        state.row(S, state.SLACK, n)[:] = state.row(S, state.MARGIN_END, n)[:] = -np.inf
-        stored_walls.update_walls(S, owner, n, (n + 7) // 8 * 8, hole.pieces, hole.geometry)
-        depth, stiffness = np.maximum(penetration(S, n), 0.0), state.row(S, state.K_WALL, n)
-        normal = np.stack([state.row(S, of, n) for of in TO_WALL], axis=1)
-        normal /= np.linalg.norm(normal, axis=1)[:, None]
-        return -(stiffness * depth)[:, None] * normal, 0.5 * stiffness * depth**2
-
-    force, energy = pressed(points)
-    for axis in range(3):
-        step = h * np.eye(3)[axis]
-        slopes[:, axis] = (pressed(points + step)[1] - pressed(points - step)[1]) / (2 * h)
+    force, energy = pressed(hole, points, 0.05)
+    slopes = slopes_of_energy(hole, points, 0.05)
     assert (energy > 0).mean() > 0.9
     np.testing.assert_allclose(force, -slopes, atol=1e-5 * np.abs(force).max())
     along = np.abs(np.sum(force * hole.at(md)[1], axis=1)) / np.linalg.norm(force, axis=1)

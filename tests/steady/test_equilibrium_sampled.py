@@ -14,11 +14,11 @@ from tests.cases import make_case, pipe
 BORE, RADIUS, LENGTH = 0.2159, 0.0635, 120.0
 
 
-def level_case(rows: Array, segment: float, friction: float = 0.0, cell: float = 0.1, stiffness: float = 1e9) -> Case:
+def level_case(rows: Array, segment: float, friction: float = 0.0, cell: float = 0.1) -> Case:
     """Pipe in a level hole with a caliper of radii [m]."""
     hole = {
         "stations": [[0, 90, 0], [LENGTH + 10, 90, 0]], "geometry": "sampled", "cell": cell,
-        "stiffness_per_length": stiffness,
+        "stiffness_per_length": 1e9,
         "intervals": [{"to_md": LENGTH + 10, "diameter": BORE, "friction": friction}],
         "caliper": {"rows": rows.tolist(), "values": "radius"},
     }  # fmt: skip
@@ -49,7 +49,9 @@ def test_pipe_at_rest_in_an_oval_rubs_on_two_places(long_axis: float, grips: boo
         assert factor > 1.1
     point = solved(case, "trip_out")
     pressed = float(point.profile["contact_force_N"].sum())
-    assert pressed == pytest.approx(weight, rel=0.1)  # the drive holds half of the uppermost segment
+    assert pressed == pytest.approx(
+        weight, rel=0.1
+    )  # the drive holds pipe on the axis, metres of which do not lie down
     assert point.hookload == pytest.approx(friction * pressed * factor, rel=0.01)
 
 
@@ -82,7 +84,7 @@ def test_pipe_over_a_ledge_lifts_off_on_both_sides() -> None:
     _, _, edge_force, _ = start * fsolve(lambda share: off(start * share) / scale, np.ones(4))
     profile = solved(case, "rotate_off_bottom").profile
     near = profile[(profile["md_m"] - edge).abs() < 1.0]
-    assert near["contact_force_N"].sum() == pytest.approx(edge_force, rel=0.03)
+    assert near["contact_force_N"].sum() == pytest.approx(edge_force, rel=0.005)
 
 
 def test_a_round_caliper_has_the_rows_of_arcs() -> None:

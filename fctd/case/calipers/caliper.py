@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,8 +15,8 @@ from fctd.case import units
 from fctd.case.calipers.form import ARMS, CALIPER, MOST_ARMS
 from fctd.case.calipers.reading import Measured, read_caliper
 from fctd.case.errors import InputError, Table, exclusive, known_keys
-from fctd.case.file_names import FileName
-from fctd.case.surveys.form import ColumnKey, ColumnSpec
+from fctd.case.file_names import FileName, beside_case
+from fctd.case.surveys.form import ColumnKey, ColumnSpec, check_units
 from fctd.case.tables.headers import Choice
 
 Reference = Literal["high_side", "north"]
@@ -69,22 +68,14 @@ class CaliperSpec(Table):
     @field_validator("columns")
     @classmethod
     def _check_units(cls, columns: dict[str, ColumnSpec] | None) -> dict[str, ColumnSpec] | None:
-        for key, column in (columns or {}).items():
-            field = CALIPER.field(key)
-            if column.unit is not None and field.unit_of(column.unit) is None:
-                raise InputError(field.accepted, key=f"{key}.unit", value=column.unit)
+        check_units(columns, CALIPER)
         return columns
 
     @field_validator("log")
     @classmethod
     def _find_log(cls, log: Path | None, info: ValidationInfo) -> Path | None:
         """The file, relative to the folder of the case file while one is loaded."""
-        if log is None or info.context is None:
-            return log
-        path: Path = info.context["folder"] / log
-        if not os.path.exists(path):  # Path.exists raises on names too long for the file system
-            raise InputError(f"a caliper file that exists, looked for {path}")
-        return path
+        return beside_case(log, info, "a caliper file")
 
     @model_validator(mode="after")
     def _check(self) -> Self:

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Annotated, Final, get_args
+from typing import Annotated, Any, Final, get_args
 
 from pydantic import BeforeValidator
 
@@ -88,3 +88,11 @@ def _as_column(raw: object) -> object:
 
 
 ColumnKey = Annotated[ColumnSpec, BeforeValidator(_as_column, json_schema_input_type=str | ColumnSpec)]
+
+
+def check_units(columns: Mapping[Any, ColumnSpec] | None, form: TableForm) -> None:
+    """Raise InputError for a unit of a chosen column that its field does not have."""
+    for key, column in (columns or {}).items():
+        field = form.field(key)
+        if column.unit is not None and field.unit_of(column.unit) is None:
+            raise InputError(field.accepted, key=f"{key}.unit", value=column.unit)
