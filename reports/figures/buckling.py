@@ -109,12 +109,27 @@ def statuses(tables: Tables, ax: Axes) -> None:
 @figure(
     "fed_limits",
     name="shapes",
-    caption=(
-        "Strings beside their limit: where they lie round the hole and how hard they press, in the full run each that "
-        "arrives by feed and not by the stepper, or the other way round; in the quick run one that is fed."
-    ),
+    caption="A string fed below and above its limit: where it lies round the hole and how hard it presses.",
 )
 def beside_limits(tables: Tables) -> Canvas:
+    """Contact angle and force over measured depth on both sides of the limit."""
+    return _shapes(tables)
+
+
+@figure(
+    "stepped_limits",
+    name="shapes",
+    caption=(
+        "Strings beside their limit by feed and by the stepper, one of them and each that arrives by one and not by "
+        "the other: where they lie round the hole and how hard they press."
+    ),
+)
+def stepped_beside_limits(tables: Tables) -> Canvas:
+    """Contact angle and force over measured depth by feed and by the stepper."""
+    return _shapes(tables)
+
+
+def _shapes(tables: Tables) -> Canvas:
     """Contact angle on the left, contact force on the right, over measured depth; a row for each string."""
     table = tables["shapes"]
     names = list(table["string"].unique())

@@ -52,6 +52,7 @@ STUDIES: dict[str, str] = {
     "robust_rows": "validation.studies.robust_rows",
     "fed_strings": "validation.studies.fed_strings",
     "fed_limits": "validation.studies.fed_limits",
+    "stepped_limits": "validation.studies.stepped_limits",
     "homogenised_waves": "validation.studies.homogenised_waves",
     "refine_real": "validation.studies.refine_real",
     "calibration": "validation.studies.calibration",

@@ -1,0 +1,34 @@
+"""Locked strings beside the limit of their feeding: how feed ends there, and the shapes in which it does."""
+
+import numpy as np
+import pandas as pd
+
+from fctd.steady.feed import End
+from validation.harness.study import Context
+from validation.parts.fed_strings import ARRIVES, MORE_FRICTION, NOT, Feeding, Locked, drawn, locked_of, solve
+
+BELOW, ABOVE = 0.95, 1.05  # of the friction at lock-up, on the same mesh
+SHAPE = ["string", "by", "md_m", "contact_angle_deg", "contact_force_N"]  # columns of shapes
+QUICK = 1744  # index of the one trip of the quick runs, which takes ten seconds
+
+
+def quick_trip(context: Context) -> Locked:
+    """The one locked trip of the quick runs."""
+    one = drawn(context, QUICK, MORE_FRICTION)
+    return next(locked_of([(one, solve(one.case, one.operation, one.bit_depth))]))
+
+
+def middle(low: float, high: float) -> float:
+    """The limit between two shares; the upper one where no lower one is known."""
+    return (low * high) ** 0.5 if np.isfinite(low) else high
+
+
+def fed(feeding: Feeding, share: float) -> str:
+    """How feeding ends at a share of the friction."""
+    end = feeding.at(share)
+    return ARRIVES if end == End.ARRIVED else NOT if end == End.LOCKED else str(end)
+
+
+def shape(profile: pd.DataFrame, string: str, by: str) -> pd.DataFrame:
+    """A profile for the table of shapes."""
+    return profile.assign(string=string, by=by)[SHAPE]
