@@ -9,6 +9,9 @@ from numpy.typing import ArrayLike
 
 from fctd.arrays import Array
 from fctd.case.load import Case
+from fctd.model.pieces import RADIUS, TO_MD
+from fctd.model.sampled_hole import mean_radii
+from fctd.model.wellbore import Wellbore
 
 # A string at rest is struck and swings at about this frequency [Hz].
 AT_REST = 1.0
@@ -77,12 +80,17 @@ def filled(radius: ArrayLike, hole: ArrayLike, most: float = FULLEST) -> Array:
     return np.asarray(np.minimum(np.asarray(radius, float) / np.asarray(hole, float), most))
 
 
-def hole_radius(case: Case, top_md: float, length: Array) -> Array:
-    """Radius of the hole (n,) [m] beside the middle of segments of these lengths [m] below ``top_md``."""
-    intervals = case.wellbore.intervals
-    index = np.searchsorted([interval.to_md for interval in intervals], top_md + np.cumsum(length) - 0.5 * length)
-    radius = np.array([0.5 * interval.diameter for interval in intervals])
-    return np.asarray(radius[np.minimum(index, len(intervals) - 1)])
+def hole_radius(hole: Wellbore, top_md: float, length: Array) -> Array:
+    """Radius of the hole (n,) [m] beside segments of these lengths [m] below ``top_md``.
+
+    It is that of the interval beside the middle of a segment, and in a hole that is not round the mean over the segment
+    of circles of the same area.
+    """
+    bottom = top_md + np.cumsum(length)
+    if not hole.is_round:
+        return mean_radii(hole.wall_along(), bottom - length, bottom)
+    index = np.searchsorted(hole.intervals[:, TO_MD], bottom - 0.5 * length)
+    return np.asarray(hole.intervals[np.minimum(index, len(hole.intervals) - 1), RADIUS])
 
 
 def steady_resistance(case: Case, radius: Array, hole: Array) -> tuple[Array, Array]:

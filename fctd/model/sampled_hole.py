@@ -239,6 +239,14 @@ def with_mean_radii(rows: Array, pieces: Array) -> Array:
     return along
 
 
+def mean_radii(rows: Array, top: Array, bottom: Array) -> Array:
+    """Means (n,) [m] between measured depths (n,) of the radius that rows of ``Wellbore.wall_along`` have."""
+    md, radius = np.append(0.0, rows[:, TO_MD]), np.append(rows[0, RADIUS], rows[:, RADIUS])
+    areas = np.append(0.0, np.cumsum(0.5 * np.diff(md) * (radius[1:] + radius[:-1])))
+    area = _integral(md, radius, areas, bottom) - _integral(md, radius, areas, top)
+    return np.asarray(area / (bottom - top))
+
+
 def steepest(pieces: Array) -> float:
     """Bound of the slope of the wall, along and around the hole together, against that of the round hole."""
     (rows,) = np.nonzero(pieces[:, sampled.AROUND_CELLS])

@@ -95,8 +95,8 @@ def fill(S: Array, string: String, case: Case, hole: Wellbore) -> PerMetre:
     """
     # Absurd masses and stiffnesses overflow; ``_step_limit`` refuses them, and ``not_finite`` is their steady status.
     pipe: PerMetre = fill_rows(
-        S, string.length, string.component, string.table, string.weight, string.long_segment, damping_of(case, string),
-        squeeze_of(case, string, hole), case.wellbore.stiffness_per_length is not None,
+        S, string.length, string.component, string.table, string.weight, string.long_segment,
+        damping_of(case, string, hole), squeeze_of(case, string, hole), case.wellbore.stiffness_per_length is not None,
     )  # fmt: skip
     return pipe
 
@@ -135,11 +135,11 @@ def excess_pressure(string: String, hole: Wellbore) -> Array:
     return inside - outside
 
 
-def damping_of(case: Case, string: String) -> Array:
+def damping_of(case: Case, string: String, hole: Wellbore) -> Array:
     """Damping by the mud per metre of every segment (n, 3): along, across [N s/m²] and about the axis [N s]."""
     mud, damping = case.mud, np.empty((string.segments, 3))
     damping[:] = mud.axial_damping or 0.0, mud.lateral_damping or 0.0, mud.rotational_damping or 0.0
     if mud.viscosity:
-        hole = hole_radius(case, string.top_md, string.length)
-        damping[:, 0], damping[:, 2] = steady_resistance(case, string.of("outer"), hole)
+        around = hole_radius(hole, string.top_md, string.length)
+        damping[:, 0], damping[:, 2] = steady_resistance(case, string.of("outer"), around)
     return damping

@@ -155,8 +155,11 @@ class Wellbore:
         Below the end of an interval the values change to the next one's over one overlap, as in cylinders and arcs.
         Where the hole is sampled, its radius is that of the circle of the same area.
         """
-        rows = self.nominal_wall()
-        return rows if self.sampling is None else with_mean_radii(rows, self.pieces)
+        return self.nominal_wall() if self.sampling is None else self._mean_wall
+
+    @cached_property
+    def _mean_wall(self) -> Array:
+        return with_mean_radii(self.nominal_wall(), self.pieces)
 
     def nominal_wall(self) -> Array:
         """``wall_along`` with the radii of the intervals, also where the hole is sampled."""

@@ -13,6 +13,7 @@ from fctd.mechanics import state
 from fctd.mechanics.topdrive import PerMetre
 from fctd.model.drillstring import String
 from fctd.model.mud import AT_REST, added_mass, hole_radius, lateral_damping, layer_drag
+from fctd.model.wellbore import Wellbore
 
 
 class Sideways(NamedTuple):
@@ -22,16 +23,16 @@ class Sideways(NamedTuple):
     added_mass: Array
 
 
-def sideways(case: Case, string: String, rpm: float) -> Sideways:
+def sideways(case: Case, string: String, hole: Wellbore, rpm: float) -> Sideways:
     """What the mud does to lateral motion of a string that rotates at ``rpm``, or rests."""
     mud, n = case.mud, string.segments
     damping, mass = np.full(n, mud.lateral_damping or 0.0), np.zeros(n)
     if mud.unsteady:
-        outer, hole = string.of("outer"), hole_radius(case, string.top_md, string.length)
+        outer, around = string.of("outer"), hole_radius(hole, string.top_md, string.length)
         inside, outside = string.densities or (None, mud.density)
-        mass = added_mass(outer, string.of("inner"), hole, outside, inside)
+        mass = added_mass(outer, string.of("inner"), around, outside, inside)
         if mud.lateral_damping is None:
-            damping = lateral_damping(outer, hole, outside, mud.unsteady, rpm / 60 if rpm else AT_REST)
+            damping = lateral_damping(outer, around, outside, mud.unsteady, rpm / 60 if rpm else AT_REST)
     return Sideways(damping, mass)
 
 
@@ -48,8 +49,9 @@ def layers(case: Case, string: String, rate: float) -> Array:
 
 
 def take_along(
-    S: Array, case: Case, string: String, pipe: PerMetre, rpm: float, rate: float, *, in_derrick: bool = False
-) -> PerMetre:
+    S: Array, case: Case, string: String, hole: Wellbore, pipe: PerMetre, rpm: float, rate: float, *,
+    in_derrick: bool = False,
+) -> PerMetre:  # fmt: skip
     """Update a state's lateral damping, added mass and boundary layers; returns the pipe fed at the top with its own.
 
     string : laid out at its present depth; rate [1/s] : of the layers; in_derrick : whether its upper part is in air
@@ -58,7 +60,7 @@ def take_along(
     """
     n = string.segments
     drag = layers(case, string, rate) * string.length
-    found = sideways(case, string, rpm)
+    found = sideways(case, string, hole, rpm)
     damping, mass = (per_metre * string.length for per_metre in found)
     if string.long_segment:  # its upper half moves with the top drive; sideways its end moves what its waves have
         held = 0.5 * pipe.mass * string.length[0] - S[state.MASS + 1]

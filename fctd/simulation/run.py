@@ -53,7 +53,7 @@ class Run(MovingString, Restorable):
         now = self.bit_depth, self.segments, operation.rpm
         if self.case.mud.unsteady and now != self.mud_at:
             self.pipe = take_along(
-                self.S, self.case, self.laid_out, self.pipe, operation.rpm, self.laws.layer_rate,
+                self.S, self.case, self.laid_out, self.hole, self.pipe, operation.rpm, self.laws.layer_rate,
                 in_derrick=self.upper_end.in_derrick,
             )  # fmt: skip
             self.mud_at = now

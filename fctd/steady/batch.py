@@ -184,7 +184,7 @@ def _pack(case: Case, laid: Sequence[LaidString]) -> Strings:
         float(case.string.top_md),
         max((string.table for string in strings), key=len),
         _joined([string.weights for string in strings], axis=1),
-        _joined([damping_of(case, string) for string in strings]),
+        _joined([damping_of(case, of.string, of.hole) for of in laid]),
         _joined([squeeze_of(case, of.string, of.hole) for of in laid]),
         np.zeros(total + len(strings)) if plain else _joined([of.excess for of in laid]),
         case.wellbore.stiffness_per_length is not None,

@@ -2,8 +2,16 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from fctd.model.mud import added_mass, hole_radius, lateral_damping, resistance
+from fctd import build_wellbore
+from fctd.model.drillstring import lay_out
+from fctd.model.mud import added_mass, hole_radius, lateral_damping, resistance, steady_resistance
+from fctd.model.pieces import INTERVAL_COLUMNS, RADIUS, TO_MD
+from fctd.model.sampled_hole import mean_radii
+from fctd.model.string_in_hole import damping_of
+from tests.calipers import FIRST, LAST, bent_case
 from tests.cases import make_case
 
 INCH = 0.0254
@@ -42,5 +50,32 @@ def test_the_hole_beside_the_middle_of_a_segment() -> None:
     intervals = [{"to_md": 500, "diameter": 0.3, "friction": 0.2}, {"to_md": 1000, "diameter": 0.2, "friction": 0.2}]
     case = make_case(wellbore={"intervals": intervals})
     lengths = np.array([100.0, 410.0, 480.0])
-    assert hole_radius(case, 0.0, lengths).tolist() == [0.15, 0.15, 0.1]
-    assert hole_radius(case, 300.0, lengths).tolist() == [0.15, 0.1, 0.1]
+    hole = build_wellbore(case)
+    assert hole_radius(hole, 0.0, lengths).tolist() == [0.15, 0.15, 0.1]
+    assert hole_radius(hole, 300.0, lengths).tolist() == [0.15, 0.1, 0.1]
+
+
+def test_the_hole_of_a_caliper_is_that_around_a_segment() -> None:
+    """A hole that widens from 0.3 to 0.4 m, and its viscous resistance."""
+    case = bent_case("sampled", caliper={"rows": [[FIRST, 0.3], [620, 0.3], [720, 0.4], [LAST, 0.4]]})
+    hole = build_wellbore(case)
+    found = hole_radius(hole, 600.0, np.array([20.0, 100.0, 40.0, 20.0]))
+    assert found == pytest.approx([0.15, 0.175, 0.2, 0.2], abs=1e-3)
+    assert hole_radius(hole, 0.0, np.array([490.0])) == pytest.approx(0.15)
+    viscous = case.model_copy(update={"mud": case.mud.model_copy(update={"density": 1200.0, "viscosity": 0.03})})
+    string = lay_out(viscous, 980.0)
+    outer = string.of("outer")
+    around = steady_resistance(viscous, outer, hole_radius(hole, 0.0, string.length))[1]
+    assert damping_of(viscous, string, hole)[:, 2] == pytest.approx(around)
+    assert around[-10:].max() < around[:10].min()
+
+
+@given(st.lists(st.floats(0.11, 0.3), min_size=2, max_size=30), st.integers(1, 40))
+def test_means_over_segments_have_the_whole_hole(radii: list[float], segments: int) -> None:
+    """Whatever the segments are, their lengths times their radii are those of the hole."""
+    rows = np.zeros((len(radii), INTERVAL_COLUMNS))
+    rows[:, TO_MD], rows[:, RADIUS] = np.linspace(100.0, 1000.0, len(radii)), radii
+    ends = np.linspace(0.0, 1000.0, segments + 1)
+    whole = mean_radii(rows, np.array([0.0]), np.array([1000.0]))[0]
+    assert float(mean_radii(rows, ends[:-1], ends[1:]).mean()) == pytest.approx(whole, rel=1e-12)
+    assert min(radii) - 1e-12 <= whole <= max(radii) + 1e-12

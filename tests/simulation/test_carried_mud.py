@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fctd import Simulation, equilibrium, simulate
+from fctd import Simulation, build_wellbore, equilibrium, simulate
 from fctd.case.load import Case
 from fctd.mechanics import state
 from fctd.mechanics.energy import energy_of
@@ -33,16 +33,19 @@ def well(mud: dict[str, Any], operation: dict[str, Any] | None = None) -> Case:
 def test_coefficients_follow_the_size_of_the_hole() -> None:
     case = well({"density": 1200.0})
     string = lay_out(case, 1000.0)
-    found, above = sideways(case, string, 120.0), np.arange(40) < 20
+    found, above = sideways(case, string, build_wellbore(case), 120.0), np.arange(40) < 20
     for part, radius in ((above, 0.1555), (~above, 0.10795)):
         np.testing.assert_allclose(found.damping[part], lateral_damping(0.0635, radius, 1200.0, 0.02, 2.0))
         np.testing.assert_allclose(found.added_mass[part], added_mass(0.0635, 0.0543, radius, 1200.0))
     # At rest the string swings at about 1 Hz.
-    np.testing.assert_allclose(sideways(case, string, 0.0).damping, sideways(case, string, 60.0).damping)
+    np.testing.assert_allclose(
+        sideways(case, string, build_wellbore(case), 0.0).damping,
+        sideways(case, string, build_wellbore(case), 60.0).damping,
+    )
 
 
 def steady(case: Case, string: String) -> tuple[np.ndarray, np.ndarray]:
-    return steady_resistance(case, string.of("outer"), hole_radius(case, string.top_md, string.length))
+    return steady_resistance(case, string.of("outer"), hole_radius(build_wellbore(case), string.top_md, string.length))
 
 
 @pytest.mark.parametrize(
@@ -65,7 +68,7 @@ def test_what_a_case_turns_on(
 ) -> None:  # fmt: skip
     case = well(mud)
     string = lay_out(case, 1000.0)
-    parts = *sideways(case, string, 0.0), layers(case, string, 3.0), *steady(case, string)
+    parts = *sideways(case, string, build_wellbore(case), 0.0), layers(case, string, 3.0), *steady(case, string)
     assert [part.any() for part in parts] == [lateral, mass, layer, axial, rotational]
 
 
@@ -74,7 +77,11 @@ def test_a_damping_that_is_given_wins() -> None:
     case = well({"density": 1200.0, "viscosity": 0.05, **given})
     string = lay_out(case, 1000.0)
     along, around = steady(case, string)
-    assert (set(along), set(around), set(sideways(case, string, 60.0).damping)) == ({3.0}, {0.7}, {5.0})
+    assert (set(along), set(around), set(sideways(case, string, build_wellbore(case), 60.0).damping)) == (
+        {3.0},
+        {0.7},
+        {5.0},
+    )
 
 
 def test_steady_loads_depend_on_a_given_viscosity_alone() -> None:
@@ -143,7 +150,7 @@ def test_mud_that_joins_a_moving_body_keeps_the_sum_of_energy_and_loss() -> None
 
     before = total()
     heavier = well({"density": 2000.0})
-    pipe_ = take_along(run.S, heavier, run.laid_out, run.pipe, 0.0, 1.0)
+    pipe_ = take_along(run.S, heavier, run.laid_out, run.hole, run.pipe, 0.0, 1.0)
     assert total() == pytest.approx(before, rel=1e-12)
     assert pipe_.added_mass > run.pipe.added_mass
 
@@ -153,7 +160,7 @@ def test_the_mud_adds_its_own_moment_of_inertia() -> None:
     string = make_case(components=[pipe(200, 10), pipe(None, 1)]).string
     run, _ = prepare(well({"density": 1200.0}, trip(480, 540)).model_copy(update={"string": string}))
     n, string = run.segments, run.string
-    run.pipe = take_along(run.S, run.case, run.laid_out, run.pipe, 60.0, 1.0)
+    run.pipe = take_along(run.S, run.case, run.laid_out, run.hole, run.pipe, 60.0, 1.0)
     mass = state.row(run.S, state.MASS, n) + state.row(run.S, state.ADDED_MASS, n)
     inertia = state.row(run.S, state.J_TRANSVERSE, n)
     np.testing.assert_allclose(inertia[1:], (mass * string.length**2 / 12)[1:], rtol=1e-4)
