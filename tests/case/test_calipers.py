@@ -153,8 +153,24 @@ def test_a_plausible_caliper_is_not_doubted() -> None:
         ("caliper_gauge", np.where(MD == 700, 0.20, 0.22), MD, "200 mm at 700 m"),
         ("caliper_spike", np.where(MD == 700, 0.35, 0.22), MD, "1 row that differ"),
         ("caliper_depth", np.full(len(MD), 0.22), MD / 0.3048, "probably feet"),
+        ("caliper_depth", np.full(len(MD), 0.22), np.append(-5.0, MD[1:]), "above the surface"),
         ("caliper_depth", np.full(len(MD), 0.22), MD + 1000, "no row lies in open hole"),
     ],
 )
 def test_a_caliper_that_does_not_fit_is_doubted(code: str, sizes: Any, md: Any, words: str) -> None:
     assert words in doubted(sizes, md)[code]
+
+
+def test_a_first_arm_in_degrees_without_a_unit_is_doubted() -> None:
+    rows = {"rows": np.column_stack([MD, np.full((len(MD), 2), 0.22)]).tolist()}
+    (warning,) = (w for w in bent_case("sampled", caliper={**rows, "first_arm": 45}).warnings if w.code == "angle")
+    assert "45 looks like '45 deg'" in str(warning)
+    assert not any(w.code == "angle" for w in bent_case("sampled", caliper={**rows, "first_arm": "45 deg"}).warnings)
+
+
+def test_a_las_file_without_rows_is_refused_in_one_sentence(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    path = tmp_path / "empty.las"
+    path.write_text("~Version\n VERS. 2.0:\n WRAP. NO:\n~Well\n~Curve\n DEPT.m :\n CALI.in :\n~A\n", encoding="utf-8")
+    with pytest.raises(ValueError, match="rows = 0: expected two rows or more"):
+        _ = bent_case("sampled", caliper={"log": path}).wellbore.calipers
+    assert not caplog.records

@@ -15,6 +15,7 @@ STUDIES: dict[str, str] = {
     "overlap": "validation.studies.overlap",
     "ownership": "validation.studies.ownership",
     "washed_out_hole": "validation.studies.washed_out_hole",
+    "rough_holes": "validation.studies.rough_holes",
     "contact_operations": "validation.studies.contact_operations",
     "rock_stiffness": "validation.studies.rock_stiffness",
     "long_segment": "validation.studies.long_segment",

@@ -50,7 +50,7 @@ def bend(rng: np.random.Generator, geometry: str, overlap: float | None = None) 
 
     overlap : of its cylinders [m]; None for a random one.
     """
-    direction = _sideways(rng.normal(size=3), rng.normal(size=3)) if rng.random() < 0.5 else np.array([0.0, 0.0, 1.0])
+    direction = sideways(rng.normal(size=3), rng.normal(size=3)) if rng.random() < 0.5 else np.array([0.0, 0.0, 1.0])
     turning, stations, md = rng.normal(size=3), [], 0.0
     for _ in range(rng.integers(6, 12)):
         inclination, azimuth = np.arccos(np.clip(direction[2], -1, 1)), np.arctan2(direction[1], direction[0])
@@ -58,7 +58,7 @@ def bend(rng: np.random.Generator, geometry: str, overlap: float | None = None) 
         course = rng.uniform(5, 30)
         turning = turning + rng.choice([0.0, 0.3, 3.0]) * rng.normal(size=3)  # on in a plane, or another way
         angle = rng.choice([0.0, 1.0]) * math.radians(rng.uniform(0, 30)) * course / 30
-        direction = math.cos(angle) * direction + math.sin(angle) * _sideways(turning, direction)
+        direction = math.cos(angle) * direction + math.sin(angle) * sideways(turning, direction)
         direction, md = direction / np.linalg.norm(direction), md + course
     last = stations[-1][0]
     string, clearance = rng.uniform(0.02, 0.17), rng.uniform(0.005, 0.1)
@@ -120,7 +120,7 @@ def drag(bend: Bend, count: int, rng: np.random.Generator, search: Search = stor
     turn = rng.uniform(-0.02, 0.02, count)  # of the side force [rad] in a step
     pressed = rng.uniform(0.005, 0.02, count)  # penetration that balances it [m]
     axis, tangent = exact.at(md)
-    force = _sideways(rng.normal(size=(count, 3)), tangent)
+    force = sideways(rng.normal(size=(count, 3)), tangent)
     offset = (wall[:, 1].min() - bend.string) * force
 
     S, owner = state.new_state(count), np.zeros(count + 2, np.int64)
@@ -136,8 +136,8 @@ def drag(bend: Bend, count: int, rng: np.random.Generator, search: Search = stor
             md = md + step
             axis, tangent = exact.at(md)
             length = np.linalg.norm(offset, axis=1)
-            offset = length[:, None] * _sideways(offset, tangent)
-            force = _sideways(force, tangent)
+            offset = length[:, None] * sideways(offset, tangent)
+            force = sideways(force, tangent)
             force = np.cos(turn)[:, None] * force + np.sin(turn)[:, None] * np.cross(tangent, force)
         for row, value in zip(place, (axis + offset).T, strict=True):
             row[:] = value
@@ -165,7 +165,7 @@ _PLACE = (state.X, state.Y, state.Z)
 _RADIAL = (state.PX, state.PY, state.PZ)
 
 
-def _sideways(vector: Array, tangent: Array) -> Array:
+def sideways(vector: Array, tangent: Array) -> Array:
     """Unit vectors across tangents."""
     across = vector - np.sum(vector * tangent, axis=-1)[..., None] * tangent
     return np.asarray(across / np.maximum(np.linalg.norm(across, axis=-1), 1e-300)[..., None])

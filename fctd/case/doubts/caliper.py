@@ -68,7 +68,11 @@ def measured_size(hole: WellboreSpec, td: float) -> Doubts:
 
 def _depths(md: Array, td: float) -> Doubts:
     """Depths that are probably in feet, or those of another run."""
-    last = float(md[-1])
+    first, last = float(md[0]), float(md[-1])
+    if first < 0:
+        yield InputWarning(
+            "caliper_depth", KEY, f"its first row is at {first:g} m, above the surface", "check its depths"
+        )
     if last > td + BELOW_TD:
         feet = abs(last * FOOT / td - 1) < 0.05
         yield InputWarning(

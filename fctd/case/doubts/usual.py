@@ -1,5 +1,6 @@
 """What the checks read of a case, the values that its keys usually have, and warnings of others."""
 
+import math
 from collections.abc import Iterator, Sequence
 from operator import attrgetter
 from typing import Final, NamedTuple, Protocol
@@ -58,7 +59,10 @@ MUD: Final = Usual(
     "mud_density", "a mud", "kg/m^3", 600, 2600, "0.6 to 2.6 sg",
     (LikelyUnit(0.6, 2.6, " sg"), LikelyUnit(5, 22, " ppg"), LikelyUnit(37, 165, " lb/ft^3")),
 )  # fmt: skip
+A_TURN: Final = Usual("angle", "an angle", "rad", 0, 2 * math.pi, "up to a turn", (LikelyUnit(6.28, 360, " deg"),))
 USUAL: Final = {
+    "string.components.toolface": A_TURN,
+    "wellbore.caliper.first_arm": A_TURN,
     "mud.density": MUD,
     **{f"mud.{side}.density": MUD for side in ("inside", "outside")},
     "contact.damping": Usual("damping", "a damping", "N*s/m", 0, 1e7, "up to 10 MN*s/m"),
@@ -113,7 +117,7 @@ def unusual(case: Well) -> Doubts:
         if isinstance(holders[0][1], tuple):
             holders = [(f"{table}[{i}]", part) for i, part in enumerate(attrgetter(table)(case))]
         for place, holder in holders:
-            value = abs(getattr(holder, name, None) or 0.0)  # there may be no rock, and no damping
+            value = abs(getattr(holder, name, None) or 0.0)  # there may be no rock, damping or caliper
             if value != 0 and not usual.low <= value <= usual.high:
                 text = f"{usual.what} of {value:g} {usual.unit}{unit_hint(value, usual.likely_units)}"
                 remedy = f"write it with its unit; usual is {usual.words}"

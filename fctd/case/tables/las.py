@@ -1,6 +1,7 @@
 """LAS files as tables; the extra `las` brings the package that reads them."""
 
 import io
+import logging
 import math
 
 from fctd.case.errors import InputError
@@ -18,6 +19,7 @@ def read_las(text: str, form: TableForm, choices: Choices) -> Rows:
     except ModuleNotFoundError as error:
         raise InputError("the package lasio for LAS files (pip install lasio, or the extra fctd[las])") from error
     try:
+        logging.getLogger("lasio").setLevel(logging.CRITICAL)  # what a file lacks is an error of ours
         las = lasio.read(io.StringIO(text))
     except Exception as error:  # lasio raises errors of many kinds
         raise InputError(f"a LAS file that lasio can read ({error})") from error
