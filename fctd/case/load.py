@@ -106,6 +106,7 @@ class Case(Table):
                 of = f"string.components[{densities.index(lightest)}].density"
                 raise InputError(f"a density below the string's, {lightest:g} kg/m^3 ({of})", key=key)
         check_temperature(self.temperature)
+        self._check_fittings()
         check_friction(self.contact, self.wellbore.intervals, self.mud.cake)
         if self.contact.helical_force == "analytic" and self.solver.buckling in RESOLVING:
             raise InputError(
@@ -115,6 +116,20 @@ class Case(Table):
                 value="analytic",
             )
         return self
+
+    def _check_fittings(self) -> None:
+        """Raise InputError where bow springs or a swivel meet what they are not modelled with."""
+        parts = self.string.components
+        if any(part.has_bows for part in parts):
+            if self.contact.law != "linear":
+                raise InputError('"linear" beside bow springs', key="contact.law", value=self.contact.law)
+            if self.wellbore.geometry == "sampled":
+                expected = '"arcs" or "cylinders" beside bow springs'
+                raise InputError(expected, key="wellbore.geometry", value=self.wellbore.geometry)
+        if any(part.swivel for part in parts):
+            for key, given in (("torque", self.bit.torque), ("rock", self.bit.rock)):
+                if given:
+                    raise InputError("none below a swivel, which no torque passes", key=f"bit.{key}")
 
     @property
     def depths(self) -> tuple[float, float]:

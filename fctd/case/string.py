@@ -1,7 +1,7 @@
 """The table of a case file for the string: its components, from the bit upwards."""
 
 from collections.abc import Mapping
-from typing import Any, Literal, Self
+from typing import Any, Literal, NamedTuple, Self
 
 from pydantic import Field, model_validator
 
@@ -34,6 +34,55 @@ class JointSpec(Table):
         return self
 
 
+class FittingSpec(Table):
+    """Things on pipe that repeat along a component and touch the wall, at the lower end of every stretch of it.
+
+    `length` and `diameter` are theirs, `segments` the number of segments of the pipe between two of them. They have the
+    mass and the stiffness of the pipe. `friction` is their own factor; without it they have that of the hole.
+    """
+
+    every: units.PositiveLength
+    diameter: units.Diameter
+    length: units.PositiveLength = 0.3
+    segments: units.SeveralCount = 4
+    friction: units.Friction | None = None
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.length > 0.25 * self.every:
+            raise InputError(f"at most a quarter of every, {self.every:g} m", key="length", value=f"{self.length:g} m")
+        return self
+
+
+class CentraliserSpec(FittingSpec):
+    """Centralisers: rigid, or with bow springs where they have a `stiffness`.
+
+    Bow springs press the pipe towards the axis of the hole with `stiffness` [N/m] for every metre that it lies off it,
+    where the `diameter` of the bows is that of the hole or larger; in wider hole they begin to press where they touch.
+    Bows that are compressed have `starting_force` [N] more friction, wherever the pipe lies.
+    """
+
+    stiffness: units.PositiveStiffness | None = None
+    starting_force: units.Force = 0.0
+
+    @model_validator(mode="after")
+    def _check_bows(self) -> Self:
+        if self.starting_force and self.stiffness is None:
+            raise InputError("a stiffness of bow springs beside it", key="starting_force")
+        return self
+
+
+class Repeat(NamedTuple):
+    """How a component is laid: a thing of its own at the lower end of every stretch, and pipe above it.
+
+    every : length of a stretch [m]; length : of the thing [m]; segments : number of those of the pipe.
+    """
+
+    every: float
+    length: float
+    segments: int
+
+
 class ComponentSpec(Table):
     """Pipe or a tool of one kind. `segments` or `segment_length` [m] sets the length of its segments; without either
     they are short in bends and near the bit, and longer elsewhere.
@@ -55,6 +104,9 @@ class ComponentSpec(Table):
     string's curvature, and mass and stiffnesses that are not given are those of body and tool joints together. With
     `joint_segments` the string is laid joint by joint: its tool joints touch, and each body between them is cut into so
     many segments, shorter towards the tool joints; what `contact` says does not matter.
+
+    `centralisers` or `friction_reducers` repeat along a component, which is then laid from one to the next. A
+    component with `swivel` turns freely against the one above it.
 
     A bent housing has its `bend` [rad] at the upper end, where the component is tilted against the one above
     it towards `toolface` [rad], which counts from the high side clockwise looking downhole.
@@ -83,6 +135,9 @@ class ComponentSpec(Table):
     segments: units.Count | None = None
     segment_length: units.PositiveLength | None = None
     joint_segments: units.SeveralCount | None = None
+    centralisers: CentraliserSpec | None = None
+    friction_reducers: FittingSpec | None = None
+    swivel: bool = False
     linear_mass: units.PositiveLinearMass | None = None
     youngs_modulus: units.PositiveStress = 206.8e9
     poisson_ratio: units.PoissonRatio = 0.3
@@ -110,6 +165,7 @@ class ComponentSpec(Table):
                 raise InputError("a component with joint, whose bodies are cut", key="joint_segments")
             exclusive(self, "segments", "joint_segments")
             exclusive(self, "segment_length", "joint_segments")
+        self._check_fittings()
         if self.inner_diameter >= self.outer_diameter:
             raise InputError("a diameter below outer_diameter", key="inner_diameter")
         if self.eccentricity >= 0.5 * self.outer_diameter:
@@ -125,10 +181,59 @@ class ComponentSpec(Table):
             raise InputError("sleeve, for a component without a length", key="contact", value=self.contact)
         return self
 
+    def _check_fittings(self) -> None:
+        exclusive(self, "centralisers", "friction_reducers")
+        if self.friction_reducers is not None and self.friction_reducers.friction is None:
+            raise InputError("their friction factor", key="friction_reducers.friction")
+        for name in ("centralisers", "friction_reducers"):
+            fittings: FittingSpec | None = getattr(self, name)
+            if fittings is None:
+                continue
+            for key in ("segments", "segment_length", "joint_segments"):
+                exclusive(self, name, key)
+            if fittings.diameter <= self.contact_diameter:
+                expected = f"more than contact_diameter, {self.contact_diameter:g} m"
+                raise InputError(expected, key=f"{name}.diameter", value=f"{fittings.diameter:g} m")
+            if self.contact == "point":
+                raise InputError(f'"sleeve" beside {name}', key="contact", value=self.contact)
+
+    @property
+    def fittings(self) -> FittingSpec | None:
+        """Its centralisers or friction reducers."""
+        return self.centralisers or self.friction_reducers
+
+    @property
+    def has_bows(self) -> bool:
+        """Whether it has bow springs."""
+        return self.centralisers is not None and self.centralisers.stiffness is not None
+
+    @property
+    def repeat_key(self) -> str:
+        """The key by which it repeats."""
+        if self.fittings is None:
+            return "joint_segments"
+        return "centralisers" if self.centralisers is not None else "friction_reducers"
+
+    @property
+    def repeats(self) -> str:
+        """What repeats along it, in words."""
+        if self.fittings is None:
+            return "joints"
+        return f"stretches between {self.repeat_key.replace('_', ' ')}"
+
+    @property
+    def repeat(self) -> Repeat | None:
+        """How it is laid where it has fittings or resolves its joints."""
+        if (of := self.fittings) is not None:
+            return Repeat(of.every, of.length, of.segments)
+        if self.joint is not None and self.joint_segments is not None:
+            return Repeat(self.joint.length, self.joint.tool_joint_length, self.joint_segments)
+        return None
+
     @property
     def cut_by_default(self) -> bool:
-        """Whether neither `segments` nor `segment_length` nor `joint_segments` is given."""
-        return self.segments is None and self.segment_length is None and self.joint_segments is None
+        """Whether nothing is given that says how long its segments are."""
+        return self.segments is None and self.segment_length is None and self.repeat is None
 
     @property
     def long_segment(self) -> bool:
@@ -150,4 +255,7 @@ class StringSpec(Table):
             if component.length is None:
                 expected = "a length, which only the last may omit, as components run from the bit up"
                 raise InputError(expected, key=f"components[{i}].length")
+        if self.components[-1].swivel:
+            expected = "false, or a component above it, against which it turns"
+            raise InputError(expected, key=f"components[{len(self.components) - 1}].swivel", value=True)
         return self

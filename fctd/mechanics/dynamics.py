@@ -24,6 +24,7 @@ from fctd.mechanics.given_loads import count_given, push_given
 from fctd.mechanics.jit import entry, inlined
 from fctd.mechanics.joints import bend_housings, update_joint_loads
 from fctd.mechanics.laws import LAWS, dispatch
+from fctd.mechanics.own_contact import drag_bows
 from fctd.mechanics.readings import read_step
 from fctd.mechanics.rock import NO_ROCK
 from fctd.mechanics.rotations import rotation_columns, turned
@@ -315,6 +316,8 @@ def update_velocities(S, n, laws, dt):
         push_freely(S, n, laws, dt)
     else:
         push_by_law(laws.friction, S, n, laws, dt)
+    if laws.bows:
+        drag_bows(S, n, laws.friction_scale, dt)
     if laws.given:
         count_given(S, n, dt)
 

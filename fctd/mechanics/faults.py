@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fctd.mechanics.jit import entry
-from fctd.mechanics.state import HOLE, RADIUS, VX, WZ, axis, position, quaternion, radial
+from fctd.mechanics.state import HOLE, RADIUS, STILL, VX, WZ, axis, position, quaternion, radial
 
 
 class Worst(NamedTuple):
@@ -47,7 +47,7 @@ def worst_of(S, n):
         aw, ax, ay, az = quaternion(S, j - 1)
         bw, bx, by, bz = quaternion(S, j)
         half = aw * bw + ax * bx + ay * by + az * bz
-        if half < twist[0]:
+        if half < twist[0] and S[STILL + j] == S[STILL + j - 1]:  # a swivel turns freely
             twist = (half, j)
     return finite, outside, bend, twist
 

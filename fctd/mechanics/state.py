@@ -109,8 +109,13 @@ GIVEN_FORCE, GIVEN_TORQUE = 97 * STRIDE, 98 * STRIDE
 FRICTION_AROUND, CAKE_AROUND = 99 * STRIDE, 100 * STRIDE
 # Share of the wall's friction that a steady string has among its given loads in place of the wall's own.
 GIVEN_FRICTION = 101 * STRIDE
+# Fittings that touch the wall (own_contact.py): their own friction factor, 0 where it is that of the wall; stiffness of
+# bow springs [N/m], 0 without them, and friction that compressed ones have wherever the pipe lies [N].
+OWN_FRICTION, BOW_STIFFNESS, STARTING_FORCE = 102 * STRIDE, 103 * STRIDE, 104 * STRIDE
+# 1 below a swivel, where a steady string does not rotate.
+STILL = 105 * STRIDE
 
-ROWS = 102
+ROWS = 106
 
 
 class Laws(NamedTuple):
@@ -128,7 +133,7 @@ class Laws(NamedTuple):
     shape_damping : damping time of bending and shear in space [s].
     layer_rate : rate at which the mud's boundary layers follow the string along itself [1/s].
     unbalanced : whether any body has an unbalance; bent : whether any joint has a bent housing; given : whether any
-    body has given loads.
+    body has given loads; bows : whether any has bow springs with a starting force.
     orthotropic : True where friction factors along and around the string differ, else None, a type of its own: code for
     factors that differ is compiled where it is needed, and that for equal factors does without it.
     """
@@ -152,6 +157,7 @@ class Laws(NamedTuple):
     bent: bool = False
     given: bool = False
     orthotropic: bool | None = None
+    bows: bool = False
 
 
 # Keeps 0/0 out of packed arithmetic, where a branch would cost more, and changes no other result.

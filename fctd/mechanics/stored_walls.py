@@ -32,6 +32,7 @@ from fctd.mechanics.contact import (
 from fctd.mechanics.dual import root
 from fctd.mechanics.jit import entry, inlined, kernel
 from fctd.mechanics.joints import cross
+from fctd.mechanics.own_contact import has_own_contact, store_own_contact
 from fctd.mechanics.sampled import AROUND_CELLS, sampled_wall
 from fctd.mechanics.state import (
     ARCS,
@@ -137,6 +138,8 @@ def refresh_cylinders(S, owner, n, C):
         i = cylinder_owner(C, owner[j], x, y, z)
         owner[j] = i
         alone = store_cylinder(S, j, C, i, x, y, z)
+        if has_own_contact(S, j):
+            store_own_contact(S, j)
         store_sticking(S, j, C[i, STATIC_EXCESS], C[i, DECAY_SPEED])
         S[OX + j], S[OY + j], S[OZ + j] = C[i, START], C[i, START + 1], C[i, START + 2]
         S[TX + j], S[TY + j], S[TZ + j] = C[i, DIRECTION], C[i, DIRECTION + 1], C[i, DIRECTION + 2]
@@ -196,6 +199,8 @@ def refresh_arcs(S, owner, n, C):
         owner[j] = i
         px, py, pz, hole, stiffness, friction, _, around = arc_wall(C, i, x, y, z)
         store_wall(S, j, px, py, pz, hole, stiffness, friction, around)
+        if has_own_contact(S, j):
+            store_own_contact(S, j)
         store_sticking(S, j, C[i, STATIC_EXCESS], C[i, DECAY_SPEED])
         store_arc(S, j, C, i, changes_along(C, i))
 
@@ -214,6 +219,8 @@ def refresh_sampled(S, owner, n, C):
         is_round = C[i, AROUND_CELLS] == 0
         if not is_round:
             lean_wall(S, j, wall.gx, wall.gy, wall.gz)
+        if has_own_contact(S, j):
+            store_own_contact(S, j)
         store_sticking(S, j, C[i, STATIC_EXCESS], C[i, DECAY_SPEED])
         store_arc(S, j, C, i, changes_along(C, i) or not is_round)
 

@@ -13,7 +13,7 @@ from fctd.case.string import ComponentSpec
 from fctd.mechanics import state
 from fctd.model.default_layout import DefaultLayout
 from fctd.model.fluids import Fluids, fluids_of
-from fctd.model.joints import Part, Pieces, cut_joints, joint_of, joints_in, sections_of, segments_in
+from fctd.model.joints import Kind, Part, Pieces, cut_joints, joints_in, repeat_of, sections_of, segments_in
 from fctd.model.section import Section, buoyed
 from fctd.model.string_rows import find_contacts, find_stiffness
 
@@ -90,6 +90,12 @@ class String:
     def key_of(self, segment: int) -> str:
         """The key of the case's component that a segment is of."""
         return f"string.components[{int(self.origin[segment])}]"
+
+    def width_key(self, segment: int) -> str:
+        """The key that says how wide a segment is where it touches."""
+        part = self.parts[self.component[segment]]
+        width = f"{part.component.repeat_key}.diameter" if part.kind == Kind.FITTING else "contact_diameter"
+        return f"{self.key_of(segment)}.{width}"
 
     def of(self, name: str) -> Array:
         """A section property of every segment, shape (n,), in the unit that `Section` gives."""
@@ -193,8 +199,8 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
     """Segments of the string that is in the hole with the bit at ``bit_depth`` [m].
 
     Components are laid from the bit up until the depth is reached; the topmost piece takes the remainder.  A component
-    without ``segments`` and ``segment_length`` has those of ``DefaultLayout``; one with ``joint_segments`` is laid
-    joint by joint, below a long segment of whole pipe where it is fed.
+    without ``segments`` and ``segment_length`` has those of ``DefaultLayout``; one that repeats is laid
+    joint by joint, or from fitting to fitting, below a long segment of whole pipe where it is fed.
     deepest : greatest bit depth [m] of the run; pipe is fed to reach it, which needs a long segment at the top.
     Raises InputError when the string is too short, a long segment does not fit, or more than the topmost
     component would have to be fed.
@@ -217,7 +223,7 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
         by_default = DefaultLayout(case, bit_depth, deepest)
     for k, component in enumerate(components):
         take = remaining if component.length is None else min(component.length, remaining)
-        if component.joint_segments is not None:
+        if component.repeat is not None:
             cut = _joint_by_joint(component, k, take, fed and remaining - take <= 1e-9)
         else:
             if by_default is not None and component.cut_by_default:
@@ -305,7 +311,7 @@ def check_lengths(string: String, taken: list[float]) -> None:
 
 def _joint_by_joint(component: ComponentSpec, origin: int, take: float, fed: bool) -> Pieces:
     """Joints of ``take`` metres of a component from the bit up; below a long segment of it, where it is fed."""
-    joint = joint_of(component).length
+    joint = repeat_of(component).every
     count = max(int((take - SHORTEST_LONG_SEGMENT) / joint), 0) if fed else joints_in(component, take)
     check_segments(segments_in(component, count))  # before a list of them fills the memory
     if not fed:

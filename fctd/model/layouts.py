@@ -87,7 +87,7 @@ def resolved(case: Case, bit_depth: float, md: Array, needed: Array) -> Componen
         inside = (above_bit >= start) & (above_bit <= end)
         if start >= total or is_long(part) or (shortest[inside] >= own[inside]).all():
             pieces.append(part)
-        elif part.joint_segments is not None:
+        elif part.repeat is not None:
             pieces.append(finer(part, float(shortest[inside].min())))
         elif part.contact == "point":
             pieces.append(_cut(part, float(np.minimum(shortest, own)[inside].min())))
@@ -163,7 +163,7 @@ def segments_in_hole(case: Case, bit_depth: float) -> int:
         if part.cut_by_default:
             start = bit_depth - case.string.top_md - remaining
             count += DefaultLayout(case, bit_depth).count(start, start + take)
-        elif part.joint_segments is not None:
+        elif part.repeat is not None:
             count += segments_in(part, joints_in(part, take))
         else:
             nominal = part.segment_length or (take if part.length is None else part.length) / (part.segments or 1)
@@ -194,7 +194,7 @@ def has_short(case: Case) -> bool:
 
 def _nominal(part: ComponentSpec, in_hole: float) -> float:
     """Length of a component's segments [m], of the longest where it resolves its joints."""
-    if part.joint_segments is not None:
+    if part.repeat is not None:
         return longest_segment(part)
     if part.segment_length is not None:
         return part.segment_length
@@ -209,7 +209,7 @@ def is_long(part: ComponentSpec) -> bool:
 
 def is_cut(part: ComponentSpec) -> bool:
     """Whether a layout cuts a component: neither the paper's long segment nor one that resolves its joints."""
-    return not is_long(part) and part.joint_segments is None
+    return not is_long(part) and part.repeat is None
 
 
 def _at_least(part: ComponentSpec, least: int) -> int:

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterable
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
@@ -24,7 +24,9 @@ class Section(NamedTuple):
     largest make-up torque of its tool joints [N m], infinite where it is not known; body_weight : of its body alone,
     buoyed [N/m]; density : of the steel [kg/m^3]; body_mass : of its body alone [kg/m]; expansion : thermal [1/K];
     burst, collapse : pressures that its body bears, beyond that on its other side [Pa]; wave_weight [N/m], wave_mass
-    [kg/m], wave_stiffness [N m^2], wave_radius [m] : with which pipe buckles as a whole.
+    [kg/m], wave_stiffness [N m^2], wave_radius [m] : with which pipe buckles as a whole; friction : own factor of its
+    contact, 0 where it is that of the hole; bow_stiffness [N/m], starting_force [N] : of bow springs, 0 without them;
+    swivel : 1 where its upper end turns freely.
 
     A resolved tool joint has a ``tool_joint`` and no ``joint``, and a body neither: what they do to the bending of the
     pipe is computed.  Outer and inner radius of the tool joint are those of its body, whose end is stressed most.
@@ -58,6 +60,14 @@ class Section(NamedTuple):
     wave_mass: float = 0.0
     wave_stiffness: float = 0.0
     wave_radius: float = 0.0
+    friction: float = 0.0
+    bow_stiffness: float = 0.0
+    starting_force: float = 0.0
+    swivel: float = 0.0
+
+
+# In place of an own friction factor of 0, which would stand for that of the hole.
+FRICTIONLESS: Final = 1e-12
 
 
 def contact_radii(components: Iterable[ComponentSpec]) -> tuple[float, ...]:
@@ -67,6 +77,8 @@ def contact_radii(components: Iterable[ComponentSpec]) -> tuple[float, ...]:
         parts = [section_of(component, 0.0)]
         if component.joint_segments is not None:
             parts += [tool_joint_of(component, 0.0), body_of(component, 0.0)]
+        if component.fittings is not None:
+            parts.append(fitting_of(component, 0.0))
         found |= {part.contact_radius for part in parts}
     return tuple(sorted(found))
 
@@ -143,6 +155,24 @@ def section_of(component: ComponentSpec, outside: float, inside: float | None = 
         wave_mass=mass,
         wave_stiffness=given(component.bending_stiffness, modulus * second),
     )
+
+
+def fitting_of(component: ComponentSpec, outside: float) -> Section:
+    """Properties of a centraliser or a friction reducer of a component, in fluid of a density [kg/m³]."""
+    of, bows = component.fittings, component.centralisers
+    assert of is not None  # the caller has asked
+    return section_of(component, outside)._replace(
+        contact_radius=0.5 * of.diameter, point=1.0, joint=0.0, tool_joint=0.0,
+        friction=0.0 if of.friction is None else max(of.friction, FRICTIONLESS),
+        bow_stiffness=0.0 if bows is None or bows.stiffness is None else bows.stiffness,
+        starting_force=0.0 if bows is None else bows.starting_force,
+    )  # fmt: skip
+
+
+@lru_cache(maxsize=64)
+def released(section: Section) -> Section:
+    """The same section with a swivel at its upper end."""
+    return section._replace(swivel=1.0)
 
 
 def body_of(component: ComponentSpec, outside: float) -> Section:

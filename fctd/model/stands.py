@@ -15,7 +15,7 @@ from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.default_layout import DefaultLayout
 from fctd.model.drillstring import String, check_lengths, check_segments
 from fctd.model.fluids import Fluids
-from fctd.model.joints import Part, Pieces, cut_joints, joint_of, sections_of, segments_in
+from fctd.model.joints import Part, Pieces, cut_joints, repeat_of, sections_of, segments_in
 from fctd.model.string_in_hole import check_clearance
 from fctd.model.wellbore import Wellbore
 
@@ -168,7 +168,7 @@ def _cut(
     else:
         shares = (end - start) / _nominal(component)
         count = max(round(shares), 1)
-        if component.joint_segments is not None:
+        if component.repeat is not None:
             check_segments(before + segments_in(component, count))
             return cut_joints(component, origin, end - start, count, (end - start) / count)
         check_segments(before + shares)
@@ -179,16 +179,16 @@ def _cut(
 
 
 def _check_joints(case: Case) -> None:
-    """Raise InputError where resolved joints would have to be much longer or shorter to fit into stands."""
+    """Raise InputError where a component repeats and its stretches would have to be much longer or shorter to fit."""
     stand = case.rig.stand_length
     for component in case.string.components:
-        if component.joint_segments is None or (component.length or np.inf) < stand:
+        if component.repeat is None or (component.length or np.inf) < stand:
             continue
-        joint = joint_of(component).length
+        joint = repeat_of(component).every
         count = max(round(stand / joint), 1)
         if abs(stand / count - joint) > UNEVEN * joint:
             raise InputError(
-                f"a whole number of joints of {joint:.4g} m within a tenth, as their tool joints are resolved",
+                f"a whole number of {component.repeats} of {joint:.4g} m within a tenth",
                 key="rig.stand_length",
                 value=f"{stand:g} m",
             )
@@ -196,8 +196,8 @@ def _check_joints(case: Case) -> None:
 
 def _nominal(part: ComponentSpec) -> float:
     """Nominal length of a component's segments or joints [m]; infinite where one segment shall reach the table."""
-    if part.joint_segments is not None:
-        return joint_of(part).length
+    if part.repeat is not None:
+        return repeat_of(part).every
     if part.segment_length is not None:
         return part.segment_length
     assert part.segments is not None  # ``lay_out_stands`` cuts a component that has neither

@@ -63,7 +63,8 @@ def check_clearance(string: String, hole: Wellbore, top: Array, bottom: Array) -
 
     top, bottom : (n,) highest and lowest measured depth that each segment reaches [m].
     """
-    radius = string.of("contact_radius")
+    # Bows are pressed together; the pipe that they centre is not.
+    radius = np.where(string.of("bow_stiffness") > 0, string.of("outer"), string.of("contact_radius"))
     starts = np.concatenate([[0.0], hole.intervals[:-1, TO_MD]])
     for start, (to_md, wall) in zip(starts, hole.intervals[:, [TO_MD, RADIUS]], strict=True):
         tight = (start < bottom) & (to_md > top) & (radius > wall)
@@ -71,7 +72,7 @@ def check_clearance(string: String, hole: Wellbore, top: Array, bottom: Array) -
             k = int(np.argmax(tight))
             raise InputError(
                 f"at most the hole's {2e3 * wall:.6g} mm",
-                key=f"{string.key_of(k)}.contact_diameter",
+                key=string.width_key(k),
                 value=f"{2e3 * radius[k]:.6g} mm",
             )
     if hole.is_round:
@@ -83,7 +84,7 @@ def check_clearance(string: String, hole: Wellbore, top: Array, bottom: Array) -
             i = int(np.argmin(np.where(tight, walls, np.inf)))
             raise InputError(
                 f"at most the {2e3 * walls[i]:.4g} mm that wellbore.caliper has at {ends[i, 0]:.0f} m",
-                key=f"{string.key_of(k)}.contact_diameter",
+                key=string.width_key(k),
                 value=f"{2e3 * radius[k]:.6g} mm",
             )
 

@@ -12,6 +12,9 @@ from fctd.mechanics.topdrive import PerMetre, set_long_segment
 MASS, WEIGHT, AXIAL_INERTIA, TILT_INERTIA, EA, GJ, EI, SHEAR, OUTER, INNER, CONTACT_RADIUS, YIELD_STRENGTH = range(12)
 ECCENTRICITY, POINT, COMPRESSIBILITY, JOINT, TOOL_JOINT, MAKE_UP, BODY_WEIGHT, DENSITY, BODY_MASS = range(12, 21)
 EXPANSION, BURST, COLLAPSE, WAVE_WEIGHT, WAVE_MASS, WAVE_STIFFNESS, WAVE_RADIUS = range(21, 28)
+OWN_FRICTION, BOW_STIFFNESS, STARTING_FORCE, SWIVEL = range(28, 32)
+# What is left of the torsional stiffness of a swivel [N m/rad]: a thousand turns give it 6 N m.
+RELEASED = 1e-3
 
 
 @rounded
@@ -74,6 +77,12 @@ def joint_stiffness(length, component, sections, long_segment, column, j):
     return 1 / (above + compliance)
 
 
+@rounded
+def is_swivel(component, sections, j):
+    """Whether the joint above segment j turns freely."""
+    return j > 0 and component[j - 1] != component[j] and sections[component[j], SWIVEL] != 0
+
+
 @entry
 def find_contacts(length, component, sections, long_segment, middle, radius, tributary):
     """Fill ``contact_point`` of the segments: three arrays (n,)."""
@@ -86,6 +95,8 @@ def find_stiffness(length, component, sections, long_segment, column, stiffness)
     """Fill ``joint_stiffness`` (n,) for a column of the sections."""
     for j in range(len(length)):
         stiffness[j] = joint_stiffness(length, component, sections, long_segment, column, j)
+        if column == GJ and is_swivel(component, sections, j):
+            stiffness[j] = RELEASED
 
 
 @rounded
@@ -114,6 +125,9 @@ def fill_segment(S, length, component, sections, weight, long_segment, damping, 
     S[state.K_SHEAR + at] = joint_stiffness(length, component, sections, long_segment, SHEAR, j)
     S[state.K_BEND + at] = joint_stiffness(length, component, sections, long_segment, EI, j)
     S[state.K_TWIST + at] = joint_stiffness(length, component, sections, long_segment, GJ, j)
+    S[state.OWN_FRICTION + at] = sections[k, OWN_FRICTION]
+    S[state.BOW_STIFFNESS + at] = sections[k, BOW_STIFFNESS]
+    S[state.STARTING_FORCE + at] = sections[k, STARTING_FORCE]
 
 
 @entry
@@ -124,8 +138,13 @@ def fill_rows(S, length, component, sections, weight, long_segment, damping, squ
     which share pressures and temperature shorten the segments; per_metre : whether the wall's stiffness is one per
     length.
     """
+    still = 0.0
     for j in range(len(length)):
         fill_segment(S, length, component, sections, weight, long_segment, damping, squeeze, per_metre, j)
+        if is_swivel(component, sections, j):
+            S[state.K_TWIST + j + 1] = RELEASED
+            still = 1.0
+        S[state.STILL + j + 1] = still
     k = component[0]
     pipe = PerMetre(
         sections[k, MASS], weight[0] if long_segment else 0.0, sections[k, AXIAL_INERTIA], sections[k, EA],

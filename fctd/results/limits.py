@@ -86,7 +86,8 @@ LIMITS: Final[tuple[Limit, ...]] = (
     Limit(
         "penetration", "the string is pressed deep into the wall",
         "check friction factor, bends and the wall's stiffness", "m",
-        lambda at, section: at.penetration,
+        # Bow springs give way as far as they do.
+        lambda at, section: at.penetration if section.bow_stiffness == 0 else 0.0,
         lambda at, section: min(max(SHARE_OF_CLEARANCE * at.clearance, LEAST_PENETRATION), MOST_PENETRATION),
         lambda share, at, section, where: (
             f"a contact point at {where} is {1e3 * at.penetration:.3g} mm deep in the wall, "
@@ -208,12 +209,12 @@ compare = _comparison(LIMITS)
 
 @inlined
 def _section(table, k):
-    """Row k of a table of sections, of which only what the limits use is read."""
+    """Row k of a table of sections as a ``Section``, of which only what the limits use is read."""
     return Section(
         table[k, 0], table[k, 1], table[k, 2], table[k, 3], table[k, 4], table[k, 5], table[k, 6], table[k, 7],
         table[k, 8], table[k, 9], table[k, 10], table[k, 11], table[k, 12], table[k, 13], table[k, 14], table[k, 15],
         table[k, 16], table[k, 17], table[k, 18], table[k, 19], table[k, 20], table[k, 21], table[k, 22], table[k, 23],
-        table[k, 24], table[k, 25], table[k, 26], table[k, 27],
+        table[k, 24], table[k, 25], table[k, 26], table[k, 27], table[k, 28], table[k, 29], table[k, 30], table[k, 31],
     )  # fmt: skip
 
 

@@ -108,7 +108,26 @@ def _touches_at_middle(run: Run) -> Use:
     key, part = run.string.key_of(middle[0]), run.string.parts[run.string.component[middle[0]]]
     if part.kind == Kind.WHOLE:
         return f"{key}.contact", "point"
+    if part.kind == Kind.FITTING:
+        return f"{key}.{part.component.repeat_key}", "a table"
     return f"{key}.joint_segments", part.component.joint_segments
+
+
+def _own_friction(run: Run) -> Use:
+    fittings = [(k, part) for k, part in enumerate(run.case.string.components) if part.fittings is not None]
+    return next(
+        (
+            (f"string.components[{k}].{part.repeat_key}.friction", part.fittings.friction)
+            for k, part in fittings
+            if part.fittings is not None and part.fittings.friction is not None
+        ),
+        None,
+    )
+
+
+def _bows(run: Run) -> Use:
+    parts = enumerate(run.case.string.components)
+    return next(((f"string.components[{k}].centralisers", "bow springs") for k, part in parts if part.has_bows), None)
 
 
 def _bit_loads(run: Run) -> Use:
@@ -196,6 +215,16 @@ FEATURES: dict[str, Feature] = {
     "bends": Feature(
         "bent housings", "0", ("string.components.bend", "string.components.toolface"), _of_component("bend"),
     ),
+    "own_friction": Feature(
+        "friction factors of fittings", "none",
+        ("string.components.centralisers.friction", "string.components.friction_reducers.friction"),
+        _at_wall(_own_friction),
+    ),
+    "bows": Feature(
+        "bow springs", "rigid centralisers",
+        ("string.components.centralisers.stiffness", "string.components.centralisers.starting_force"), _at_wall(_bows),
+    ),
+    "swivel": Feature("swivels", "false", ("string.components.swivel",), _of_component("swivel")),
     "unbalance": Feature(
         "masses beside the axis", "0", ("string.components.eccentricity",), _of_component("eccentricity"),
     ),
@@ -273,6 +302,8 @@ EVERYWHERE: Final = frozenset({
             "yield_strength", "thermal_expansion", "axial_stiffness", "bending_stiffness", "torsional_stiffness",
             "shear_stiffness", "joint.length", "joint.tool_joint_length", "joint.tool_joint_diameter",
             "joint.tool_joint_inner",
+            *(f"{fittings}.{key}" for fittings in ("centralisers", "friction_reducers")
+              for key in ("every", "diameter", "length", "segments")),
         )
     ),
     "limits.design_factor", "limits.torque_share", "limits.overpull_margin",
@@ -287,8 +318,9 @@ UNKNOWN_KEYS: Final = "unknown keys"
 
 # Features of FCTD's own stepper.
 OWN = frozenset(FEATURES) - {"helical_force", "overpull", "packer"} | {UNKNOWN_KEYS}
-# With another contact method: it finds walls, in whose cake nothing is pressed and which begin below the derrick.
-ASKED = OWN - {"no_wall", "cake", "stands", UNKNOWN_KEYS}
+# With another contact method: it finds walls, in whose cake nothing is pressed and which begin below the derrick, and
+# does not know what touches them.
+ASKED = OWN - {"no_wall", "cake", "stands", "own_friction", "bows", UNKNOWN_KEYS}
 
 
 def _keys_set(table: Table, before: str = "") -> Iterator[tuple[str, Any]]:

@@ -34,12 +34,14 @@ from fctd.mechanics.state import (
     MUD_AXIAL,
     MUD_SPIN,
     OPEN,
+    OWN_FRICTION,
     RADIUS,
     SAMPLED,
     TRIBUTARY,
     WEIGHT,
 )
 from fctd.steady.pose import SPIN, quaternion
+from fctd.steady.wall_tangent import spin_of, starting
 
 # Columns of a node, the lower end of a body: tension [N], torque [N m] just above it, offset
 # from the hole axis (global) [m], measured depth [m].
@@ -107,9 +109,11 @@ def soft_string(S, n, C, laws, top_md, bit_tension, radius, G):
         inline = qx * tx + qy * ty + qz * tz
         qx, qy, qz = qx - inline * tx, qy - inline * ty, qz - inline * tz
         side = np.sqrt(qx * qx + qy * qy + qz * qz)
-        mu = laws.friction_scale * C[i, FACTOR]
-        mu_around = limit_around(laws.orthotropic, laws.friction_scale, C[i, FACTOR_AROUND], 1.0)
-        along, around, climb = shares(laws.friction, laws.speed, S[RADIUS + j] * laws.spin, mu, mu_around)
+        own, spin = S[OWN_FRICTION + j], spin_of(S, j, laws)
+        mu = laws.friction_scale * (own if own != 0 else C[i, FACTOR])
+        factor_around = own if own != 0 else C[i, FACTOR_AROUND]
+        mu_around = limit_around(laws.orthotropic, laws.friction_scale, factor_around, 1.0)
+        along, around, climb = shares(laws.friction, laws.speed, S[RADIUS + j] * spin, mu, mu_around)
         if laws.geometry == OPEN or side == 0:
             side, ux, uy, uz = 0.0, 0.0, 0.0, 0.0
         else:
@@ -125,8 +129,9 @@ def soft_string(S, n, C, laws, top_md, bit_tension, radius, G):
             hole = sampled_wall(C, i, x + hole * ux, y + hole * uy, z + hole * uz, S[RADIUS + j]).hole
         out = hole - radius[j - 1] + side / (C[i, STIFFNESS] * S[TRIBUTARY + j])
         G[j, OFFSET], G[j, OFFSET + 1], G[j, OFFSET + 2] = out * ux, out * uy, out * uz
-        tension -= along * side
-        torque += around * side * S[RADIUS + j] + S[MUD_SPIN + j] * laws.spin
+        held, held_about = starting(S, j, laws)
+        tension -= along * side + held
+        torque += around * side * S[RADIUS + j] + S[MUD_SPIN + j] * spin + held_about
         torque -= laws.given * S[GIVEN_TORQUE + j]
         G[j, TENSION], G[j, TORQUE] = tension, torque
         tension += S[WEIGHT + j] * az - S[MUD_AXIAL + j] * laws.speed + laws.given * S[GIVEN_FORCE + j]

@@ -19,7 +19,7 @@ from fctd.mechanics.rotations import rotation_columns
 from fctd.mechanics.state import ARM_BOTTOM, ARM_CONTACT, OPEN, RADIUS, TINY, TRIBUTARY
 from fctd.steady.block_thomas import SIZE
 from fctd.steady.pose import SPIN, in_frame, quaternion, stepped
-from fctd.steady.wall_gradient import wall_beside
+from fctd.steady.wall_gradient import wall_of
 from fctd.steady.wall_tangent import DIRECTIONS, ONE_BY_ONE, STEP, UNIT, contact_place, depth_of, moved, unit_of
 
 # Columns of what a contact point remembers: its place [m], the spin of its body [rad], friction along the hole and
@@ -92,7 +92,7 @@ def add_held_wall(S, j, P, C, owner, laws, R, D, K):
     i = owner_of(C, owner[j], laws.geometry, x, y, z)
     owner[j] = i
     radius, arm, tributary = S[RADIUS + j], S[ARM_CONTACT + j], S[TRIBUTARY + j]
-    wall = wall_beside(C, i, laws.geometry, x, y, z, radius)
+    wall = wall_of(S, j, C, i, laws.geometry, x, y, z)
     if wall.beyond[0] + radius < 0:
         return
     w, qx, qy, qz = quaternion(P, j)
@@ -148,7 +148,7 @@ def remember(S, n, P, C, owner, laws):
             i = owner_of(C, owner[j], laws.geometry, x, y, z)
             owner[j] = i
             radius = S[RADIUS + j]
-            wall = wall_beside(C, i, laws.geometry, x, y, z, radius)
+            wall = wall_of(S, j, C, i, laws.geometry, x, y, z)
             penetration = wall.beyond[0] + radius
             if penetration >= 0:
                 stiff = STICK * wall.stiffness[0] * S[TRIBUTARY + j]

@@ -264,11 +264,11 @@ def _check(case: Case, tolerance: float, most: int, depth: float) -> None:
     if not FIRST <= bare(most, "most", "a number of segments") <= MAX_SEGMENTS:
         raise InputError(f"{FIRST} to {MAX_SEGMENTS} segments", key="most", value=most)
     for k, component in enumerate(case.string.components):
-        if component.joint_segments is not None:
+        if component.repeat is not None:
             raise InputError(
                 "none in a refinement, which cuts whole components: refine without it, then add it",
-                key=f"string.components[{k}].joint_segments",
-                value=component.joint_segments,
+                key=f"string.components[{k}].{component.repeat_key}",
+                value=component.repeat.segments,
             )
     if case.contact.helical_force != "none":
         raise InputError('"none" in a refinement', key="contact.helical_force", value=case.contact.helical_force)

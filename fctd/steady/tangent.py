@@ -28,13 +28,14 @@ from fctd.mechanics.state import (
     MUD_SPIN,
     OPEN,
     SAMPLED,
+    STARTING_FORCE,
     WEIGHT,
 )
 from fctd.steady.block_thomas import SIZE
 from fctd.steady.held_friction import Held, add_held_wall, press_rock
 from fctd.steady.joint_tangent import LOADS, UNKNOWNS, add_joint
 from fctd.steady.pose import SPIN, in_frame, quaternion, times
-from fctd.steady.wall_tangent import DIRECTIONS, add_wall, leave_out_change_along, read_wall
+from fctd.steady.wall_tangent import DIRECTIONS, add_wall, leave_out_change_along, read_wall, spin_of, starting
 
 # Columns of the imbalance: force [N], global; moment [N m] in the frame of the body, the last about its axis.
 FORCE, AXIAL_MOMENT = slice(0, 3), 5
@@ -105,14 +106,20 @@ def assemble(S, n, P, kinks, C, owner, laws, R, D, A, U):
     for j in range(1, n + 1):
         add_joint(S, j, P, kinks, R, *blocks, loads, slopes)
         R[j, 2] += S[WEIGHT + j]
-        # Mud drags a sliding string along its own axis and a turning one about it, as given loads push and turn it.
+        # Mud drags a sliding string along its own axis and a turning one about it, as given loads push and turn it, and
+        # as bow springs do.
+        spin = spin_of(S, j, laws)
         push = laws.given * S[GIVEN_FORCE + j] - S[MUD_AXIAL + j] * laws.speed
+        turn = S[MUD_SPIN + j] * spin
+        if S[STARTING_FORCE + j] != 0:
+            along, about = starting(S, j, laws)
+            push, turn = push - along, turn + about
         w, x, y, z = quaternion(P, j)
         xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_columns(w, x, y, z)
         R[j, 0] += push * zx
         R[j, 1] += push * zy
         R[j, 2] += push * zz
-        R[j, AXIAL_MOMENT] -= S[MUD_SPIN + j] * laws.spin
+        R[j, AXIAL_MOMENT] -= turn
         R[j, AXIAL_MOMENT] += laws.given * S[GIVEN_TORQUE + j]
         # A tilt (a, b) turns the axis by a (−y) + b x.
         for i, dx, dy in ((0, xx, yx), (1, xy, yy), (2, xz, yz)):

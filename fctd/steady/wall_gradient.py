@@ -30,8 +30,9 @@ from fctd.mechanics.contact import (
 )
 from fctd.mechanics.jit import inlined, kernel
 from fctd.mechanics.joints import cross
+from fctd.mechanics.own_contact import GAP, has_own_contact
 from fctd.mechanics.sampled import AROUND_CELLS, deviation_at, grip_of, place_beside
-from fctd.mechanics.state import ARCS, SAMPLED, TINY
+from fctd.mechanics.state import ARCS, BOW_STIFFNESS, OWN_FRICTION, RADIUS, SAMPLED, TINY, TRIBUTARY
 
 
 class Beside(NamedTuple):
@@ -294,3 +295,31 @@ def wall_beside(C, i, geometry, x, y, z, radius):
     if geometry == SAMPLED:
         return beside_sampled(C, i, x, y, z, radius)
     return beside_cylinders(C, i, x, y, z, radius)
+
+
+@kernel
+def with_own_contact(S, j, wall):
+    """The wall beside contact point j of a fitting, see ``own_contact``."""
+    radius, factor, around, beyond, stiffness = S[RADIUS + j], wall.factor, wall.around, wall.beyond, wall.stiffness
+    if S[OWN_FRICTION + j] != 0:
+        factor = around = (S[OWN_FRICTION + j], 0.0, 0.0, 0.0)
+    if S[BOW_STIFFNESS + j] != 0:
+        x, y, z = wall.x, wall.y, wall.z
+        distance = np.sqrt(x[0] * x[0] + y[0] * y[0] + z[0] * z[0])
+        if distance - beyond[0] < radius + GAP:  # the hole is narrower than the bows
+            k = 1 / (distance + TINY)
+            beyond = (
+                distance - radius - GAP, k * (x[0] * x[1] + y[0] * y[1] + z[0] * z[1]),
+                k * (x[0] * x[2] + y[0] * y[2] + z[0] * z[2]), k * (x[0] * x[3] + y[0] * y[3] + z[0] * z[3]),
+            )  # fmt: skip
+        stiffness = (S[BOW_STIFFNESS + j] / S[TRIBUTARY + j], 0.0, 0.0, 0.0)
+    return Beside(wall.x, wall.y, wall.z, beyond, stiffness, factor, wall.tx, wall.ty, wall.tz, around)
+
+
+@inlined
+def wall_of(S, j, C, i, geometry, x, y, z):
+    """The wall of piece i beside contact point j of a string, which is at a place, with its gradient."""
+    wall = wall_beside(C, i, geometry, x, y, z, S[RADIUS + j])
+    if has_own_contact(S, j):
+        return with_own_contact(S, j, wall)
+    return wall

@@ -17,10 +17,10 @@ from fctd.mechanics.jit import inlined
 from fctd.mechanics.joints import cross
 from fctd.mechanics.laws import LAWS, dispatch, steady_load
 from fctd.mechanics.rotations import rotation_columns
-from fctd.mechanics.state import ARM_CONTACT, GIVEN_FRICTION, RADIUS, TINY, TRIBUTARY
+from fctd.mechanics.state import ARM_CONTACT, GIVEN_FRICTION, RADIUS, STARTING_FORCE, STILL, TINY, TRIBUTARY
 from fctd.steady.block_thomas import SIZE
 from fctd.steady.pose import in_frame, place, quaternion, stepped
-from fctd.steady.wall_gradient import wall_beside
+from fctd.steady.wall_gradient import wall_of
 
 STEP = 1e-30
 UNIT = 1 / STEP
@@ -46,16 +46,19 @@ def depth_of(laws, penetration):
 
 
 @inlined
-def loads_of_wall(steady_load, laws, scale, nx, ny, nz, normal, factor, around, tx, ty, tz, w, qx, qy, qz, arm, radius):
+def loads_of_wall(
+    steady_load, laws, spin, scale, nx, ny, nz, normal, factor, around, tx, ty, tz, w, qx, qy, qz, arm, radius
+):
     """Loads of the wall on a body with its frame q, given the normal force on it [N] and the wall beside it.
 
-    steady_load : of a law of friction; scale : share of the friction; factor, around : friction factors along and
-    around the string.  Returns force [N], global; moment about the centre [N m], in the body's frame: six scalars.
+    steady_load : of a law of friction; spin : rotation of the string there [rad/s]; scale : share of the friction;
+    factor, around : friction factors along and around the string.  Returns force [N], global; moment about the centre
+    [N m], in the body's frame: six scalars.
     """
     _, _, _, _, _, _, ax, ay, az = rotation_columns(w, qx, qy, qz)
     limit = scale * factor * normal
     fx, fy, fz, mx, my, mz, _ = steady_load(
-        laws.speed, laws.spin, limit, limit_around(laws.orthotropic, scale, around, normal), radius, ax, ay, az,
+        laws.speed, spin, limit, limit_around(laws.orthotropic, scale, around, normal), radius, ax, ay, az,
         nx, ny, nz, tx, ty, tz,
     )  # fmt: skip
     if laws.at_axis:
@@ -71,6 +74,20 @@ def loads_of_wall(steady_load, laws, scale, nx, ny, nz, normal, factor, around, 
 def share_of_friction(S, j, laws):
     """Share of its friction with which the wall itself acts on body j."""
     return laws.friction_scale * (1.0 - S[GIVEN_FRICTION + j])
+
+
+@inlined
+def spin_of(S, j, laws):
+    """Rotation of body j [rad/s]: none below a swivel."""
+    return laws.spin * (1.0 - S[STILL + j])
+
+
+@inlined
+def starting(S, j, laws):
+    """Force along body j [N] and torque about it [N m] with which compressed bow springs hold it as it moves."""
+    turning = S[RADIUS + j] * spin_of(S, j, laws)
+    share = laws.friction_scale * S[STARTING_FORCE + j] / (root(laws.speed * laws.speed + turning * turning) + TINY)
+    return share * laws.speed, share * turning * S[RADIUS + j]
 
 
 @inlined
@@ -93,7 +110,7 @@ def differentiate_with(steady_load: Any) -> Any:
     """A function that fills the loads of the wall on a body and their derivatives, by the steady load of a law."""
 
     @inlined
-    def differentiate(laws, scale, w, qx, qy, qz, arm, radius, tributary, wall, K):
+    def differentiate(laws, spin, scale, w, qx, qy, qz, arm, radius, tributary, wall, K):
         """Fill K (12 × DIRECTIONS, flat) with derivatives of force and moment, and in its lower half with both."""
         xx, xy, xz, yx, yy, yz, _, _, _ = rotation_columns(w, qx, qy, qz)
         depth = depth_of(laws, complex(wall.beyond[0] + radius, STEP))
@@ -107,7 +124,7 @@ def differentiate_with(steady_load: Any) -> Any:
             nx, ny, nz = unit_of(moved(wall.x, dx, dy, dz), moved(wall.y, dx, dy, dz), moved(wall.z, dx, dy, dz))
             normal = moved(wall.stiffness, dx, dy, dz) * complex(pressed, slope * moved(wall.beyond, dx, dy, dz).imag)
             fx, fy, fz, ma, mb, mc = loads_of_wall(
-                steady_load, laws, scale, nx, ny, nz, normal,
+                steady_load, laws, spin, scale, nx, ny, nz, normal,
                 moved(wall.factor, dx, dy, dz), moved(wall.around, dx, dy, dz),
                 moved(wall.tx, dx, dy, dz), moved(wall.ty, dx, dy, dz), moved(wall.tz, dx, dy, dz),
                 cw, cx, cy, cz, arm, radius,
@@ -132,12 +149,13 @@ def add_wall(S, j, P, C, owner, laws, R, D, K):
     x, y, z = contact_place(S, j, P)
     i = owner_of(C, owner[j], laws.geometry, x, y, z)
     owner[j] = i
-    wall = wall_beside(C, i, laws.geometry, x, y, z, S[RADIUS + j])
+    wall = wall_of(S, j, C, i, laws.geometry, x, y, z)
     if wall.beyond[0] + S[RADIUS + j] < 0:
         return
     w, qx, qy, qz = quaternion(P, j)
     differentiate_by_law(
-        laws.friction, laws, share_of_friction(S, j, laws), w, qx, qy, qz, S[ARM_CONTACT + j], S[RADIUS + j],
+        laws.friction, laws, spin_of(S, j, laws), share_of_friction(S, j, laws), w, qx, qy, qz, S[ARM_CONTACT + j],
+        S[RADIUS + j],
         S[TRIBUTARY + j], wall, K,
     )  # fmt: skip
     for i in range(SIZE):
@@ -157,7 +175,7 @@ def leave_out_change_along(S, j, P, C, i, laws, D):
     if C[i, RADIUS_GAIN] == 0 and C[i, STIFFNESS_GAIN] == 0:
         return
     x, y, z = contact_place(S, j, P)
-    wall = wall_beside(C, i, laws.geometry, x, y, z, S[RADIUS + j])
+    wall = wall_of(S, j, C, i, laws.geometry, x, y, z)
     penetration = wall.beyond[0] + S[RADIUS + j]
     if penetration < 0:
         return
@@ -182,7 +200,7 @@ def leave_out_change_along(S, j, P, C, i, laws, D):
 def read_wall(S, j, P, C, i, laws):
     """Normal force on body j from piece i [N], friction torque r F_t about its axis [N m] and r μ F_n [N m]."""
     x, y, z = contact_place(S, j, P)
-    wall = wall_beside(C, i, laws.geometry, x, y, z, S[RADIUS + j])
+    wall = wall_of(S, j, C, i, laws.geometry, x, y, z)
     penetration = wall.beyond[0] + S[RADIUS + j]
     if penetration < 0:
         return 0.0, 0.0, 0.0
@@ -193,7 +211,7 @@ def read_wall(S, j, P, C, i, laws):
     nx, ny, nz = unit_of(wall.x[0], wall.y[0], wall.z[0])
     _, _, _, _, _, _, ax, ay, az = rotation_columns(*quaternion(P, j))
     _, _, _, _, _, _, torque = steady_load(
-        laws.friction, laws.speed, laws.spin, limit, around, S[RADIUS + j], ax, ay, az, nx, ny, nz,
+        laws.friction, laws.speed, spin_of(S, j, laws), limit, around, S[RADIUS + j], ax, ay, az, nx, ny, nz,
         wall.tx[0], wall.ty[0], wall.tz[0],
     )  # fmt: skip
     return normal, -torque, S[RADIUS + j] * turning_limit(limit, around)

@@ -85,7 +85,7 @@ def pipe_and_hole(case: Case) -> tuple[Section, Surroundings]:
     if case.mud.given:
         raise InputError("one density of the mud, for planar finite elements", key="mud")
     sections = {section_of(part, case.mud.density) for part in parts}
-    if len(sections) > 1 or any(part.joint_segments is not None for part in parts):
+    if len(sections) > 1 or any(part.repeat is not None for part in parts):
         raise InputError("components of one section, for planar finite elements", key="string.components")
     if len(hole.intervals) > 1:
         raise InputError("one interval, for planar finite elements", key="wellbore.intervals")

@@ -1,0 +1,198 @@
+"""Centralisers, bow springs, friction reducers and swivels: closed forms, and the stepper against the steady solver."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from fctd import Case, equilibrium, simulate
+from fctd.case.errors import InputError
+from fctd.mechanics.own_contact import GAP
+from fctd.model.drillstring import lay_out
+from tests.cases import make_case, pipe, rotation, trip
+
+SLANT = [[0, 50, 0], [400, 50, 0]]
+DEPTH, LINER, EVERY = 300.0, 120.0, 12.0  # [m]
+BORE = 0.2445
+RIGID = {"every": EVERY, "diameter": 0.23}
+BOWS = {"every": EVERY, "diameter": 0.27, "stiffness": 4e5, "starting_force": 800.0}
+
+
+def case(
+    stations: Any = SLANT, friction: float = 0.3, operations: Any = None, geometry: str = "arcs", **liner: Any
+) -> Case:
+    """A liner of 120 m on drill pipe."""
+    cut = {} if {"centralisers", "friction_reducers"} & liner.keys() else {"segment_length": 3.0}
+    parts = [
+        {"name": "liner", "length": LINER, "outer_diameter": 0.1778, "inner_diameter": 0.159} | cut | liner,
+        pipe(None, None, segment_length=10.0, inner=0.1086),
+    ]
+    hole: dict[str, Any] = {"intervals": [{"to_md": 400, "diameter": BORE, "friction": friction}], "geometry": geometry}
+    mud = {"density": 1200.0, "viscosity": 0.0, "lateral_damping": 100.0}
+    return make_case(stations, parts, operations, wellbore=hole, mud=mud)
+
+
+def contacts(of: Case) -> np.ndarray:
+    """Which contact points are those of fittings."""
+    string = lay_out(of, DEPTH)
+    return np.array([part.kind.value == "fitting" for part in string.parts])[string.component]
+
+
+def test_fittings_are_laid_at_equal_distances_and_add_no_mass() -> None:
+    bare, fitted = (lay_out(of, DEPTH) for of in (case(), case(centralisers=RIGID)))
+    assert fitted.weight @ fitted.length == pytest.approx(bare.weight @ bare.length, rel=1e-12)
+    above = fitted.contacts_above[1:][contacts(case(centralisers=RIGID))]
+    assert len(above) == LINER / EVERY
+    np.testing.assert_allclose(np.diff(above[::-1])[1:], EVERY, rtol=1e-12)  # the lowest touches at the bit's end
+    assert (fitted.contact_radius()[contacts(case(centralisers=RIGID))] == 0.115).all()
+
+
+def test_rigid_centralisers_bear_the_liner_and_turn_with_their_own_radius() -> None:
+    of = case(centralisers=RIGID)
+    point = equilibrium(of, "rotate_off_bottom", DEPTH)
+    touching = point.profile["contact_force_N"].to_numpy()[1:]
+    string, fitted = lay_out(of, DEPTH), contacts(of)
+    in_liner = string.component < string.component[0]
+    assert touching[in_liner & ~fitted].sum() == 0
+    lateral = float((string.weight * string.length)[in_liner].sum() * np.sin(np.radians(50)))
+    pressed = lateral / np.sqrt(1 + 0.3**2)  # friction around the hole bears a part of it
+    assert touching[fitted].sum() == pytest.approx(pressed, rel=0.02)
+    torque = 0.3 * 0.115 * pressed
+    bare = equilibrium(case(friction_reducers=RIGID | {"friction": 0.0}), "rotate_off_bottom", DEPTH)
+    assert point.surface_torque - bare.surface_torque == pytest.approx(torque, rel=0.02)
+
+
+@pytest.mark.parametrize("geometry", ["arcs", "cylinders"])
+def test_friction_reducers_have_their_own_factor_whatever_the_hole_has(geometry: str) -> None:
+    reduced = RIGID | {"friction": 0.1}
+    pulls = [
+        equilibrium(case(friction=mu, geometry=geometry, friction_reducers=reduced), "trip_out", DEPTH).hookload
+        for mu in (0.1, 0.3)
+    ]
+    plain = equilibrium(case(friction=0.1, geometry=geometry, centralisers=RIGID), "trip_out", DEPTH).hookload
+    assert pulls[0] == pytest.approx(plain, rel=1e-9)
+    alone = equilibrium(case(friction=0.3, geometry=geometry, centralisers=RIGID), "trip_out", DEPTH).hookload
+    assert plain < pulls[1] < alone
+
+
+def test_bow_springs_sag_by_their_load_over_their_stiffness() -> None:
+    """In the middle of a long liner each bears the weight of a stretch."""
+    of = case(centralisers=BOWS, friction=0.0)
+    point = equilibrium(of, "rotate_off_bottom", DEPTH)
+    string, fitted = lay_out(of, DEPTH), contacts(of)
+    middle = np.flatnonzero(fitted)[3:-3]
+    load = string.weight[-1] * EVERY * np.sin(np.radians(50))
+    force = point.profile["contact_force_N"].to_numpy()[1:][middle]
+    np.testing.assert_allclose(force, load, rtol=0.02)
+    # A stiffness twice as large lets it sag half as far; the force stays.
+    stiff = equilibrium(case(centralisers=BOWS | {"stiffness": 8e5}, friction=0.0), "rotate_off_bottom", DEPTH)
+    np.testing.assert_allclose(stiff.profile["contact_force_N"].to_numpy()[1:][middle], load, rtol=0.02)
+    assert [note.code for note in point.notes] == []
+    assert GAP < 1e-3 * BORE
+
+
+def test_the_starting_force_acts_also_where_the_liner_hangs_on_the_axis() -> None:
+    """In a vertical well: ten bows of 0.8 kN, along as they slide, about the axis as they turn."""
+    upright = [[0, 0, 0], [400, 0, 0]]
+    of = case(upright, centralisers=BOWS)
+    weight = equilibrium(case(upright, friction=0.0), "trip_out", DEPTH).hookload
+    count = int(contacts(of).sum())
+    assert count == 10
+    assert equilibrium(of, "trip_out", DEPTH).hookload - weight == pytest.approx(count * 800.0, rel=1e-6)
+    assert equilibrium(of, "trip_in", DEPTH).hookload - weight == pytest.approx(-count * 800.0, rel=1e-6)
+    turned = equilibrium(of, "rotate_off_bottom", DEPTH)
+    assert turned.surface_torque == pytest.approx(count * 800.0 * 0.135, rel=1e-6)
+    assert turned.hookload == pytest.approx(weight, rel=1e-6)
+
+
+def test_bows_that_the_hole_does_not_compress_press_where_they_touch() -> None:
+    wide = equilibrium(case(centralisers=BOWS | {"diameter": 0.2}), "rotate_off_bottom", DEPTH)
+    assert wide.answered
+    forces = wide.profile["contact_force_N"].to_numpy()[1:][contacts(case(centralisers=BOWS))]
+    assert (forces > 0).all()
+
+
+def test_no_torque_passes_a_swivel_and_what_hangs_below_does_not_turn() -> None:
+    point = equilibrium(case(swivel=True), "rotate_off_bottom", DEPTH)
+    whole = equilibrium(case(), "rotate_off_bottom", DEPTH)
+    below = point.profile["md_m"].to_numpy() > DEPTH - LINER + 5
+    assert np.abs(point.profile["torque_N_m"].to_numpy()[below]).max() < 1e-4 * point.surface_torque
+    above = whole.profile["md_m"].to_numpy() <= DEPTH - LINER
+    dropped = whole.surface_torque - float(whole.profile["torque_N_m"].to_numpy()[above][-1])
+    assert point.surface_torque == pytest.approx(dropped, rel=0.05)
+    # Sliding, the whole string drags.
+    assert equilibrium(case(swivel=True), "trip_out", DEPTH).hookload == pytest.approx(
+        equilibrium(case(), "trip_out", DEPTH).hookload, rel=1e-6
+    )
+
+
+FITTED: dict[str, dict[str, Any]] = {
+    "centralisers": {"centralisers": RIGID},
+    "reducers": {"friction_reducers": RIGID | {"friction": 0.1}},
+    "bows": {"centralisers": BOWS},
+    "swivel": {"swivel": True},
+}
+
+
+@pytest.mark.parametrize("name", FITTED)
+@pytest.mark.parametrize("geometry", ["arcs", "cylinders"])
+def test_the_stepper_agrees_with_the_steady_string(name: str, geometry: str) -> None:
+    turning = rotation(DEPTH, 12, rpm=60, ramp=3)
+    result = simulate(case(operations=[turning], geometry=geometry, **FITTED[name]))
+    assert result.run["energy_error"] < 1e-3
+    last = result.history[result.history["time_s"] > 8]
+    point = equilibrium(case(geometry=geometry, **FITTED[name]), "rotate_off_bottom", DEPTH)
+    assert last["hookload_N"].mean() == pytest.approx(point.hookload, rel=2e-3)
+    assert last["surface_torque_N_m"].mean() == pytest.approx(point.surface_torque, rel=0.03)
+
+
+def test_the_stepper_slides_against_bows_as_the_steady_string_does() -> None:
+    """Down a vertical well, on pipe that is fed from a long segment."""
+    upright = [[0, 0, 0], [400, 0, 0]]
+    fed = case(upright, friction=0.0, operations=[trip(DEPTH, DEPTH + 2, 0.5, 1.0)], centralisers=BOWS)
+    parts = (
+        fed.string.components[0],
+        fed.string.components[1].model_copy(update={"segments": 1, "segment_length": None}),
+    )
+    fed = fed.model_copy(update={"string": fed.string.model_copy(update={"components": parts})})
+    result = simulate(fed)
+    last = result.history[result.history["time_s"] > 2.5]
+    point = equilibrium(fed, "trip_in", DEPTH + 1)
+    assert last["hookload_N"].mean() == pytest.approx(point.hookload, rel=5e-3)
+    weight = equilibrium(case(upright, friction=0.0), "trip_in", DEPTH + 1).hookload
+    assert point.hookload - weight == pytest.approx(-8000.0, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("liner", "words"),
+    [
+        ({"centralisers": RIGID, "friction_reducers": RIGID | {"friction": 0.1}}, "friction_reducers"),
+        ({"centralisers": {"every": 12.0, "diameter": 0.17}}, "more than contact_diameter"),
+        ({"friction_reducers": RIGID}, "their friction factor"),
+        ({"centralisers": RIGID | {"length": 5.0}}, "at most a quarter of every"),
+        ({"centralisers": RIGID | {"starting_force": 100.0}}, "a stiffness of bow springs"),
+        ({"centralisers": RIGID, "segment_length": 3.0}, "segment_length"),
+        ({"centralisers": RIGID, "length": 1.0}, '"sleeve" beside centralisers'),
+    ],
+)
+def test_wrong_fittings_are_refused_in_one_sentence(liner: dict[str, Any], words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        case(**liner)
+
+
+def test_a_centraliser_wider_than_the_hole_is_refused_by_its_key() -> None:
+    wide = case(centralisers=RIGID | {"diameter": 0.25})
+    with pytest.raises(InputError, match=r"string\.components\[0\]\.centralisers\.diameter"):
+        equilibrium(wide, "trip_in", DEPTH)
+
+
+def test_bit_torque_below_a_swivel_and_bows_in_other_walls_are_refused() -> None:
+    for sections, words in (
+        ({"bit": {"torque": 1000.0}}, "which no torque passes"),
+        ({"contact": {"law": "power", "exponent": 2.0, "reference_penetration": 1e-3}}, '"linear" beside bow springs'),
+    ):
+        given = case(swivel=True, centralisers=BOWS).model_dump(exclude_defaults=True)
+        with pytest.raises(ValueError, match=words):
+            Case.model_validate(given | sections)
+    with pytest.raises(ValueError, match="against which it turns"):
+        make_case(components=[pipe(None, 10, swivel=True)])
