@@ -43,7 +43,7 @@ from fctd.cli.steady import (
 from fctd.model.depths import read_depth, read_depths
 from fctd.results.unit_systems import System, reworded, shown
 from fctd.steady.margin_table import USUAL, margin_table
-from fctd.steady.margins import FATIGUE, MEANINGS, OVERPULL, SET_DOWN, SLIPS, TORQUE
+from fctd.steady.margins import FATIGUE, LACKING, MEANINGS, OVERPULL, SET_DOWN, SLIPS, TORQUE
 from fctd.store.tables import write_table
 
 if TYPE_CHECKING:
@@ -124,8 +124,11 @@ def _one(depth: str, case: Case, bare: str) -> float:
 
 
 def _beyond(table: "pd.DataFrame") -> list[str]:
-    """The limits that a string is beyond before any load is added."""
-    return sorted(set(table.loc[table["share_used"] > 1, "limit"]))
+    """The limits that a string is beyond before any load is added, and the overpull that it lacks."""
+    beyond = set(table.loc[table["share_used"] > 1, "limit"])
+    if table["reason"].str.contains(LACKING, regex=False).any():
+        beyond.add("overpull_margin")
+    return sorted(beyond)
 
 
 def _print(table: "pd.DataFrame", name: str, units: System) -> None:

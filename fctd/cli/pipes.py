@@ -58,7 +58,7 @@ def pipes_command(
 def found_by(words: list[str]) -> list[Pipe]:
     """The pipes whose names have all of some words, with the grade and the class among them."""
     typed = " ".join(words)
-    text, wall_share = class_of(typed.lower().replace(",", " "), typed)
+    text, wall_share = class_of(re.sub(r"(?<=\d)-(?=\d+/\d)", " ", typed.lower().replace(",", " ")), typed)
     parts = re.findall(r"\d+\s+\d+/\d+|\S+", text)
     grades = [grade for part in parts if (grade := drill_pipe_grade_of(part))]
     grade = grades[0] if grades else None

@@ -24,7 +24,7 @@ from fctd.mechanics.given_loads import count_given, push_given
 from fctd.mechanics.jit import entry, inlined
 from fctd.mechanics.joints import bend_housings, update_joint_loads
 from fctd.mechanics.laws import LAWS, dispatch
-from fctd.mechanics.own_contact import drag_bows
+from fctd.mechanics.own_contact import held_by_bows
 from fctd.mechanics.readings import read_step
 from fctd.mechanics.rock import NO_ROCK
 from fctd.mechanics.rotations import rotation_columns, turned
@@ -177,9 +177,10 @@ def brake(S, j, u, v, w, a, b, c, laws, dt):
     lateral, axial, rotational = mud_factors(S, j, laws.settling, layer, dt)
     share = lateral * (1 - lateral)
     sideways = (u * u + v * v) * share
-    along = (w + layer * S[LAYER_SPEED + j]) * axial
+    slowed = (w + layer * S[LAYER_SPEED + j]) * axial
+    along, c = held_by_bows(laws.bows, S, j, slowed, c, laws.friction_scale, dt)
     S[LAYER_SPEED + j] += dt * laws.layer_rate * (along - S[LAYER_SPEED + j])
-    lost = S[MASS + j] * (sideways + (w - along) * along) + S[ADDED_MASS + j] * sideways
+    lost = S[MASS + j] * (sideways + (w - slowed) * along) + S[ADDED_MASS + j] * sideways
     lost += S[J_TRANSVERSE + j] * (a * a + b * b) * share
     S[LOST_MUD + j] += lost + S[J_AXIAL + j] * c * c * rotational * (1 - rotational)
     S[SUM_MUD_TORQUE + j] += S[J_AXIAL + j] * c * (1 - rotational)
@@ -316,8 +317,6 @@ def update_velocities(S, n, laws, dt):
         push_freely(S, n, laws, dt)
     else:
         push_by_law(laws.friction, S, n, laws, dt)
-    if laws.bows:
-        drag_bows(S, n, laws.friction_scale, dt)
     if laws.given:
         count_given(S, n, dt)
 

@@ -6,7 +6,10 @@ a starting force wherever it lies.  Within ``GAP`` of the axis, where a force ha
 
 import math
 
-from fctd.mechanics.jit import inlined
+from numba import types
+from numba.extending import overload
+
+from fctd.mechanics.jit import INLINED, inlined
 from fctd.mechanics.state import (
     BOW_STIFFNESS,
     FRICTION,
@@ -23,11 +26,6 @@ from fctd.mechanics.state import (
     STARTING_FORCE,
     SUM_FRICTION_TORQUE,
     TINY,
-    VX,
-    VY,
-    VZ,
-    WZ,
-    axis,
 )
 
 GAP = 1e-4  # [m]
@@ -49,24 +47,30 @@ def store_own_contact(S, j):
         S[K_WALL + j] = S[BOW_STIFFNESS + j]
 
 
-@inlined
-def drag_bows(S, n, scale, dt):
-    """Slow every body along and about its axis by the starting force of its bows; scale : share of friction.
+def held_by_bows(bows, S, j, along, rate, scale, dt):
+    """Speed along the axis of body j [m/s] and spin about it [rad/s], slowed by the starting force of its bows.
 
-    It is dry friction, which stops a motion and does not reverse it.
+    It is dry friction, which stops a motion and does not reverse it.  bows : of ``Laws``, None where no body has one;
+    scale : share of friction.
     """
-    for j in range(1, n + 1):
-        if S[STARTING_FORCE + j] == 0:
-            continue
-        ax, ay, az = axis(S, j)
-        along, rate, r = S[VX + j] * ax + S[VY + j] * ay + S[VZ + j] * az, S[WZ + j], S[RADIUS + j]
-        pull = scale * dt * S[STARTING_FORCE + j] / (math.sqrt(along * along + r * r * rate * rate) + TINY)
-        less = along * min(pull * S[INVERSE_MASS + j], 1.0)
-        fewer = rate * min(pull * r * r * S[INVERSE_JA + j], 1.0)
-        S[VX + j] -= less * ax
-        S[VY + j] -= less * ay
-        S[VZ + j] -= less * az
-        S[WZ + j] -= fewer
-        S[SUM_FRICTION_TORQUE + j] += S[J_AXIAL + j] * fewer
-        # As the work of other impulses, by the velocity that they leave.
-        S[LOST_FRICTION + j] += S[MASS + j] * less * (along - less) + S[J_AXIAL + j] * fewer * (rate - fewer)
+    pull, r = _pull(S, j, along, rate, scale, dt), S[RADIUS + j]
+    less = along * min(pull * S[INVERSE_MASS + j], 1.0)
+    fewer = rate * min(pull * r * r * S[INVERSE_JA + j], 1.0)
+    along, rate = along - less, rate - fewer
+    S[SUM_FRICTION_TORQUE + j] += S[J_AXIAL + j] * fewer
+    S[LOST_FRICTION + j] += S[MASS + j] * less * along + S[J_AXIAL + j] * fewer * rate
+    return along, rate
+
+
+@inlined
+def _pull(S, j, along, rate, scale, dt):
+    """Impulse of the starting force over the speed with which the bows slide [kg]."""
+    turning = S[RADIUS + j] * rate
+    return scale * dt * S[STARTING_FORCE + j] / (math.sqrt(along * along + turning * turning) + TINY)
+
+
+@overload(held_by_bows, jit_options=INLINED)
+def _held_by_bows(bows, S, j, along, rate, scale, dt):
+    if isinstance(bows, types.NoneType):
+        return lambda bows, S, j, along, rate, scale, dt: (along, rate)
+    return held_by_bows

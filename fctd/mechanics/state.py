@@ -133,9 +133,10 @@ class Laws(NamedTuple):
     shape_damping : damping time of bending and shear in space [s].
     layer_rate : rate at which the mud's boundary layers follow the string along itself [1/s].
     unbalanced : whether any body has an unbalance; bent : whether any joint has a bent housing; given : whether any
-    body has given loads; bows : whether any has bow springs with a starting force.
+    body has given loads.
     orthotropic : True where friction factors along and around the string differ, else None, a type of its own: code for
-    factors that differ is compiled where it is needed, and that for equal factors does without it.
+    factors that differ is compiled where it is needed, and that for equal factors does without it.  bows : the same, of
+    bow springs with a starting force.
     """
 
     geometry: int
@@ -157,7 +158,7 @@ class Laws(NamedTuple):
     bent: bool = False
     given: bool = False
     orthotropic: bool | None = None
-    bows: bool = False
+    bows: bool | None = None
 
 
 # Keeps 0/0 out of packed arithmetic, where a branch would cost more, and changes no other result.

@@ -82,6 +82,25 @@ def stress_of(at, bending, section):
     return pressed(at.tension, at.torque, bending, section.outer, section.inner, at.excess)
 
 
+# Share of the collapse pressure that is left at the yield strength, in place of none.
+LEAST_LEFT: Final = 1e-9
+
+
+@inlined
+def collapse_of(at, section):
+    """Pressure that the pipe bears from outside under its tension [Pa], which lowers it along an ellipse (API 5C3).
+
+    The stress along it counts from the pressure inside: (T + (p_i - p_o) A_o)/A_s with the effective tension T.
+    """
+    if at.excess >= 0:
+        return section.collapse
+    outer = section.outer * section.outer
+    steel = math.pi * (outer - section.inner * section.inner)
+    share = (at.tension + math.pi * outer * at.excess) / steel / section.yield_strength
+    share = min(max(share, 0.0), 1.0)
+    return section.collapse * max(math.sqrt(1 - 0.75 * share * share) - 0.5 * share, LEAST_LEFT)
+
+
 LIMITS: Final[tuple[Limit, ...]] = (
     Limit(
         "penetration", "the string is pressed deep into the wall",
@@ -171,10 +190,10 @@ LIMITS: Final[tuple[Limit, ...]] = (
     Limit(
         "collapse", "the pressure outside collapses the pipe", "fill the pipe, or use stronger pipe", "Pa",
         lambda at, section: -at.excess,
-        lambda at, section: section.collapse,
+        lambda at, section: collapse_of(at, section),
         lambda share, at, section, where: (
             f"the pressure outside at {where} is {-at.excess / 1e5:.0f} bar above that inside, the pipe bears "
-            f"{section.collapse / 1e5:.0f} bar"
+            f"{-at.excess / share / 1e5:.0f} bar under its tension"
         ),
         "design_factor", of_steel=True,
     ),
@@ -238,6 +257,9 @@ def find_shares(
     )  # fmt: skip
     compare(top, _section(sections, component[0]), 0, worst)
     for j in range(len(hole)):
+        if j and component[j] != component[j - 1]:  # the upper end of a weaker part bears most
+            upper = Place(tension[j], torque[j], hanging[j + 1, MOMENT], 0.0, 0.0, 0.0, 0.0, 0.0, excess[j])
+            compare(upper, _section(sections, component[j]), j + 1, worst)
         clearance = hole[j] - radius[j]
         distance = math.sqrt(offset[j, 0] ** 2 + offset[j, 1] ** 2 + offset[j, 2] ** 2)
         here = Place(

@@ -178,7 +178,9 @@ def limit_notes(worst: Array, string: String, walls: Walls, asked: LimitsSpec = 
     return tuple(found)
 
 
-def rig_notes(rig: RigSpec, indicator: float, torque: float, top: Section, hanging: float) -> tuple[Note, ...]:
+def rig_notes(
+    rig: RigSpec, limits: LimitsSpec, indicator: float, torque: float, top: Section, hanging: float
+) -> tuple[Note, ...]:
     """Notes on a rig that is too weak for a reading of the weight indicator [N], or for a drive torque [N m].
 
     Also where slips crush the uppermost pipe, of a section ``top``, by the weight ``hanging`` in them [N].
@@ -196,7 +198,9 @@ def rig_notes(rig: RigSpec, indicator: float, torque: float, top: Section, hangi
             f"{hanging / 1e3:.0f} kN hang in slips, which crush the uppermost pipe at {most / 1e3:.0f} kN by Reinhold "
             "and Spiri (1959), tests find up to a fifth less"
         )
-        found.append(note_beyond("slips", text, hanging, most))
+        if limits.design_factor > 1:
+            text += f", with limits.design_factor = {limits.design_factor:g}"
+        found.append(note_beyond("slips", text, hanging, most / limits.design_factor))
     return tuple(note for note in found if note is not None)
 
 

@@ -123,7 +123,7 @@ def _in_field(column: str, measure: Measure) -> str:
 # Units of messages, which the program writes in SI.
 IN_MESSAGES: Final = {
     "m": "ft", "mm": "in", "km": "ft", "m/s": "ft/min", "m/h": "ft/h", "kN": "klbf", "N": "lbf", "kN·m": "kft·lbf",
-    "MPa": "ksi", "kg/m^3": "ppg", "kg/m": "lb/ft",
+    "MPa": "ksi", "bar": "psi", "kg/m^3": "ppg", "kg/m": "lb/ft",
 }  # fmt: skip
 _NUMBER = r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?"
 # A number or several with one unit, "540 to 1500 m"; what stands in quotes is the user's or an example.

@@ -102,7 +102,7 @@ class Guards(Restorable):
         """
         run, (indicator, drive, hanging) = self.run, readings
         top = run.string.sections[run.string.component[0]]
-        of_the_rig = rig_notes(run.case.rig, indicator, drive, top, hanging)
+        of_the_rig = rig_notes(run.case.rig, run.case.limits, indicator, drive, top, hanging)
         for note in (*self._of_limits(loads, walls, pull[0]), *of_the_rig):
             self._keep(note, bit_depth)
         self._keep(under_resolved(buckling), bit_depth)

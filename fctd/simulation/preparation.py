@@ -165,7 +165,7 @@ def _run(
         bent=any(component.bend for component in case.string.components),
         given=False,
         orthotropic=hole.orthotropic if case.contact.enabled else None,
-        bows=bool(case.contact.enabled and any(component.has_bows for component in case.string.components)),
+        bows=True if case.contact.enabled and any(part.has_bows for part in case.string.components) else None,
     )
     limit = min(_step_limit(probe, count, case, hole, laws) for probe, count in probes)
     wanted = case.solver.step

@@ -29,6 +29,7 @@ from fctd.steady.steady_string import Equilibrium
 
 # No more than so many weights of the string are set down.
 MOST_WEIGHT = 2.0
+LACKING: Final = "less than limits.overpull_margin"
 SNAKING, HELIX, SLACK_OFF, LOCK_UP = "snaking", "helix", "slack_off", "lock_up"
 OVERPULL, SET_DOWN, TORQUE, SLIPS, FATIGUE = "overpull", "set_down", "torque", "slips", "fatigue"
 # What follows first from each limit, in words.
@@ -79,18 +80,20 @@ class First(NamedTuple):
     md: float
 
 
-# The limit of a string of which it uses a share.
-LimitOf = Callable[[Equilibrium], First]
+# The limit of a string of which it uses a share; with a code, the share of that one.
+LimitOf = Callable[[Equilibrium, str | None], First]
+# Notes on a string at its limit that say how far its bending can be trusted.
+SAID: Final = ("body", "tool_joints", "penetration")
 
 
-def first_limit(point: Equilibrium) -> First:
-    """The limit of the steel that a string uses most."""
+def first_limit(point: Equilibrium, only: str | None = None) -> First:
+    """The limit of the steel that a string uses most; only : the code of the one that is looked at."""
     shape, asked = point._shape, point.case.limits
     string = shape.laid.string
-    worst, row, code = 0.0, 0, "yield"
+    worst, row, code = 0.0, 0, only or "yield"
     for limit, found in zip(LIMITS, point.shares, strict=True):
         share = limit.scale(asked) * float(found[SHARE])
-        if limit.of_steel and share > worst:
+        if limit.of_steel and share > worst and only in (None, limit.code):
             worst, row, code = share, int(found[ROW]), limit.code
     md = float(shape.walls.md[row - 1]) if row else string.top_md
     part = string.parts[string.component[max(row - 1, 0)]].component
@@ -151,30 +154,31 @@ def margins(
     if kind.direction < 0:
         yield _pulled(loaded, first_limit, _weakest(laid, "tension"))
         if (lifts := rig.hoist_capacity) is not None:
-            yield _pulled(loaded, lambda point: First("hoist", point.weight_indicator / lifts, "none", NAN), lifts)
+            yield _pulled(loaded, lambda point, _: First("hoist", point.weight_indicator / lifts, "none", NAN), lifts)
     if kind.direction > 0:
         yield from _set_down(loaded, beyond_buckling)
     if rates.spin > 0:
         if kind.direction >= 0:
             yield _turned(loaded, first_limit, _weakest(laid, "torsion"))
             if (turns := rig.largest_torque) is not None:
-                yield _turned(loaded, lambda point: First("drive", point.drive_torque / turns, "none", NAN), turns)
+                yield _turned(loaded, lambda point, _: First("drive", point.drive_torque / turns, "none", NAN), turns)
         yield _bent_to_and_fro(loaded.free, rates.spin)
     if not kind.direction and not kind.on_bottom and rig.slip_length is not None:
-        yield _in_slips(loaded.free, rig.slip_length)
+        yield _in_slips(loaded.free, rig.slip_length, solver.case.limits.design_factor)
 
 
 def _pulled(loaded: Loaded, limit_of: LimitOf, scale: float) -> Margin:
     """The overpull at which a limit is reached; scale : about its size [N]."""
-    used, found = limit_of(loaded.free), _load_at(loaded.pulled, limit_of, scale)
+    used, found = limit_of(loaded.free, None), _load_at(loaded.pulled, limit_of, scale)
     if not np.isfinite(found):
         return Margin(OVERPULL, used.code, used.part, used.md, used.share, reason=_why(used))
     point, asked = loaded.pulled(found), loaded.solver.case.limits.overpull_margin
-    reached, left = limit_of(point), point.hookload - loaded.free.hookload
-    lacking = f"less than limits.overpull_margin = {asked / 1e3:g} kN at the hook"
+    reached, left = limit_of(point, None), point.hookload - loaded.free.hookload
+    used = limit_of(loaded.free, reached.code)
+    lacking = [f"{LACKING} = {asked / 1e3:g} kN at the hook"] if left < asked else []
     return Margin(
         OVERPULL, reached.code, reached.part, reached.md, used.share, found, point.hookload, left,
-        reason="none" if left >= asked else lacking,
+        reason=_reason([*lacking, *_said(point)]),
     )  # fmt: skip
 
 
@@ -184,15 +188,36 @@ def _turned(loaded: Loaded, limit_of: LimitOf, scale: float) -> Margin:
     def at(torque: float) -> Equilibrium:
         return loaded.pressed(0.0, torque)
 
-    used, found = limit_of(loaded.free), _load_at(at, limit_of, scale)
+    used, found = limit_of(loaded.free, None), _load_at(at, limit_of, scale)
     if not np.isfinite(found):
         return Margin(TORQUE, used.code, used.part, used.md, used.share, reason=_why(used))
     point = at(found)
-    reached = limit_of(point)
+    reached = limit_of(point, None)
+    used = limit_of(loaded.free, reached.code)
+    unknown = _without_make_up(loaded.laid) if limit_of is first_limit else []
     return Margin(
         TORQUE, reached.code, reached.part, reached.md, used.share, torque=found, surface_torque=point.surface_torque,
-        surface_torque_left=point.surface_torque - loaded.free.surface_torque,
+        surface_torque_left=point.surface_torque - loaded.free.surface_torque, reason=_reason([*unknown, *_said(point)]),
     )  # fmt: skip
+
+
+def _said(point: Equilibrium) -> list[str]:
+    """What the notes on a string at its limit say about its bending."""
+    return [f"at the limit {note.text}" for note in point.notes if note.code in SAID]
+
+
+def _without_make_up(laid: LaidString) -> list[str]:
+    """A sentence on the components whose connections have no known make-up torque."""
+    string = laid.string
+    names = dict.fromkeys(
+        part.component.name for part, section in zip(string.parts, string.sections, strict=True)
+        if not np.isfinite(section.make_up)
+    )  # fmt: skip
+    return [f"the torque that the connections of {', '.join(names)} bear is not known, and left out"] if names else []
+
+
+def _reason(sentences: list[str]) -> str:
+    return "; ".join(sentences) or "none"
 
 
 def _load_at(at: Callable[[float], Equilibrium], limit_of: LimitOf, scale: float) -> float:
@@ -200,7 +225,7 @@ def _load_at(at: Callable[[float], Equilibrium], limit_of: LimitOf, scale: float
 
     def excess(load: float) -> float:
         point = at(load)
-        return limit_of(point).share - 1 if point.answered else NAN
+        return limit_of(point, None).share - 1 if point.answered else NAN
 
     return root_of(excess, scale)
 
@@ -291,11 +316,11 @@ def _endless(part: ComponentSpec, section: Section, tension: float) -> str:
     )
 
 
-def _in_slips(point: Equilibrium, length: float) -> Margin:
+def _in_slips(point: Equilibrium, length: float, design_factor: float) -> Margin:
     """What the slips bear beyond the string that hangs in them."""
     string = point._shape.laid.string
     top = string.sections[string.component[0]]
-    capacity = crushed_at(top, length)
+    capacity = crushed_at(top, length) / design_factor
     part = string.parts[string.component[0]].component.name
     return Margin(
         SLIPS, SLIPS, part, string.top_md, point.hookload / capacity, hookload=capacity,

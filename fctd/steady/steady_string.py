@@ -153,7 +153,7 @@ class Equilibrium:
         kind, string = KINDS[self.operation], shape.laid.string
         hanging = 0.0 if kind.direction or kind.on_bottom else self.hookload
         top = string.sections[string.component[0]]
-        found = rig_notes(self.case.rig, self.weight_indicator, self.drive_torque, top, hanging)
+        found = rig_notes(self.case.rig, self.case.limits, self.weight_indicator, self.drive_torque, top, hanging)
         if shape.numbers[NOTED] or not self.case.limits.all_used:
             found = (*limit_notes(self.shares, string, shape.walls, self.case.limits), *found)
         if self.method != HOMOGENISED:

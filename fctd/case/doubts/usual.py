@@ -100,6 +100,15 @@ USUAL: Final = {
         "rig_load", "a block weight", "N", 1e3, 5e6, "1 to 5000 kN",
         (LikelyUnit(10, 999, " kN"), LikelyUnit(5, 250, " klbf")),
     ),
+    "rig.hoist_capacity": Usual(
+        "rig_load", "a hoist capacity", "N", 50e3, 30e6, "50 to 30000 kN", (LikelyUnit(49, 30e3, " kN"),)
+    ),
+    "rig.largest_torque": Usual(
+        "rig_load", "a drive torque", "N*m", 500, 300e3, "0.5 to 300 kN·m", (LikelyUnit(1, 300, " kN*m"),)
+    ),
+    "rig.slip_length": Usual(
+        "rig_load", "a length of slips", "m", 0.1, 1.5, "0.1 to 1.5 m", (LikelyUnit(4, 40, " in"),)
+    ),
     "rig.guide_friction": Usual(
         "rig_load", "friction of the guides", "N", 100, 200e3, "0.1 to 200 kN", (LikelyUnit(0.1, 99, " kN"),)
     ),

@@ -27,7 +27,7 @@ _NAME: Final = re.compile(
     re.IGNORECASE | re.DOTALL,
 )
 _WORN: Final = re.compile(
-    r"(?:worn|wear)\s*(?P<percent>\d+(?:\.\d+)?)\s*%|(?<![\d.])(?P<other>\d+(?:\.\d+)?)\s*%\s*(?:worn|wear)"
+    r"(?:worn|wear)\s*(?P<percent>-?\d+(?:\.\d+)?)\s*%|(?<![\d.-])(?P<other>-?\d+(?:\.\d+)?)\s*%\s*(?:worn|wear)"
 )
 _FRACTIONS: Final = str.maketrans(
     {"½": " 1/2", "¼": " 1/4", "¾": " 3/4", "⅛": " 1/8", "⅜": " 3/8", "⅝": " 5/8", "⅞": " 7/8", "⁄": "/"}
@@ -78,8 +78,8 @@ def class_of(rest: str, text: str) -> tuple[str, float]:
     rest = _SHORT.sub("premium", rest)
     if (worn := _WORN.search(rest)) is not None:
         wear = float(worn["percent"] or worn["other"]) / 100
-        if wear > MOST_WEAR:
-            raise InputError(f"at most {100 * MOST_WEAR:g} % of the wall worn off", value=text)
+        if not 0 <= wear <= MOST_WEAR:
+            raise InputError(f"0 to {100 * MOST_WEAR:g} % of the wall worn off", value=text)
         return rest.replace(worn[0], " "), 1 - wear
     if (numbered := re.search(r"class\s+(\w+)", rest)) is not None and numbered[0] not in CLASSES:
         names = [*CLASSES, "a wear such as '10 % worn'"]
