@@ -6,7 +6,7 @@ K = √(|T|/EI) and L half of a joint.  Its lateral weight bends it as a beam th
 bends less than the body for a moment: the body between them, of half length l, has most of the turn, and factors of Kl.
 
 A coarse string, whose contact points lie where its segments end, knows the mean curvature alone; these closed forms
-correct its bending moment.  They hold while the body does not touch the wall.
+correct its bending moment.  Of a body that touches the wall ``touching_body`` has the bending.
 
 Of a string that resolves its joints (``model.joints``) the moment is computed, and a tool joint has the larger one of
 its ends, where bodies begin.  A body of few segments is too soft there: under tension it turns as if its end gave way

@@ -1,12 +1,12 @@
 """Bending of a pipe's body that touches the wall between two tool joints.
 
-A body that hangs between tool joints (``hanging_body``) sags towards the wall, by u from the arc of the hole through its
-tool joints: EI u'''' − T u'' = p with the load p per length that tension in the bend and weight press it with.  Where
-the wall stops it, it first touches in its middle, pressed back by a force there.  As soon as it would bend towards the
-wall there, a stretch of it lies on the wall: it has the curvature of the hole, and the parts of length a beside it hang
-between its edges and the tool joints.  At an edge u is the room towards the wall, u' = 0 and u'' = 0; a is what makes
-the other end of that part meet its tool joint.  Of a clamped body without tension p a⁴/72 EI is the room, and p a²/6 the
-moment that the load adds at the tool joint.
+A body that hangs between tool joints (``hanging_body``) sags towards the wall, by u from the arc of the hole through
+its tool joints: EI u'''' − T u'' = p, where p is the load per length by which tension in the bend and weight press it.
+The wall first presses it back in its middle.  Once that force would bend the middle beyond the hole's own curvature, a
+stretch of the body lies on the wall with that curvature.  A part of length a hangs between each of its edges and a tool
+joint.  At an edge u is the room towards the wall, u' = 0 and u'' = 0, and a is such that the other end of the part
+meets the tool joint.  Of a clamped body without tension the room is p a⁴/72 EI, and p a²/6 the moment that the load
+adds at the tool joint.
 
 From the middle or the edge, m = u'' is A cosh κs + B sinh κs/κ + f (cosh κs − 1)/κ², with κ² = T/EI and f = p/EI, and
 u' and u are its integrals; in compression cos and sin take the place of cosh and sinh.
@@ -23,7 +23,8 @@ SERIES: Final = 0.5
 WRITTEN_OUT: Final = 5.0
 # Below, curvature is a parabola along the body.
 PARABOLA: Final = 1e-3
-# The edge of the stretch on the wall is found to this share of its place; halving alone takes 40 rounds.
+# The edge of the stretch on the wall is found to this share of its place, by Newton's steps in a few rounds; where a
+# step leaves the bracket this is halved, which alone takes 40.
 CLOSE: Final = 1e-12
 ROUNDS: Final = 60
 
@@ -79,19 +80,11 @@ def lifts(span, k, tensile, load, room, soft, straight):
 @kernel
 def edge_of(free, k, tensile, load, room, soft, straight):
     """Length of the part between a tool joint and the stretch on the wall [m], below ``free``."""
-    # The room is above 0, and of all of ``free`` the body lies on the wall.
     low, high = 0.0, free
-    at_low = room * soft if soft > 0 else 0.0
-    at_high = lifts(free, k, tensile, load, room, soft, straight)
-    span = min((72 * room / load) ** 0.25, 0.5 * free)
+    span = min((72 * room / load) ** 0.25, 0.5 * free)  # of a clamped body without tension
     for _ in range(ROUNDS):
         here = lifts(span, k, tensile, load, room, soft, straight)
-        if here > 0:
-            low, at_low = span, here
-        else:
-            high, at_high = span, here
-        if high - low < CLOSE * high:
-            break
+        low, high = (span, high) if here > 0 else (low, span)
         step = 1e-7 * span
         slope = (lifts(span + step, k, tensile, load, room, soft, straight) - here) / step
         new = span - here / slope if slope != 0 else low
