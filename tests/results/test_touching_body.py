@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from fctd import equilibrium
 from fctd.results.touching_body import bend_touching
 from tests.cases import make_case, pipe
-from tests.results.test_hanging_body import DOGLEG, EI, FOOT, HALF, INCH, POUND, ROOM, SHORT_JOINT, body, joints
+from tests.results.test_hanging_body import DOGLEG, EI, FOOT, HALF, INCH, ROOM, SHORT_JOINT, body, joints
 from tests.results.test_hanging_body_resolved import TENSION, by_obstacle, dogleg, in_bend
 
 
@@ -96,30 +96,35 @@ def test_any_body_has_a_moment(
     assert share >= 0
 
 
-@pytest.mark.parametrize("rate", [6.8, 10.0])
-def test_a_coarse_string_in_a_sharp_bend_has_the_bending_of_a_resolved_one(rate: float) -> None:
+@pytest.mark.parametrize(("rate", "tool_joint"), [(6.8, SHORT_JOINT), (10.0, SHORT_JOINT), (10.0, 21 * INCH)])
+def test_a_coarse_string_in_a_sharp_bend_has_the_bending_of_a_resolved_one(rate: float, tool_joint: float) -> None:
     """200,000 lbf, in which the body begins to touch at 6.8°/100 ft."""
-    fine, coarse = (in_bend(dogleg(n, rate, wall=2e10))["bending_moment_N_m"].max() for n in (32, None))
+    cases = (dogleg(n, rate, tool_joint, 2e10, tool_joint_inner=3.25 * INCH) for n in (32, None))
+    fine, coarse = (in_bend(case)["bending_moment_N_m"].max() for case in cases)
     assert coarse == pytest.approx(fine, rel=0.02)
 
 
 def test_a_coarse_string_under_compression_has_the_bending_of_a_resolved_one() -> None:
-    """3.25°/100 ft; the body begins to touch between 60,000 and 80,000 lbf."""
+    """KL = 1.4 and narrow tool joints, in 3.25°/100 ft: most beside the middle of the body, which the wall holds back.
+
+    From KL = π/2 on bodies turn aside by turns, and no string has the symmetric shape of the closed form.
+    """
     depth = 50 / 3.25 * 100 * FOOT
     hole: dict[str, Any] = {"geometry": "arcs", "stiffness_per_length": 2e10}
-    hole["intervals"] = [{"to_md": depth, "diameter": 8.5 * INCH, "friction": 0.0}]
-    joint = {"length": 2 * HALF, "tool_joint_length": SHORT_JOINT, "tool_joint_diameter": 6.625 * INCH}
+    hole["intervals"] = [{"to_md": depth, "diameter": 7 * INCH, "friction": 0.0}]
+    joint = {"length": 2 * HALF, "tool_joint_length": SHORT_JOINT, "tool_joint_diameter": 5.2 * INCH}
     moments = []
-    for cut in ({"joint_segments": 32}, {"segment_length": 4.5}):
+    for cut in ({"joint_segments": 16}, {"segment_length": 4.5}):
         part = joints(joint=joint, linear_mass=0.05, **cut)
-        bit = {"weight_on_bit": 76e3 * POUND}
+        bit = {"weight_on_bit": 1.4**2 * EI / HALF**2}
         case = make_case([[0, 20, 0], [depth, 70, 0]], [part], wellbore=hole, bit=bit)
         point = equilibrium(case, "drill_sliding", depth)
         rows = point.profile
         rows = rows[(rows["md_m"] > 0.3 * depth) & (rows["md_m"] < 0.7 * depth)]
         moments.append(rows["bending_moment_N_m"].max())
     assert "body" in {note.code for note in point.notes}
-    assert moments[1] == pytest.approx(moments[0], rel=0.03)
+    assert moments[1] == pytest.approx(moments[0], rel=0.01)
+    assert moments[1] < 0.9 * EI * DOGLEG * 1.4 / math.sin(1.4)
 
 
 def test_a_heavy_body_in_level_hole_bends_as_a_resolved_one() -> None:
