@@ -6,7 +6,7 @@ K = √(|T|/EI) and L half of a joint.  Its lateral weight bends it as a beam th
 bends less than the body for a moment: the body between them, of half length l, has most of the turn, and factors of Kl.
 
 A coarse string, whose contact points lie where its segments end, knows the mean curvature alone; these closed forms
-correct its bending moment.  They hold while the body does not touch the wall.
+correct its bending moment.  Of a body that touches the wall ``touching_body`` has the bending.
 
 Of a string that resolves its joints (``model.joints``) the moment is computed, and a tool joint has the larger one of
 its ends, where bodies begin.  A body of few segments is too soft there: under tension it turns as if its end gave way
@@ -30,6 +30,7 @@ from fctd.model.string_rows import (
     YIELD_STRENGTH,
 )
 from fctd.results.buckling import course_of, tangent_of
+from fctd.results.touching_body import bend_touching
 
 # Columns of a row: largest bending moment of the pipe there [N m]; share of the way to the wall that its body takes,
 # infinite where a compressed body buckles between its tool joints; the moment with joints of ``USUAL`` length where a
@@ -90,6 +91,11 @@ def bend_body(tension, own, stiffness, joint, tool_joint, give, room, kx, ky, kz
     if tension < 0 and x > FINITE * math.pi:
         return own, np.inf
     end, middle, end_by_load, middle_by_load, turned, sagged = factors_of(x, tension >= 0)
+    # The tool joint gives way by the moment of the load too.
+    soft = 0.5 * tool_joint * give / free
+    end_by_load /= 1 + soft * end
+    middle_by_load -= soft * middle * end_by_load
+    sagged += soft * turned * end_by_load
     # The curvature that the string has, in the plane in which the hole bends; in straight hole in that of the weight,
     # where it does most.
     curvature, bent, load = own / stiffness, length_of(kx, ky, kz), length_of(qx, qy, qz)
@@ -99,7 +105,7 @@ def bend_body(tension, own, stiffness, joint, tool_joint, give, room, kx, ky, kz
     elif load > 0:
         ux, uy, uz = qx / load, qy / load, qz / load
     kx, ky, kz = curvature * ux, curvature * uy, curvature * uz
-    turns = half / (1 + 0.5 * end * tool_joint * give / free)  # of the body, in the hole's curvature
+    turns = half / (1 + soft * end)  # of the body, in the hole's curvature
     by_turn, by_load = stiffness * turns / free, free * free
     at_end = length_of(
         by_turn * end * kx + by_load * end_by_load * qx, by_turn * end * ky + by_load * end_by_load * qy,
@@ -115,7 +121,21 @@ def bend_body(tension, own, stiffness, joint, tool_joint, give, room, kx, ky, kz
     px, py, pz = tension * kx + qx, tension * ky + qy, tension * kz + qz
     pressed = length_of(px, py, pz)
     towards = (dx * px + dy * py + dz * pz) / pressed if pressed > 0 else 0.0
-    return max(at_end, in_middle), max(towards, 0.0) / room
+    if towards <= room:
+        return max(at_end, in_middle), max(towards, 0.0) / room
+    # The wall holds it back in the direction of the load; across that it bends as it would without.
+    bent = (kx * px + ky * py + kz * pz) / pressed
+    across = turns / free * math.sqrt(max(curvature * curvature - bent * bent, 0.0))
+    at_end, in_middle, between, place = bend_touching(
+        tension, stiffness, free, 0.5 * tool_joint, give, bent, pressed, room
+    )
+    place *= x / free
+    there = middle * (math.cosh(min(place, 300.0)) if tension >= 0 else math.cos(place))
+    most = max(
+        length_of(bent + at_end, across * end, 0.0), length_of(bent + in_middle, across * middle, 0.0),
+        length_of(bent + between, across * there, 0.0),
+    )  # fmt: skip
+    return stiffness * most, towards / room
 
 
 @inlined

@@ -143,15 +143,16 @@ LIMITS: Final[tuple[Limit, ...]] = (
     ),
     Limit(
         "body", "the pipe's body touches the wall between its tool joints, or buckles there",
-        "give the component joint_segments, with which the bending of its body is computed", "",
+        "give the component joint_segments, with which the bending and the wall force of its body are computed", "",
         lambda at, section: at.taken,
         lambda at, section: 1.0,
         lambda share, at, section, where: (
             f"the body between tool joints at {where} " + (
-                "is compressed beyond its buckling load"
+                "is compressed beyond its buckling load, which the closed form of its bending leaves out"
                 if math.isinf(share)
-                else f"comes {share:.2f} times as far as the wall is"
-            ) + ", which the closed form of its bending leaves out"
+                else f"touches the wall: free, it would come {share:.2f} times as far; "
+                "its bending is that of a body on the wall"
+            )
         ),
     ),
     Limit(

@@ -180,13 +180,18 @@ def test_resolved_tool_joints_under_compression_bend_most_in_the_middle_of_the_b
 
 @pytest.mark.parametrize("kind", ["rotate_off_bottom", "trip_out"])
 def test_the_body_alone_hangs_between_tool_joints(kind: str) -> None:
-    """Level, without tension: w l²/3, w the buoyed weight of the body; the wall carries that of the tool joints."""
+    """Level, without tension: w l²/3, w the buoyed weight of the body; the wall carries that of the tool joints.
+
+    These bend too, which leaves it a hundredth less.
+    """
     hole = {"geometry": "arcs", "intervals": [{"to_md": 900, "diameter": 8.5 * INCH, "friction": 0.0}]}
     part = {"pipe": "5 in 19.5 S-135 NC50", "segment_length": 10.0}
     case = make_case([[0, 90, 0], [900, 90, 0]], [part], wellbore=hole, mud={"density": 1200.0})
     moment = equilibrium(case, kind, 800.0).profile["bending_moment_N_m"].iloc[30]
     body = 9.80665 * math.pi / 4 * (0.127**2 - 0.1086104**2) * (7850 - 1200)
-    assert moment == pytest.approx(body * (0.5 * (31.7 * FOOT - 21 * INCH)) ** 2 / 3, rel=0.005)
+    free = 0.5 * (31.7 * FOOT - 21 * INCH)
+    softer = 1 + give(2.5 * INCH, 2.138 * INCH, 3.3125 * INCH) * 10.5 * INCH / free
+    assert moment == pytest.approx(body * free**2 / 3 / softer, rel=0.002)
 
 
 def test_tool_joints_whose_length_is_not_given_are_noted_where_they_matter() -> None:
@@ -204,7 +209,7 @@ def test_a_body_that_touches_is_noted() -> None:
     point = equilibrium(dogleg(joint=narrow, segment_length=10.0), "rotate_off_bottom", 280.0, rpm=60)
     (note,) = point.notes
     assert (note.code, note.excess > 1) == ("body", True)
-    assert "closed form" in note.text
+    assert "that of a body on the wall" in note.text
 
 
 def test_mass_and_stiffness_are_those_of_body_and_tool_joints() -> None:

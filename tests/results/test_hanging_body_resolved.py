@@ -47,29 +47,44 @@ def in_bend(case: Case, kind: str = "rotate_off_bottom") -> pd.DataFrame:
     return profile[(profile["md_m"] > first + quarter) & (profile["md_m"] < last - quarter)]
 
 
-def by_obstacle(load: float, tension: float, length: float, room: float, n: int = 600) -> tuple[float, float]:
-    """Moments that a lateral load [N/m] adds at the end and in the middle of a clamped beam [N m], up to a wall.
+def by_obstacle(
+    load: float,
+    tension: float,
+    length: float,
+    room: float,
+    n: int = 600,
+    lever: float = 0.0,
+    give: float = 1.0,
+    bent: float = 0.0,
+) -> np.ndarray:
+    """Moments that a lateral load [N/m] adds to a beam up to a wall, from its end to its middle (n/2 + 1,) [N m].
 
-    EI u'''' − T u'' = load − p by finite differences, with the wall's pressure p ≥ 0 where u is all of the room.
+    EI u'''' − T u'' = load − p by finite differences, with the wall's pressure p ≥ 0 where u is all of the room.  Its
+    ends turn with tool joints of half length ``lever`` [m] in a hole of curvature ``bent`` [1/m]; clamped without.
     """
     h = length / n
     fourth = np.zeros((n + 1, n + 1))
     for k, (bending, pull) in {0: (6, 2), 1: (-4, -1), -1: (-4, -1), 2: (1, 0), -2: (1, 0)}.items():
         fourth += np.diag(np.full(n + 1 - abs(k), EI * bending / h**4 + tension * pull / h**2), k)
-    fourth[1, 1] += EI / h**4  # u(−h) = u(h): the end does not turn
-    fourth[-2, -2] += EI / h**4
+    # u(−h) = mirrored u(h) + lifted, by u'(0) = lever (give (bent + u'') − bent).
+    turns = 0.5 / h + lever * give / h**2
+    mirrored, lifted = (0.5 / h - lever * give / h**2) / turns, lever * bent * (1 - give) / turns
+    fourth[1, 1] += EI * mirrored / h**4
+    fourth[-2, -2] += EI * mirrored / h**4
+    loads = np.full(n + 1, load)
+    loads[[1, -2]] -= EI * lifted / h**4
     inner, touching = np.arange(1, n), np.zeros(n + 1, bool)
     u = np.zeros(n + 1)
     for _ in range(200):
         free = inner[~touching[1:-1]]
         u[:] = np.where(touching, room, 0.0)
-        right = np.full(n + 1, load) - fourth[:, touching] @ u[touching]
+        right = loads - fourth[:, touching] @ u[touching]
         u[free] = np.linalg.solve(fourth[np.ix_(free, free)], right[free])
-        pressure = load - fourth @ u
+        pressure = loads - fourth @ u
         changed = (touching & (pressure >= 0)) | (u > room * (1 + 1e-12))
         changed[[0, -1]] = False
         if (changed == touching).all():
-            return 2 * EI * u[1] / h**2, EI * (u[n // 2 - 1] - 2 * u[n // 2] + u[n // 2 + 1]) / h**2
+            return EI * np.diff(np.append(mirrored * u[1] + lifted, u), 2)[: n // 2 + 1] / h**2
         touching = changed
     raise AssertionError("the stretch on the wall is not found")
 
@@ -166,7 +181,7 @@ def test_a_body_that_touches_bends_as_a_beam_on_a_wall(rate: float) -> None:
     """From 6.8°/100 ft on; the load that presses it there is tension times the curvature of the hole."""
     curvature = math.radians(rate) / (100 * FOOT)
     profile = in_bend(dogleg(32, rate, wall=2e10))  # in which a tool joint of 20 mm sinks by a tenth of a millimetre
-    at_end, in_middle = by_obstacle(TENSION * curvature, TENSION, 2 * HALF - SHORT_JOINT, ROOM)
+    at_end, *_, in_middle = by_obstacle(TENSION * curvature, TENSION, 2 * HALF - SHORT_JOINT, ROOM)
     assert profile["bending_moment_N_m"].max() == pytest.approx(EI * curvature + at_end, rel=0.02)
     body = profile[profile["clearance_m"] > 0.5 * (8.5 - 6) * INCH]
     assert (body["contact_force_N"].max() > 100) == (rate > 6.8)
