@@ -8,8 +8,9 @@ class LimitsSpec(Table):
     """How near to its limits the string may be loaded.
 
     Stress, tension, pressure and the weight in slips may reach the string's capacity over the `design_factor`, and the
-    torque `torque_share` of the make-up torque of its tool joints. `overpull_margin` [N] is the pull at the hook that is
-    to be left for a string that is stuck. Notes and `fctd limits` say where a load is beyond; what is computed is not limited.
+    torque `torque_share` of the make-up torque of its tool joints. `overpull_margin` [N] is the pull at the hook that
+    is to be left for a string that is stuck. Notes and `fctd limits` say where a load is beyond; what is computed is
+    not limited.
     """
 
     design_factor: units.DesignFactor = 1.0

@@ -197,7 +197,8 @@ def _turned(loaded: Loaded, limit_of: LimitOf, scale: float) -> Margin:
     unknown = _without_make_up(loaded.laid) if limit_of is first_limit else []
     return Margin(
         TORQUE, reached.code, reached.part, reached.md, used.share, torque=found, surface_torque=point.surface_torque,
-        surface_torque_left=point.surface_torque - loaded.free.surface_torque, reason=_reason([*unknown, *_said(point)]),
+        surface_torque_left=point.surface_torque - loaded.free.surface_torque,
+        reason=_reason([*unknown, *_said(point)]),
     )  # fmt: skip
 
 

@@ -48,6 +48,11 @@ def _motor(bend: float) -> list[dict[str, Any]]:
     return [pipe(8, 4, outer=0.17, bend=bend, contact="point"), pipe(52, 13, outer=0.17)]
 
 
+def _fitted(**keys: Any) -> list[dict[str, Any]]:
+    centralisers = {"every": 12.0, "diameter": 0.19} | keys
+    return [pipe(300, None, centralisers=centralisers)]
+
+
 NARROW = _hole(_interval(diameter=0.18))
 CROSSED: dict[str, Crossed] = {
     "wall": Crossed(lambda on: case(wellbore=_hole(_interval(friction=0.2 if on else 0.0))), "surface_torque_N_m"),
@@ -191,6 +196,16 @@ CROSSED: dict[str, Crossed] = {
         ),
         "gravity_J",
     ),
+    "own_friction": Crossed(
+        lambda on: case(components=_fitted(**({"friction": 0.05} if on else {}))), "surface_torque_N_m"
+    ),
+    "bows": Crossed(
+        lambda on: case(
+            components=_fitted(diameter=0.23, stiffness=4e5, starting_force=500.0) if on else _fitted(diameter=0.21)
+        ),
+        "surface_torque_N_m",
+    ),
+    "swivel": Crossed(lambda on: case(components=[pipe(60, 6, swivel=on), pipe(240, 12)]), "surface_torque_N_m"),
     "overpull": Crossed(lambda on: case(bit={"overpull": 1e5} if on else {}), "hookload_N"),
     "fluids": Crossed(
         lambda on: case(
