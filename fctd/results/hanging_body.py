@@ -93,7 +93,8 @@ def bend_body(tension, own, stiffness, joint, tool_joint, give, room, kx, ky, kz
     end, middle, end_by_load, middle_by_load, turned, sagged = factors_of(x, tension >= 0)
     # The tool joint gives way by the moment of the load too.
     soft = 0.5 * tool_joint * give / free
-    end_by_load /= 1 + soft * end
+    left = 1 / (1 + soft * end)
+    end_by_load *= left
     middle_by_load -= soft * middle * end_by_load
     sagged += soft * turned * end_by_load
     # The curvature that the string has, in the plane in which the hole bends; in straight hole in that of the weight,
@@ -105,7 +106,7 @@ def bend_body(tension, own, stiffness, joint, tool_joint, give, room, kx, ky, kz
     elif load > 0:
         ux, uy, uz = qx / load, qy / load, qz / load
     kx, ky, kz = curvature * ux, curvature * uy, curvature * uz
-    turns = half / (1 + soft * end)  # of the body, in the hole's curvature
+    turns = half * left  # of the body, in the hole's curvature
     by_turn, by_load = stiffness * turns / free, free * free
     at_end = length_of(
         by_turn * end * kx + by_load * end_by_load * qx, by_turn * end * ky + by_load * end_by_load * qy,

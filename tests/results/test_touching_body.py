@@ -68,12 +68,12 @@ def test_the_moment_goes_on_where_the_body_touches_and_where_it_lies_on_the_wall
     assert narrow == pytest.approx(wide, rel=1e-4)
 
 
-@pytest.mark.parametrize(("tension", "curvature"), [(TENSION, 0.01), (0.0, 0.003), (-150e3, 0.004)])
+@pytest.mark.parametrize(("tension", "curvature"), [(TENSION, 0.003), (0.0, 0.003), (-150e3, 0.001)])
 def test_the_moment_is_continuous_in_the_load(tension: float, curvature: float) -> None:
     """From a body that hangs to one on the wall, by weight that grows a thousandth a step."""
     weights = math.copysign(1.0, tension) * np.geomspace(10.0, 50e3, 8500)
     moments, shares = np.array([touching(curvature, tension, weight, ROOM) for weight in weights]).T
-    assert shares[-1] > 1
+    assert shares[0] < 1 < shares[-1]
     assert (np.abs(np.diff(moments)) < 2e-3 * moments[1:]).all()
 
 
