@@ -240,8 +240,12 @@ def with_mean_radii(rows: Array, pieces: Array) -> Array:
 
 
 def mean_radii(rows: Array, top: Array, bottom: Array) -> Array:
-    """Means (n,) [m] between measured depths (n,) of the radius that rows of ``Wellbore.wall_along`` have."""
-    md, radius = np.append(0.0, rows[:, TO_MD]), np.append(rows[0, RADIUS], rows[:, RADIUS])
+    """Means (n,) [m] between measured depths (n,) of the radius that rows of ``Wellbore.wall_along`` have.
+
+    Above the first row and below the last one it is theirs.
+    """
+    md = np.concatenate([[0.0], rows[:, TO_MD], [max(float(bottom.max()), float(rows[-1, TO_MD])) + 1.0]])
+    radius = np.concatenate([rows[:1, RADIUS], rows[:, RADIUS], rows[-1:, RADIUS]])
     areas = np.append(0.0, np.cumsum(0.5 * np.diff(md) * (radius[1:] + radius[:-1])))
     area = _integral(md, radius, areas, bottom) - _integral(md, radius, areas, top)
     return np.asarray(area / (bottom - top))

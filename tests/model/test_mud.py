@@ -11,7 +11,7 @@ from fctd.model.mud import added_mass, hole_radius, lateral_damping, resistance,
 from fctd.model.pieces import INTERVAL_COLUMNS, RADIUS, TO_MD
 from fctd.model.sampled_hole import mean_radii
 from fctd.model.string_in_hole import damping_of
-from tests.calipers import FIRST, LAST, bent_case
+from tests.calipers import BORE, FIRST, LAST, bent_case
 from tests.cases import make_case
 
 INCH = 0.0254
@@ -62,6 +62,7 @@ def test_the_hole_of_a_caliper_is_that_around_a_segment() -> None:
     found = hole_radius(hole, 600.0, np.array([20.0, 100.0, 40.0, 20.0]))
     assert found == pytest.approx([0.15, 0.175, 0.2, 0.2], abs=1e-3)
     assert hole_radius(hole, 0.0, np.array([490.0])) == pytest.approx(0.15)
+    assert hole_radius(hole, 990.0, np.array([5.0, 5.0])) == pytest.approx(0.5 * BORE)  # below the log
     viscous = case.model_copy(update={"mud": case.mud.model_copy(update={"density": 1200.0, "viscosity": 0.03})})
     string = lay_out(viscous, 980.0)
     outer = string.of("outer")
@@ -75,7 +76,8 @@ def test_means_over_segments_have_the_whole_hole(radii: list[float], segments: i
     """Whatever the segments are, their lengths times their radii are those of the hole."""
     rows = np.zeros((len(radii), INTERVAL_COLUMNS))
     rows[:, TO_MD], rows[:, RADIUS] = np.linspace(100.0, 1000.0, len(radii)), radii
-    ends = np.linspace(0.0, 1000.0, segments + 1)
-    whole = mean_radii(rows, np.array([0.0]), np.array([1000.0]))[0]
-    assert float(mean_radii(rows, ends[:-1], ends[1:]).mean()) == pytest.approx(whole, rel=1e-12)
-    assert min(radii) - 1e-12 <= whole <= max(radii) + 1e-12
+    ends = np.linspace(0.0, 1200.0, segments + 1)
+    parts = mean_radii(rows, ends[:-1], ends[1:])
+    whole = 100 * radii[0] + np.trapezoid(rows[:, RADIUS], rows[:, TO_MD]) + 200 * radii[-1]
+    assert float(parts.sum()) * 1200 / segments == pytest.approx(whole, rel=1e-12)
+    assert min(radii) - 1e-12 <= parts.min() <= parts.max() <= max(radii) + 1e-12
