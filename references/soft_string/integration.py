@@ -197,6 +197,10 @@ def _pieces(
     direction: Direction = associated,
 ) -> list[Piece]:
     """Pieces of hole and string from top to bit."""
+    for k, part in enumerate(case.string.components):
+        for key, given in ((part.repeat_key, part.fittings is not None), ("swivel", part.swivel)):
+            if given:
+                raise InputError("none, for the soft string", key=f"string.components[{k}].{key}")
     motion = motion_of(case, operation, speed, rpm)
     stations = case.wellbore.trajectory[:, 0]
     to_md = np.array([interval.to_md for interval in case.wellbore.intervals])

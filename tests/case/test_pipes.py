@@ -48,7 +48,8 @@ def test_a_name_in_its_parts(text: str, parts: PipeName) -> None:
         ("5 in", "expected size, weight, grade"),
         ("", "expected size, weight, grade"),
         (f"{NC50}, class 3", "expected a class of pipe, new, premium, class 2 or a wear such as '10 % worn'"),
-        (f"{NC50}, 60 % worn", "expected at most 50 % of the wall"),
+        (f"{NC50}, 60 % worn", "expected 0 to 50 % of the wall"),
+        (f"{NC50}, -10 % worn", "expected 0 to 50 % of the wall"),
         ("5 in 19.8 S-135", "'5 in 19.5 S-135 NC50'"),
         ("5 in 19.5 S-135 NC38", "'5 in 19.5 S-135 NC50'"),
         (

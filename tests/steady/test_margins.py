@@ -252,3 +252,48 @@ def test_a_limit_of_resolved_joints_names_the_component_of_the_case() -> None:
         assert overpull.part == "dp"
         at_limit.append(overpull.hookload)
     assert at_limit[0] == pytest.approx(at_limit[1], rel=0.02)
+
+
+def test_slips_bear_less_by_the_design_factor() -> None:
+    bare, careful = (
+        found(make_case(rig={"slip_length": "16.5 in"}, limits=limits), "rotate_off_bottom", 900.0)["slips"]
+        for limits in ({}, {"design_factor": 1.25})
+    )
+    assert careful.hookload == pytest.approx(bare.hookload / 1.25, rel=1e-12)
+    assert careful.share == pytest.approx(1.25 * bare.share, rel=1e-12)
+
+
+@pytest.mark.parametrize("segment", [10.0, 50.0])
+def test_the_upper_end_of_a_weaker_lower_section_is_where_it_gives_way(segment: float) -> None:
+    """Whatever its segments are: its strength less what hangs below its upper end."""
+    parts = [pipe(400.0, None, segment_length=segment, outer=0.089, inner=0.07, yield_strength=500e6, name="lower"),
+             pipe(None, None, segment_length=segment, name="upper")]  # fmt: skip
+    case = make_case(components=parts, mud=MUD)
+    margin = found(case, "trip_out", 900.0)["yield"]
+    lower = section_of(case.string.components[0], 1200.0)
+    capacity = 500e6 * np.pi / 4 * (0.089**2 - 0.07**2)
+    assert margin.force == pytest.approx(capacity - 400 * lower.weight, rel=1e-4)
+    assert margin.part == "lower"
+
+
+def test_tension_lowers_the_collapse_pressure_along_an_ellipse() -> None:
+    """Of empty pipe in mud: from Y the share r = (T - p A_o)/A_s Y leaves √(1 - 3/4 r²) - r/2 (API 5C3)."""
+    parts = [pipe(None, None, segment_length=50.0, outer=0.127, inner=0.112, yield_strength=517e6)]
+    mud = {"density": 1900.0, "inside": [{"density": 0.0}], "float": True}
+    margin = found(make_case(components=parts, mud=mud), "trip_out", 900.0)
+    (limit,) = (of for of in margin.values() if of.margin == OVERPULL)
+    assert limit.limit == "collapse"
+    section = section_of(make_case(components=parts).string.components[0], 1900.0, 0.0)
+    pressure, outer = 1900 * GRAVITY * 900, np.pi / 4 * 0.127**2
+    steel = outer - np.pi / 4 * 0.112**2
+    share = (limit.force - pressure * outer) / steel / 517e6
+    assert section.collapse * (np.sqrt(1 - 0.75 * share**2) - 0.5 * share) == pytest.approx(pressure, rel=0.01)
+
+
+def test_connections_that_are_not_known_are_said_and_used_is_of_the_limit_that_is_named() -> None:
+    named = {"name": "pipe", "pipe": "5 in 19.5 S-135 NC50", "segment_length": 30.0}
+    both = torques(make_case(components=[pipe(100, 5, name="collars"), named], mud=MUD))["make_up"]
+    assert both.reason == "the torque that the connections of collars bear is not known, and left out"
+    alone = torques(make_case(components=[named], mud=MUD))["make_up"]
+    assert alone.reason == "none"
+    assert alone.share == pytest.approx(0.0, abs=1e-6)  # it hangs straight, and no torque is used

@@ -325,3 +325,12 @@ def test_fluids_by_depth_are_those_of_the_engine(operation: str) -> None:
     point, soft = equilibrium(case, operation, 1500.0), soft_string(case, operation, 1500.0)
     assert point.hookload == pytest.approx(soft.hookload, abs=2e-3 * float(string.weight @ string.length))
     assert soft.hookload == pytest.approx(soft_string_ode(case, operation, 1500.0).hookload, rel=1e-6)
+
+
+@pytest.mark.parametrize("key", ["centralisers", "swivel"])
+def test_fittings_and_swivels_are_refused(key: str) -> None:
+    given = {"centralisers": {"every": 12.0, "diameter": 0.2}, "swivel": True}[key]
+    lower = pipe(300.0, None, **{key: given}) if key == "centralisers" else pipe(300.0, 10, swivel=True)
+    with pytest.raises(InputError, match="none, for the soft string") as refusal:
+        soft_string(make_case(components=[lower, pipe(None, None, segment_length=20.0)]), "trip_in", 900.0)
+    assert refusal.value.key == f"string.components[0].{key}"
