@@ -59,6 +59,8 @@ def _print(summary: Summary, units: System) -> None:
     if summary.case.wellbore.calipers is not None:
         screen.print(_facts(_caliper(summary.case.wellbore.calipers, metre, across)))
     screen.print(_string(summary, metre, across, force))
+    if rows := _fittings(summary.case, metre, across):
+        screen.print(_facts(rows))
     screen.print(_facts(_loads(summary, units, force)))
 
 
@@ -128,6 +130,21 @@ def _caliper(caliper: Caliper, metre: Shown, across: Shown) -> list[Row]:
         ("first arm", f"{np.degrees(caliper.angles[0, 0]) % 360:.4g}", f"° from {caliper.reference.replace('_', ' ')}"),
         *([("without a value", str(missing), "rows, where the hole has its interval's size")] if missing else []),
     ]
+
+
+def _fittings(case: Case, metre: Shown, across: Shown) -> list[Row]:
+    """A line for the fittings of each component, and one for each swivel."""
+    rows = []
+    for part in case.string.components:
+        of, name = part.fittings, printable(part.name)
+        if of is not None:
+            what = "bow springs" if part.has_bows else part.repeat_key.replace("_", " ")
+            said = f"{across.label}, every {of.every * metre.factor:.4g} {metre.label} of {name}"
+            own = "" if of.friction is None else f", friction {of.friction:g}"
+            rows.append((what, f"{of.diameter * across.factor:.4g}", said + own))
+        if part.swivel:
+            rows.append(("swivel", "", f"above {name}"))
+    return rows
 
 
 def _string(summary: Summary, metre: Shown, across: Shown, force: Shown) -> Table:

@@ -158,3 +158,14 @@ def test_what_is_wider_than_the_hole_is_named_by_the_key_that_was_written(
     text = case_file.read_text().replace('outer_diameter = "5 in"\ninner_diameter = "4.276 in"', keys)
     case_file.write_text(text)
     assert message in cli("check", case_file, code=2).err
+
+
+def test_fittings_and_swivels_are_listed(cli: Command, case_file: Path) -> None:
+    reducers = '{every = "40 ft", diameter = "7 in", friction = 0.1}'
+    keys = f'inner_diameter = "3 in"\nswivel = true\nfriction_reducers = {reducers}'
+    case_file.write_text(case_file.read_text().replace('inner_diameter = "3 in"', keys))
+    lines = [" ".join(line.split()) for line in cli("check", case_file).out.splitlines()]
+    assert "friction reducers 177.8 mm, every 12.19 m of collars, friction 0.1" in lines
+    assert "swivel above collars" in lines
+    lines = [" ".join(line.split()) for line in cli("check", case_file, "--units", "field").out.splitlines()]
+    assert "friction reducers 7 in, every 40 ft of collars, friction 0.1" in lines
