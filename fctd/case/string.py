@@ -57,9 +57,9 @@ class FittingSpec(Table):
 class CentraliserSpec(FittingSpec):
     """Centralisers: rigid, or with bow springs where they have a `stiffness`.
 
-    Bow springs press the pipe towards the axis of the hole with `stiffness` [N/m] for every metre that it lies off it,
-    where the `diameter` of the bows is that of the hole or larger; in wider hole they begin to press where they touch.
-    Bows that are compressed have `starting_force` [N] more friction, wherever the pipe lies.
+    Bow springs press the pipe towards the axis of the hole with `stiffness` [N/m] for every metre that it lies off it.
+    In hole that is wider than their `diameter` they begin to press where they touch. They have `starting_force` [N]
+    more friction, wherever the pipe lies.
     """
 
     stiffness: units.PositiveStiffness | None = None

@@ -24,7 +24,7 @@ class Section(NamedTuple):
     largest make-up torque of its tool joints [N m], infinite where it is not known; body_weight : of its body alone,
     buoyed [N/m]; density : of the steel [kg/m^3]; body_mass : of its body alone [kg/m]; expansion : thermal [1/K];
     burst, collapse : pressures that its body bears, beyond that on its other side [Pa]; wave_weight [N/m], wave_mass
-    [kg/m], wave_stiffness [N m^2], wave_radius [m] : with which pipe buckles as a whole; friction : own factor of its
+    [kg/m], wave_stiffness [N m^2], wave_radius [m] : with which pipe buckles as a whole; own_friction : factor of its
     contact, 0 where it is that of the hole; bow_stiffness [N/m], starting_force [N] : of bow springs, 0 without them;
     swivel : 1 where its upper end turns freely.
 
@@ -60,7 +60,7 @@ class Section(NamedTuple):
     wave_mass: float = 0.0
     wave_stiffness: float = 0.0
     wave_radius: float = 0.0
-    friction: float = 0.0
+    own_friction: float = 0.0
     bow_stiffness: float = 0.0
     starting_force: float = 0.0
     swivel: float = 0.0
@@ -163,7 +163,7 @@ def fitting_of(component: ComponentSpec, outside: float) -> Section:
     assert of is not None  # the caller has asked
     return section_of(component, outside)._replace(
         contact_radius=0.5 * of.diameter, point=1.0, joint=0.0, tool_joint=0.0,
-        friction=0.0 if of.friction is None else max(of.friction, FRICTIONLESS),
+        own_friction=0.0 if of.friction is None else max(of.friction, FRICTIONLESS),
         bow_stiffness=0.0 if bows is None or bows.stiffness is None else bows.stiffness,
         starting_force=0.0 if bows is None else bows.starting_force,
     )  # fmt: skip

@@ -12,8 +12,10 @@ from typing import Any, Final, Literal, NamedTuple
 
 import numpy as np
 
+from fctd.arrays import Array
 from fctd.case.limits import LimitsSpec
 from fctd.mechanics.jit import entry, inlined
+from fctd.model.drillstring import String
 from fctd.model.section import Section
 from fctd.results.hanging_body import ASSUMED, MOMENT, TAKEN, USUAL, beside
 from fctd.results.profile import von_mises, von_mises_pressed
@@ -201,8 +203,10 @@ LIMITS: Final[tuple[Limit, ...]] = (
 )  # fmt: skip
 # A place farther down counts where its share is larger by more than rounding: a torque is the same along vertical hole.
 FARTHER: Final = 1 + 1e-9
-# Columns of the largest shares (len(LIMITS), WORST): the share, the row of its place, 0 for the top, and the place.
+# Columns of the largest shares (len(LIMITS), WORST): the share, the row of its place, 0 for the top, and the place.  A
+# row and a half is the upper end of the segment below the contact point of that row.
 SHARE, ROW, PLACE = 0, 1, 2
+UPPER: Final = 0.5
 WORST = PLACE + len(Place._fields)
 
 
@@ -260,7 +264,7 @@ def find_shares(
     for j in range(len(hole)):
         if j and component[j] != component[j - 1]:  # the upper end of a weaker part bears most
             upper = Place(tension[j], torque[j], hanging[j + 1, MOMENT], 0.0, 0.0, 0.0, 0.0, 0.0, excess[j])
-            compare(upper, _section(sections, component[j]), j + 1, worst)
+            compare(upper, _section(sections, component[j]), j + UPPER, worst)
         clearance = hole[j] - radius[j]
         distance = math.sqrt(offset[j, 0] ** 2 + offset[j, 1] ** 2 + offset[j, 2] ** 2)
         here = Place(
@@ -270,3 +274,9 @@ def find_shares(
         )  # fmt: skip
         compare(here, _section(sections, component[j]), j + 1, worst)
     return (worst[:, SHARE] > 1).any()
+
+
+def place_of(row: float, md: Array, string: String) -> tuple[float, int]:
+    """Measured depth [m] and the number of the section of a row of the largest shares; md (n,) : of contact points."""
+    k = int(row)
+    return float(md[k - 1]) if k else string.top_md, int(string.component[k if row % 1 else max(k - 1, 0)])

@@ -17,7 +17,7 @@ from fctd.model.capacity import Body
 from fctd.model.drillstring import String
 from fctd.model.section import Section
 from fctd.results.buckling import Buckling
-from fctd.results.limits import LIMITS, Place
+from fctd.results.limits import LIMITS, Place, place_of
 from fctd.results.profile import place_in_words
 
 FULL: Final = LimitsSpec()  # all of each capacity may be used
@@ -168,8 +168,7 @@ def limit_notes(worst: Array, string: String, walls: Walls, asked: LimitsSpec = 
     for limit, (share, row, *at) in zip(LIMITS, worst.tolist(), strict=True):
         scale = limit.scale(asked)
         if scale * share > 1:
-            k = int(row)
-            place, section = (float(walls.md[k - 1]) if k else string.top_md), string.component[max(k - 1, 0)]
+            place, section = place_of(row, walls.md, string)
             where = place_in_words(place, string.bit_depth)
             text = limit.text(share, Place(*at), string.sections[section], where)
             if scale > 1:

@@ -20,7 +20,7 @@ from fctd.model.fatigue import dogleg_of, endless_amplitude
 from fctd.model.operations import SteadyRates, bit_loads
 from fctd.model.section import Section
 from fctd.results.buckling import HELICAL, MODES, NEITHER, SINUSOIDAL
-from fctd.results.limits import LIMITS, ROW, SHARE
+from fctd.results.limits import LIMITS, ROW, SHARE, place_of
 from fctd.results.notes import crushed_at
 from fctd.steady.equilibrium import Solver
 from fctd.steady.laid_string import LaidString
@@ -90,14 +90,13 @@ def first_limit(point: Equilibrium, only: str | None = None) -> First:
     """The limit of the steel that a string uses most; only : the code of the one that is looked at."""
     shape, asked = point._shape, point.case.limits
     string = shape.laid.string
-    worst, row, code = 0.0, 0, only or "yield"
+    worst, row, code = 0.0, 0.0, only or "yield"
     for limit, found in zip(LIMITS, point.shares, strict=True):
         share = limit.scale(asked) * float(found[SHARE])
         if limit.of_steel and share > worst and only in (None, limit.code):
-            worst, row, code = share, int(found[ROW]), limit.code
-    md = float(shape.walls.md[row - 1]) if row else string.top_md
-    part = string.parts[string.component[max(row - 1, 0)]].component
-    return First(code, worst, part.name, md)
+            worst, row, code = share, float(found[ROW]), limit.code
+    md, section = place_of(row, shape.walls.md, string)
+    return First(code, worst, string.parts[section].component.name, md)
 
 
 @dataclass

@@ -90,19 +90,19 @@ def test_stress_is_that_of_the_profile(kind: str) -> None:
 
 
 def test_stress_is_set_against_the_steel_where_it_is() -> None:
-    """A weak pipe far down, less stressed than the strong one above it."""
+    """A weak pipe far down, less stressed than the strong one above it: its upper end decides."""
 
     def string(weak: float) -> Case:
         parts = [pipe(300, 10, yield_strength=weak), pipe(None, None, segment_length=30.0)]
         return make_case(components=parts)
 
     profile = equilibrium(string(931e6), "trip_out", 1000.0).profile
-    stress = profile["von_mises_Pa"][profile["md_m"] > 705].max()
+    stress = profile["von_mises_Pa"][profile["md_m"] > 699].max()
     assert stress < 0.5 * profile["von_mises_Pa"].max()
     assert equilibrium(string(1.01 * stress), "trip_out", 1000.0).notes == ()
     (note,) = equilibrium(string(0.99 * stress), "trip_out", 1000.0).notes
     assert note.code == "yield"
-    assert 700 < (note.place or 0) < 735
+    assert 700 < (note.place or 0) < 702
 
 
 def test_hook_load_against_the_uppermost_pipe() -> None:
