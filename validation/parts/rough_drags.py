@@ -84,9 +84,9 @@ def judged(case: Case) -> Rough:
 def _log(rng: np.random.Generator, depth: float, bit: float) -> Array:
     """Rows (n, 1 + arms) [m] of a caliper in radii: rough along and around, perhaps with ledges and a groove."""
     md, arms = np.arange(0.0, depth + 1e-9, rng.uniform(0.05, 0.3)), int(rng.integers(3, 17))
-    noise = rng.normal(size=(len(md), arms))
+    noise: Array = rng.normal(size=(len(md), arms))
     if rng.random() < 0.5:
-        noise = sum(np.roll(noise, k, 0) for k in (-1, 0, 1)) / math.sqrt(3)
+        noise = (np.roll(noise, -1, 0) + noise + np.roll(noise, 1, 0)) / math.sqrt(3)
     radii = 0.5 * bit + np.exp(rng.uniform(*np.log(ROUGHNESS))) * (np.abs(noise) if rng.random() < 0.5 else noise)
     for start in rng.uniform(0, depth, rng.integers(0, 4)):
         inside = (md > start) & (md < start + rng.uniform(0.2, 5.0))

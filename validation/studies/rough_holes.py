@@ -27,12 +27,14 @@ POINTS, BEHIND = 4000, 1e-4  # and how far beyond the wall they lie [m]
 
 def smooth(name: str, md: Array, angle: Array) -> tuple[Array, Array, Array]:
     """Radius of a smooth wall [m] and its slopes, by depth and by angle [m/rad]."""
-    radius, along, around = np.full(np.broadcast(md, angle).shape, 0.5 * BORE), 0.0, 0.0
+    radius = np.full(np.broadcast(md, angle).shape, 0.5 * BORE)
+    along, around = np.zeros_like(radius), np.zeros_like(radius)
     for size, lobes, turn in WALLS[name]:
         phase = lobes * angle - turn * md
-        radius = radius + size * np.cos(phase)
-        along, around = along + size * turn * np.sin(phase), around - size * lobes * np.sin(phase)
-    return radius, np.asarray(along), np.asarray(around)
+        radius += size * np.cos(phase)
+        along += size * turn * np.sin(phase)
+        around -= size * lobes * np.sin(phase)
+    return radius, along, around
 
 
 @table_of_rows
@@ -62,7 +64,7 @@ def orders(context: Context) -> Rows:
 
 def smooth_case(name: str, cell: float) -> Case:
     """A straight hole with a smooth wall, in cells of a length [m]."""
-    md, angle = np.arange(0.0, DEPTH + 1e-9, SPACING), 2 * np.pi / ARMS * np.arange(ARMS)
+    md, angle = np.arange(0.0, DEPTH + 1e-9, SPACING), np.linspace(0.0, 2 * np.pi, ARMS, endpoint=False)
     rows = np.column_stack([md, smooth(name, md[:, None], angle)[0]]).tolist()
     wellbore = {
         "stations": [[0, 40, 0], [DEPTH, 40, 0]], "geometry": "sampled", "cell": cell,
