@@ -208,6 +208,11 @@ class ComponentSpec(Table):
         return self.centralisers is not None and self.centralisers.stiffness is not None
 
     @property
+    def has_own_contact(self) -> bool:
+        """Whether its fittings touch otherwise than pipe does."""
+        return self.has_bows or (self.fittings is not None and self.fittings.friction is not None)
+
+    @property
     def repeat_key(self) -> str:
         """The key by which it repeats."""
         if self.fittings is None:

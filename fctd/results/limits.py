@@ -220,9 +220,10 @@ def _comparison(limits: tuple[Limit, ...]) -> Any:
     @inlined
     def compare(at, section, row, worst):
         others(at, section, row, worst)
-        share = load_of(at, section) / capacity_of(at, section)
-        if share > worst[k, SHARE] * FARTHER:
-            worst[k, SHARE], worst[k, ROW] = share, row
+        load, capacity = load_of(at, section), capacity_of(at, section)
+        # Multiplied, since most places are not the worst, and a division takes longer.
+        if load > worst[k, SHARE] * FARTHER * capacity:
+            worst[k, SHARE], worst[k, ROW] = load / capacity, row
             worst[k, PLACE:] = at
 
     return compare

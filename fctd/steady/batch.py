@@ -92,6 +92,8 @@ class Strings(NamedTuple):
 
 
 NO_ROOM = Workspace(0)
+# The arrays of each thread, kept from one chart to the next: to clear new ones takes as long as a row.
+_OWN = local()
 UNSOLVED = Answer(np.zeros(ANSWER), *(np.zeros((0, k)) for k in SHAPE_COLUMNS))
 
 
@@ -115,13 +117,13 @@ def on_threads(solve: Callable[[Part], Found], parts: Iterable[Part], threads: i
 
 
 class Batches:
-    """``solve_batch`` of one batch after the other, on any number of threads, each of which has arrays of its own.
+    """``solve_batch`` of one batch after the other, on any number of threads.
 
     holes : the case's, with each set of friction factors.
     """
 
     def __init__(self, case: Case, holes: Sequence[Wellbore]) -> None:
-        self._case, self._own = case, local()
+        self._case = case
         # Two kinds of compiled code, for factors that are equal along and around the string and for others: a row does
         # not depend on whether its chart needs both.
         self._kinds = [hole.orthotropic for hole in holes]
@@ -133,7 +135,7 @@ class Batches:
     def solve(self, rows: Sequence[Row]) -> list[Answer]:
         """What the first attempt finds of rows."""
         longest = max((row.laid.string.segments for row in rows), default=0)
-        self._own.work = work = getattr(self._own, "work", NO_ROOM).for_segments(longest)
+        _OWN.work = work = getattr(_OWN, "work", NO_ROOM).for_segments(longest)
         found: dict[int, Answer] = {}
         for kind, hole in self._holes.items():
             of_kind = {k: row for k, row in enumerate(rows) if self._kinds[row.friction] == kind}

@@ -92,7 +92,7 @@ def add_held_wall(S, j, P, C, owner, laws, R, D, K):
     i = owner_of(C, owner[j], laws.geometry, x, y, z)
     owner[j] = i
     radius, arm, tributary = S[RADIUS + j], S[ARM_CONTACT + j], S[TRIBUTARY + j]
-    wall = wall_of(S, j, C, i, laws.geometry, x, y, z)
+    wall = wall_of(laws.own, S, j, C, i, laws.geometry, x, y, z)
     if wall.beyond[0] + radius < 0:
         return
     w, qx, qy, qz = quaternion(P, j)
@@ -148,7 +148,7 @@ def remember(S, n, P, C, owner, laws):
             i = owner_of(C, owner[j], laws.geometry, x, y, z)
             owner[j] = i
             radius = S[RADIUS + j]
-            wall = wall_of(S, j, C, i, laws.geometry, x, y, z)
+            wall = wall_of(laws.own, S, j, C, i, laws.geometry, x, y, z)
             penetration = wall.beyond[0] + radius
             if penetration >= 0:
                 stiff = STICK * wall.stiffness[0] * S[TRIBUTARY + j]

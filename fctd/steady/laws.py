@@ -17,7 +17,7 @@ class Hole(NamedTuple):
     """The hole with its sets of friction factors: a table of pieces for each of them.
 
     with_wall : its geometry, or OPEN where the string does not touch it; bends : of ``Wellbore``; wall_exponent,
-    wall_reference, orthotropic : as in ``Laws``.
+    wall_reference, orthotropic : as in ``Laws``; own : True where fittings have a contact of their own, else None.
     """
 
     pieces: Array
@@ -28,6 +28,7 @@ class Hole(NamedTuple):
     wall_exponent: float
     wall_reference: float
     orthotropic: bool | None
+    own: bool | None
 
 
 def hole_of(case: Case, holes: Sequence[Wellbore]) -> Hole:
@@ -37,7 +38,8 @@ def hole_of(case: Case, holes: Sequence[Wellbore]) -> Hole:
     with_wall = geometry if case.contact.enabled else state.OPEN
     law = CODES[case.contact.friction_law]
     exponent, reference = map(float, case.contact.wall_law)
-    return Hole(pieces, geometry, with_wall, law, holes[0].bends, exponent, reference, holes[0].orthotropic)
+    own = True if any(part.has_own_contact for part in case.string.components) else None
+    return Hole(pieces, geometry, with_wall, law, holes[0].bends, exponent, reference, holes[0].orthotropic, own)
 
 
 def steady_laws(
@@ -50,5 +52,5 @@ def steady_laws(
     """
     return Steady(
         hole.with_wall, hole.law, friction_scale, speed, spin, x, y, z, torque, at_axis, hole.wall_exponent,
-        hole.wall_reference, 1.0, hole.orthotropic, None,
+        hole.wall_reference, 1.0, hole.orthotropic, None, hole.own,
     )  # fmt: skip

@@ -56,6 +56,7 @@ class Steady(NamedTuple):
     at the bit is semi-tangential, half about the bit's axis and half about the hole's (Ziegler 1968).
     wall_exponent, wall_reference, orthotropic : as in Laws.  given : share of the loads that are given to the bodies.
     held : of a string that is fed, whose friction remembers; None of one that slides or turns at its rates.
+    own : True where fittings have a contact of their own, else None, for which the code of others is compiled.
     """
 
     geometry: int
@@ -73,6 +74,7 @@ class Steady(NamedTuple):
     given: float = 1.0
     orthotropic: bool | None = None
     held: Held | None = None
+    own: bool | None = None
 
 
 @inlined
@@ -166,7 +168,7 @@ def frictionless_tangent(S, n, P, kinks, C, owner, laws, R, D, A, U):
     """
     bare = Steady(
         laws.geometry, laws.friction, 0.0, 0.0, 0.0, laws.bit_x, laws.bit_y, laws.bit_z, laws.bit_torque,
-        laws.at_axis, laws.wall_exponent, laws.wall_reference, 0.0, laws.orthotropic, None,
+        laws.at_axis, laws.wall_exponent, laws.wall_reference, 0.0, laws.orthotropic, None, laws.own,
     )  # fmt: skip
     assemble(S, n, P, kinks, C, owner, bare, R, D, A, U)
     if laws.geometry in (ARCS, SAMPLED):

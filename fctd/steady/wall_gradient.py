@@ -30,7 +30,7 @@ from fctd.mechanics.contact import (
 )
 from fctd.mechanics.jit import inlined, kernel
 from fctd.mechanics.joints import cross
-from fctd.mechanics.own_contact import GAP, has_own_contact
+from fctd.mechanics.own_contact import GAP
 from fctd.mechanics.sampled import AROUND_CELLS, deviation_at, grip_of, place_beside
 from fctd.mechanics.state import ARCS, BOW_STIFFNESS, OWN_FRICTION, RADIUS, SAMPLED, TINY, TRIBUTARY
 
@@ -317,9 +317,11 @@ def with_own_contact(S, j, wall):
 
 
 @inlined
-def wall_of(S, j, C, i, geometry, x, y, z):
-    """The wall of piece i beside contact point j of a string, which is at a place, with its gradient."""
-    wall = wall_beside(C, i, geometry, x, y, z, S[RADIUS + j])
-    if has_own_contact(S, j):
-        return with_own_contact(S, j, wall)
-    return wall
+def wall_of(own, S, j, C, i, geometry, x, y, z):
+    """The wall of piece i beside contact point j of a string, which is at a place, with its gradient.
+
+    own : of ``Steady``.
+    """
+    if own is None:
+        return wall_beside(C, i, geometry, x, y, z, S[RADIUS + j])
+    return with_own_contact(S, j, wall_beside(C, i, geometry, x, y, z, S[RADIUS + j]))

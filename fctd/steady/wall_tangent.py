@@ -149,7 +149,7 @@ def add_wall(S, j, P, C, owner, laws, R, D, K):
     x, y, z = contact_place(S, j, P)
     i = owner_of(C, owner[j], laws.geometry, x, y, z)
     owner[j] = i
-    wall = wall_of(S, j, C, i, laws.geometry, x, y, z)
+    wall = wall_of(laws.own, S, j, C, i, laws.geometry, x, y, z)
     if wall.beyond[0] + S[RADIUS + j] < 0:
         return
     w, qx, qy, qz = quaternion(P, j)
@@ -175,7 +175,7 @@ def leave_out_change_along(S, j, P, C, i, laws, D):
     if C[i, RADIUS_GAIN] == 0 and C[i, STIFFNESS_GAIN] == 0:
         return
     x, y, z = contact_place(S, j, P)
-    wall = wall_of(S, j, C, i, laws.geometry, x, y, z)
+    wall = wall_of(laws.own, S, j, C, i, laws.geometry, x, y, z)
     penetration = wall.beyond[0] + S[RADIUS + j]
     if penetration < 0:
         return
@@ -200,7 +200,7 @@ def leave_out_change_along(S, j, P, C, i, laws, D):
 def read_wall(S, j, P, C, i, laws):
     """Normal force on body j from piece i [N], friction torque r F_t about its axis [N m] and r μ F_n [N m]."""
     x, y, z = contact_place(S, j, P)
-    wall = wall_of(S, j, C, i, laws.geometry, x, y, z)
+    wall = wall_of(laws.own, S, j, C, i, laws.geometry, x, y, z)
     penetration = wall.beyond[0] + S[RADIUS + j]
     if penetration < 0:
         return 0.0, 0.0, 0.0
