@@ -58,8 +58,8 @@ class CentraliserSpec(FittingSpec):
     """Centralisers: rigid, or with bow springs where they have a `stiffness`.
 
     Bow springs press the pipe towards the axis of the hole with `stiffness` [N/m] for every metre that it lies off it.
-    In hole that is wider than their `diameter` they begin to press where they touch. They have `starting_force` [N]
-    more friction, wherever the pipe lies.
+    Hole that is no wider than their `diameter` compresses them: they then have `starting_force` [N] more friction,
+    wherever the pipe lies. In wider hole they begin to press where they touch.
     """
 
     stiffness: units.PositiveStiffness | None = None

@@ -1,7 +1,8 @@
 """Fittings that do not touch as bare pipe does: their own friction factor, and bow springs that centre the pipe.
 
 Bows that are wider than the hole press the pipe towards its axis in proportion to how far it lies off it, and drag by
-a starting force wherever it lies.  Within ``GAP`` of the axis, where a force has no direction, they do not press.
+a starting force wherever it lies; others press where they touch.  Within ``GAP`` of the axis, where a force has no
+direction, they do not press.
 """
 
 import math
@@ -64,8 +65,9 @@ def held_by_bows(bows, S, j, along, rate, scale, dt):
 
 @inlined
 def _pull(S, j, along, rate, scale, dt):
-    """Impulse of the starting force over the speed with which the bows slide [kg]."""
+    """Impulse of the starting force over the speed with which bows slide [kg]; none where nothing compresses them."""
     turning = S[RADIUS + j] * rate
+    scale *= S[HOLE + j] <= S[RADIUS + j] + GAP
     return scale * dt * S[STARTING_FORCE + j] / (math.sqrt(along * along + turning * turning) + TINY)
 
 

@@ -129,7 +129,7 @@ def soft_string(S, n, C, laws, top_md, bit_tension, radius, G):
             hole = sampled_wall(C, i, x + hole * ux, y + hole * uy, z + hole * uz, S[RADIUS + j]).hole
         out = hole - radius[j - 1] + side / (C[i, STIFFNESS] * S[TRIBUTARY + j])
         G[j, OFFSET], G[j, OFFSET + 1], G[j, OFFSET + 2] = out * ux, out * uy, out * uz
-        held, held_about = starting(S, j, laws)
+        held, held_about = starting(S, j, C, i, laws)
         tension -= along * side + held
         torque += around * side * S[RADIUS + j] + S[MUD_SPIN + j] * spin + held_about
         torque -= laws.given * S[GIVEN_TORQUE + j]

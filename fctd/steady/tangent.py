@@ -114,7 +114,7 @@ def assemble(S, n, P, kinks, C, owner, laws, R, D, A, U):
         push = laws.given * S[GIVEN_FORCE + j] - S[MUD_AXIAL + j] * laws.speed
         turn = S[MUD_SPIN + j] * spin
         if S[STARTING_FORCE + j] != 0:
-            along, about = starting(S, j, laws)
+            along, about = starting(S, j, C, owner[j], laws)
             push, turn = push - along, turn + about
         w, x, y, z = quaternion(P, j)
         xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_columns(w, x, y, z)

@@ -10,14 +10,14 @@ from typing import Any, Final
 
 import numpy as np
 
-from fctd.mechanics.contact import RADIUS_GAIN, STIFFNESS_GAIN, owner_of
+from fctd.mechanics.contact import HOLE_RADIUS, RADIUS_GAIN, STIFFNESS_GAIN, owner_of
 from fctd.mechanics.dual import power, reciprocal, root
 from fctd.mechanics.friction import limit_around, turning_limit
 from fctd.mechanics.jit import inlined
 from fctd.mechanics.joints import cross
 from fctd.mechanics.laws import LAWS, dispatch, steady_load
 from fctd.mechanics.rotations import rotation_columns
-from fctd.mechanics.state import ARM_CONTACT, GIVEN_FRICTION, RADIUS, STARTING_FORCE, STILL, TINY, TRIBUTARY
+from fctd.mechanics.state import ARM_CONTACT, GIVEN_FRICTION, OPEN, RADIUS, STARTING_FORCE, STILL, TINY, TRIBUTARY
 from fctd.steady.block_thomas import SIZE
 from fctd.steady.pose import in_frame, place, quaternion, stepped
 from fctd.steady.wall_gradient import wall_of
@@ -83,8 +83,10 @@ def spin_of(S, j, laws):
 
 
 @inlined
-def starting(S, j, laws):
-    """Force along body j [N] and torque about it [N m] with which compressed bow springs hold it as it moves."""
+def starting(S, j, C, i, laws):
+    """Force along body j [N] and torque about it [N m] with which bow springs hold it that piece i compresses."""
+    if laws.geometry == OPEN or C[i, HOLE_RADIUS] > S[RADIUS + j]:
+        return 0.0, 0.0
     turning = S[RADIUS + j] * spin_of(S, j, laws)
     share = laws.friction_scale * S[STARTING_FORCE + j] / (root(laws.speed * laws.speed + turning * turning) + TINY)
     return share * laws.speed, share * turning * S[RADIUS + j]

@@ -105,6 +105,25 @@ def test_the_starting_force_acts_also_where_the_liner_hangs_on_the_axis() -> Non
     assert turned.hookload == pytest.approx(weight, rel=1e-6)
 
 
+def test_bows_that_the_hole_does_not_compress_have_no_starting_force() -> None:
+    """In a vertical hole whose upper part is wider: those below 250 m alone drag, in both solvers."""
+    upright = [[0, 0, 0], [400, 0, 0]]
+    sizes = [{"to_md": 250, "diameter": 0.3, "friction": 0.0}, {"to_md": 400, "diameter": BORE, "friction": 0.0}]
+    of = case(upright, friction=0.0, centralisers=BOWS)
+    wide = of.model_copy(update={"wellbore": type(of.wellbore).model_validate(
+        of.wellbore.model_dump(exclude_defaults=True) | {"intervals": sizes})})  # fmt: skip
+    below = int((contacts(of) & (DEPTH - lay_out(of, DEPTH).contacts_above[1:] > 250.5)).sum())
+    assert 0 < below < 10
+    weight = equilibrium(case(upright, friction=0.0), "trip_out", DEPTH).hookload
+    assert equilibrium(wide, "trip_out", DEPTH).hookload - weight == pytest.approx(below * 800.0, rel=1e-6)
+    turning = Case.model_validate(
+        wide.model_dump(exclude_defaults=True) | {"operations": [rotation(DEPTH, 6, rpm=60, ramp=2)]}
+    )
+    history = simulate(turning).history
+    torque = history["surface_torque_N_m"][history["time_s"] > 4].mean()
+    assert torque == pytest.approx(below * 800.0 * 0.135, rel=0.05)
+
+
 def test_bows_that_the_hole_does_not_compress_press_where_they_touch() -> None:
     wide = equilibrium(case(centralisers=BOWS | {"diameter": 0.2}), "rotate_off_bottom", DEPTH)
     assert wide.answered
