@@ -12,6 +12,7 @@ from validation.parts.limits import ABOVE, BELOW, fed, middle, quick_trip, shape
 from validation.parts.slid_strings import LONGEST, Slid, slide
 
 STRINGS = 30
+MOST = 2000  # segments, as the stepper takes an hour on one side of the limit of longer chains
 SPEEDS = 0.2, 0.4  # of the stepper [m/s]
 
 
@@ -55,11 +56,15 @@ def run(context: Context) -> Outcome:
     if context.quick:
         table, shapes = stepped(context, [quick_trip(context)], (BELOW,))
     else:
-        table, shapes = stepped(context, list(islice(locked_of(trips(context)), STRINGS)), (BELOW, ABOVE))
+        short = (one for one in locked_of(trips(context)) if len(one[1].profile) <= MOST)
+        table, shapes = stepped(context, list(islice(short, STRINGS)), (BELOW, ABOVE))
     return Outcome(
         tables={"stepped": table, "shapes": shapes},
         checks=_checks(table),
-        notes=[f"The stepper feeds a string by at most {LONGEST:g} m at {SPEEDS[0]:g} and {SPEEDS[1]:g} m/s."],
+        notes=[
+            f"The stepper feeds a string by at most {LONGEST:g} m at {SPEEDS[0]:g} and {SPEEDS[1]:g} m/s.  Strings of "
+            f"more than {MOST} segments are left out."
+        ],
         display={"stepped": "Locked trips in, by the stepper and by feed"},
     )
 
