@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 
 from fctd import Case, build_wellbore, equilibrium, find_contacts, simulate
 from fctd.arrays import Array
+from fctd.mechanics.contact import START_MD
+from fctd.mechanics.query import WALL_COLUMNS, query_sampled
 from references import contact
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts.uneven_hole import DEPTH, FIRST, LAST, PARTS, TOOL_JOINT, equal_areas, radii, uneven_case
@@ -26,6 +28,7 @@ MESHES = {"mesh, 48 facets": 48, "mesh, 96 facets": 96}  # rings at every cell o
 FINEST = list(MESHES)[-1]
 WINDOW = 10.0  # [m]
 LOADS = {"hookload_N": "hook load", "surface_torque_N_m": "torque"}
+TIMED, PASSES = 100_000, 5  # points whose time is taken
 POINTS, BAND = 400, 0.004  # in each part, and how far from touching [m]
 OPERATIONS = ("trip_in", "trip_out", "rotate_off_bottom")
 
@@ -105,6 +108,21 @@ def places(context: Context) -> Rows:
         }  # fmt: skip
 
 
+def point_time() -> pd.DataFrame:
+    """Processor time of the wall beside a point [ns], the least of several passes along the hole."""
+    hole = build_wellbore(uneven_case(SEGMENT, radii()[1]))
+    md = np.linspace(FIRST + 1, LAST - 1, TIMED)
+    points = hole.off_axis(md, np.linspace(0, 1000.0, TIMED), np.full(TIMED, 0.03))
+    radius, out, towards = np.full(TIMED, 0.5 * TOOL_JOINT), np.empty((TIMED, WALL_COLUMNS)), np.empty((TIMED, 3))
+    owner = np.searchsorted(hole.pieces[:, START_MD], md, side="right") - 1
+    times = []
+    for _ in range(PASSES):
+        start = time.process_time()
+        query_sampled(hole.pieces, points, radius, owner.copy(), out, towards)
+        times.append(time.process_time() - start)
+    return pd.DataFrame({"ns": [1e9 * min(times) / TIMED]})
+
+
 def _rms(error: Array, of: NDArray[np.bool_]) -> float:
     return float(np.sqrt((error[of] ** 2).mean()))
 
@@ -121,7 +139,7 @@ def run(context: Context) -> Outcome:
     loads, forces = in_time(context, QUICK_MEASURED if context.quick else MEASURED)
     tables = {
         "loads": loads, "forces": forces, "windows": windows(forces), "steady": steady(context),
-        "places": places(context), "wall": _wall(),
+        "places": places(context), "wall": _wall(), "point": point_time(),
     }  # fmt: skip
     display = {
         "loads": "The turning string by every method", "steady": "Steady strings", "places": "Points near the wall",
@@ -158,6 +176,8 @@ def _checks(tables: dict[str, pd.DataFrame], quick: bool) -> list[Check]:
         Check("penetration of the circle of equal area over that of the sampled hole, errors",
               float(spots["error_of_circle_mm"].max() / spots["error_mm"].max()), 3.0, "at_least", "",
               "what a circle leaves out"),
+        Check("time of a point, in order along the hole", float(tables["point"]["ns"].iloc[0]), 50.0, "at_most", "ns",
+              "a target of this project"),
     ]  # fmt: skip
     if quick:
         return checks
@@ -195,4 +215,5 @@ STUDY = Study(
     "washed_out_hole",
     "Does a wall sampled over depth and angle bear a string as a fine mesh of that hole does?",
     run,
+    timed=True,
 )
