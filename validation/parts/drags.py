@@ -131,14 +131,7 @@ def drag(bend: Bend, count: int, rng: np.random.Generator, search: Search = stor
     wrong_wall, wrong_depth = np.zeros(count), np.zeros(count)
     for k in range(STEPS + AT_REST):
         if k < STEPS:
-            outside = (md + step < ends[0]) | (md + step > ends[1])
-            step = np.where(outside, -step, step)
-            md = md + step
-            axis, tangent = exact.at(md)
-            length = np.linalg.norm(offset, axis=1)
-            offset = length[:, None] * sideways(offset, tangent)
-            force = sideways(force, tangent)
-            force = np.cos(turn)[:, None] * force + np.sin(turn)[:, None] * np.cross(tangent, force)
+            md, step, axis, tangent, offset, force = move(exact, ends, md, step, offset, force, turn)
         for row, value in zip(place, (axis + offset).T, strict=True):
             row[:] = value
         search(S, owner, count, padded_columns(count), hole.pieces, hole.geometry)
@@ -154,6 +147,31 @@ def drag(bend: Bend, count: int, rng: np.random.Generator, search: Search = stor
         offset += SHARE * (push - np.sum(push * tangent, axis=1)[:, None] * tangent)
     beyond = np.linalg.norm(offset, axis=1) - _clearance(wall, md, bend)[1] - pressed
     return Drag(wrong_wall, beyond, wrong_depth)
+
+
+class Moved(NamedTuple):
+    """Points (n,) after a step: depth and next step [m], axis and tangent (n, 3) there, offset from the axis (n, 3) [m]
+    and direction of the side force (n, 3), both across the hole."""
+
+    md: Array
+    step: Array
+    axis: Array
+    tangent: Array
+    offset: Array
+    force: Array
+
+
+def move(
+    hole: Wellbore, ends: tuple[float, float], md: Array, step: Array, offset: Array, force: Array, turn: Array
+) -> Moved:
+    """Move points along a hole, back where they would pass its ends [m], and turn their side force [rad]."""
+    step = np.where((md + step < ends[0]) | (md + step > ends[1]), -step, step)
+    md = md + step
+    axis, tangent = hole.at(md)
+    offset = np.linalg.norm(offset, axis=1)[:, None] * sideways(offset, tangent)
+    force = sideways(force, tangent)
+    force = np.cos(turn)[:, None] * force + np.sin(turn)[:, None] * np.cross(tangent, force)
+    return Moved(md, step, axis, tangent, offset, force)
 
 
 def leaks(bend: Bend, found: Drag) -> NDArray[np.bool_]:

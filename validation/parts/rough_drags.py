@@ -23,7 +23,7 @@ from fctd.mechanics.sampled import AROUND_CELLS
 from fctd.mechanics.stored_walls import update_walls
 from fctd.model.frames import hole_frame
 from fctd.model.sampled_hole import POINTS, in_cells, wall_around
-from validation.parts.drags import AT_REST, SHARE, STEPS, sideways
+from validation.parts.drags import AT_REST, SHARE, STEPS, move, sideways
 
 SEED = 23
 STIFFNESS = 1e7  # of the wall [N/m]
@@ -158,13 +158,7 @@ def drag(rough: Rough, count: int, rng: np.random.Generator) -> Drag:
     wrong_wall, depth = np.zeros(count), np.zeros(count)
     for k in range(STEPS + AT_REST):
         if k < STEPS:
-            outside = (md + step < ends[0]) | (md + step > ends[1])
-            step = np.where(outside, -step, step)
-            md = md + step
-            axis, tangent = hole.at(md)
-            offset = np.linalg.norm(offset, axis=1)[:, None] * sideways(offset, tangent)
-            force = sideways(force, tangent)
-            force = np.cos(turn)[:, None] * force + np.sin(turn)[:, None] * np.cross(tangent, force)
+            md, step, axis, tangent, offset, force = move(hole, ends, md, step, offset, force, turn)
         for row, value in zip(place, (axis + offset).T, strict=True):
             row[:] = value
         update_walls(S, owner, count, padded_columns(count), hole.pieces, hole.geometry)
