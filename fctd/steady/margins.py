@@ -157,7 +157,9 @@ def margins(
     if kind.direction > 0:
         yield from _set_down(loaded, beyond_buckling)
     if rates.spin > 0:
-        if kind.direction >= 0:
+        if kind.direction >= 0 and (swivel := _swivel_of(laid)):
+            yield Margin(TORQUE, "none", swivel, reason=f"no torque passes the swivel above {swivel}")
+        elif kind.direction >= 0:
             yield _turned(loaded, first_limit, _weakest(laid, "torsion"))
             if (turns := rig.largest_torque) is not None:
                 yield _turned(loaded, lambda point, _: First("drive", point.drive_torque / turns, "none", NAN), turns)
@@ -199,6 +201,12 @@ def _turned(loaded: Loaded, limit_of: LimitOf, scale: float) -> Margin:
         surface_torque_left=point.surface_torque - loaded.free.surface_torque,
         reason=_reason([*unknown, *_said(point)]),
     )  # fmt: skip
+
+
+def _swivel_of(laid: LaidString) -> str:
+    """The name of the component below a swivel, empty without one."""
+    string = laid.string
+    return next((part.component.name for part, of in zip(string.parts, string.sections, strict=True) if of.swivel), "")
 
 
 def _said(point: Equilibrium) -> list[str]:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd.arrays import Array
+from fctd.mechanics import state
 from fctd.mechanics.friction import limit_around
 from fctd.mechanics.jit import entry
 from fctd.mechanics.law_names import CODES
@@ -108,7 +109,9 @@ class WaveForce:
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
         n, rates = problem.n, problem.rates
-        self.radius = problem.string.contact_radius()
+        self.radius, self.own = problem.string.contact_radius(), problem.string.of("own_friction")
+        # Below a swivel nothing turns.
+        self.turning = self.radius * (1 - state.row(problem.work.S, state.STILL, n))
         self.law = CODES[problem.case.contact.friction_law]
         self.speed, self.spin = float(rates.speed), float(rates.spin)
         self.wound, self.endless_from = np.zeros(n, np.bool_), float("nan")
@@ -121,14 +124,15 @@ class WaveForce:
         """
         problem, string = self.problem, self.problem.string
         here, found = problem.compressed(share), problem.reactions(share)
-        walls, before = problem.walls(found.contacts), found.contacts[:, NORMAL_FORCE]
+        walls, before = self._own_friction(problem.walls(found.contacts)), found.contacts[:, NORMAL_FORCE]
         factor = share.friction * np.maximum(walls.friction, walls.around)
         along, around = self._shares(walls, factor)
         drag = factor * along
         # The compression jumps at a contact point by the friction there: its mean is that of the pipe beside the point.
         compression, force = 0.5 * drag * before + here.compression[1:], np.empty(problem.n)
         over_helix = self._over_helix(here.rows[1:], compression)
-        helix = (walls.radius - self.radius) / (4 * string.of("EI")) * self._presses_along()
+        clearance = np.maximum(walls.radius - self.radius, 0.0)  # bows are wider than the hole
+        helix = clearance / (4 * string.of("EI")) * self._presses_along()
         if not press(over_helix * helix, drag, before, compression, LARGEST_PUSH * problem.weight, force):
             return False
         is_given = over_helix > 0
@@ -140,6 +144,13 @@ class WaveForce:
         given.share[:] = is_given
         given.wall[:] = np.column_stack([force, turning, self.radius * share.friction * walls.around * force])
         return True
+
+    def _own_friction(self, walls: Walls) -> Walls:
+        """The walls with the friction factors of fittings that have their own."""
+        is_own = self.own > 0
+        return walls._replace(
+            friction=np.where(is_own, self.own, walls.friction), around=np.where(is_own, self.own, walls.around)
+        )
 
     def _presses_along(self) -> Array:
         """The length of string (n,) [m] whose waves press at each contact point; the first has all of it up to the top.
@@ -185,7 +196,7 @@ class WaveForce:
         along, around = np.empty(len(factor)), np.empty(len(factor))
         over = np.maximum(np.maximum(walls.friction, walls.around), TINY)
         slide(
-            self.law, self.speed, self.spin, self.radius, self.problem.hole.orthotropic, walls.friction / over,
+            self.law, self.speed, self.spin, self.turning, self.problem.hole.orthotropic, walls.friction / over,
             walls.around / over, along, around,
         )  # fmt: skip
         return along, around

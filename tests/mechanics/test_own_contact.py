@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fctd import Case, equilibrium, simulate
+from fctd import Case, equilibrium, margin_table, simulate
 from fctd.case.errors import InputError
 from fctd.mechanics.own_contact import GAP
 from fctd.model.drillstring import lay_out
@@ -215,3 +215,25 @@ def test_bit_torque_below_a_swivel_and_bows_in_other_walls_are_refused() -> None
             Case.model_validate(given | sections)
     with pytest.raises(ValueError, match="against which it turns"):
         make_case(components=[pipe(None, 10, swivel=True)])
+
+
+def test_the_waves_of_a_pushed_string_have_the_friction_of_its_fittings() -> None:
+    """With the closed forms of a helix: a factor that is the hole's changes nothing, a smaller one does."""
+    level = [[0, 88, 0], [400, 88, 0]]
+
+    def push(**fittings: Any) -> float:
+        of = case(level, centralisers={"every": EVERY, "diameter": 0.19, **fittings})
+        bit, contact = {"weight_on_bit": 450e3}, {"helical_force": "analytic"}
+        loaded = Case.model_validate(of.model_dump(exclude_defaults=True) | {"bit": bit, "contact": contact})
+        point = equilibrium(loaded, "drill_sliding", DEPTH)
+        assert point.buckling.mode != "none"
+        return point.hookload
+
+    same = push()
+    assert push(friction=0.3) == pytest.approx(same, rel=1e-6)
+    assert push(friction=0.05) > same + 1000
+
+
+def test_no_torque_at_the_bit_is_looked_for_below_a_swivel() -> None:
+    rows = margin_table(case(swivel=True), ["rotate_off_bottom"], [DEPTH])
+    assert rows.loc[rows["margin"] == "torque", "reason"].tolist() == ["no torque passes the swivel above liner"]
