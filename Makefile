@@ -7,6 +7,8 @@
 # make lint        check style, types and allowed imports
 # make bullet      build pybullet from source, which has no wheel for Python 3.12 and later: needs a C++ compiler and
 #                  about six minutes of one core
+# make rivals      install the packages of rivals.lock beside those of the suite in an environment of their own,
+#                  .venv-rivals (some 0.6 GB more); .venv-rivals/bin/python -m validation --rivals compares with them
 # make next-numba  try the newest numba in an environment of its own, .venv-next: the compiled code and its cache
 # make clean       remove results, report and caches; the environment in .venv stays
 #
@@ -19,7 +21,7 @@ FLAGS := $(if $(filter-out 0,$(QUICK)),--quick)
 # The first of these that starts; a command may exist and fail to start.
 PYTHON ?= $(shell for p in python3.11 python3.12 python3.13 python3.14 python3; do $$p -c '' 2>/dev/null && { echo $$p; break; }; done)
 
-.PHONY: reproduce test bench docs lint bullet next-numba clean
+.PHONY: reproduce test bench docs lint bullet rivals next-numba clean
 
 reproduce: $(STAMP)
 	@status=0; $(BIN)/python -m validation --reproduce $(FLAGS) || status=$$?; \
@@ -59,6 +61,15 @@ $(STAMP): requirements.lock pyproject.toml
 bullet: $(STAMP)
 	$(BIN)/python -m pip install --disable-pip-version-check --no-deps --no-build-isolation --use-pep517 \
 	--no-binary=pybullet "$$(sed -n 's/^\(pybullet==[^ ;]*\).*/\1/p' requirements.lock)"
+
+rivals: .venv-rivals/installed
+
+.venv-rivals/installed: requirements.lock rivals.lock pyproject.toml
+	$(PYTHON) -m venv .venv-rivals
+	.venv-rivals/bin/python -m pip install --quiet --disable-pip-version-check --only-binary=:all: -r requirements.lock -r rivals.lock
+	.venv-rivals/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
+	.venv-rivals/bin/python -m pip check --disable-pip-version-check
+	@touch $@
 
 next-numba: $(STAMP)
 	rm -rf .venv-next && cp -a .venv .venv-next

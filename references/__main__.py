@@ -15,7 +15,7 @@ from fctd.cli.simulate import RunOutput, simulate_file
 from fctd.store.run_folder import about_of
 from references import contact, engines
 from references.contact import ContactMethod, build
-from references.registry import absent
+from references.registry import absent, label
 
 PROGRAM = "python -m references simulate"
 
@@ -30,19 +30,25 @@ app = typer.Typer(
 @app.command("list")
 def list_command() -> None:
     """List the contact methods and string engines with package, version, description and options."""
-    methods = {name: (contact.method_class(name), contact.installed_version(name)) for name in contact.METHODS}
-    others = {name: (engines.engine_class(name), engines.installed_version(name)) for name in engines.ENGINES}
-    for title, found in (("contact method", methods), ("string engine", others)):
+    missing: dict[str, None] = {}
+    for title, registry in (("contact method", contact.REGISTRY), ("string engine", engines.REGISTRY)):
         table = Table()
         for column in (title, "package", "version", "what it does", "options"):
             table.add_column(column, overflow="fold")
-        for name, (described, version) in found.items():
+        for name in registry.names():
+            try:
+                described, version = registry.find(name), registry.installed_version(name)
+            except InputError as error:
+                table.add_row(name, "–", "cannot be loaded", str(error), "–")
+                continue
             options = ", ".join(f"{key}={field.default}" for key, field in described.Options.model_fields.items())
             table.add_row(name, described.distribution, version or "not installed", described.does, options or "–")
+            if version is None:
+                missing[described.distribution] = None
         screen.print(table)
-    missing = [described.distribution for described, version in methods.values() if version is None]
-    missing += [described.distribution for described, version in others.values() if version is None]
-    for distribution in dict.fromkeys(missing):
+        for point in registry.shadowed():
+            screen.print(f"Plugin {label(point)} is left out: the name {point.name} is taken.")
+    for distribution in missing:
         screen.print(f"Package {absent(distribution)}.")
 
 

@@ -11,7 +11,7 @@ from fctd.case.text import degrade_output, printable_lines
 from fctd.cli.interrupts import as_interrupts
 from validation.claims import judgement, ledger
 from validation.harness import fingerprint, runner, side_by_side, study
-from validation.harness.registry import STUDIES
+from validation.harness.registry import RIVALS, STUDIES
 
 CLAIMS = "claims"  # No study: it judges by what the studies have stored.
 
@@ -22,7 +22,8 @@ app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
 def main(
     names: Annotated[list[str] | None, typer.Argument(metavar="[NAME]...", help="Studies to run, or claims.")] = None,
     show: Annotated[bool, typer.Option("--list", help="List the studies and their questions.")] = False,
-    every: Annotated[bool, typer.Option("--all", help="Run every study.")] = False,
+    every: Annotated[bool, typer.Option("--all", help="Run every study but those of rivals.")] = False,
+    rivals: Annotated[bool, typer.Option("--rivals", help="Run the studies of rivals; see make rivals.")] = False,
     reproduce: Annotated[bool, typer.Option("--reproduce", help="Run what `make reproduce` runs.")] = False,
     quick: Annotated[bool, typer.Option("--quick", help="Shorten each study; the checks stay.")] = False,
     force: Annotated[bool, typer.Option("--force", help="Repeat also studies that are up to date.")] = False,
@@ -47,9 +48,9 @@ def main(
     claims = every or reproduce or CLAIMS in names
     try:
         sources = fingerprint.Sources()  # before any study is imported: a later edit is repeated by the next run
-        chosen = choose([name for name in names if name != CLAIMS], every, reproduce)
+        chosen = choose([name for name in names if name != CLAIMS], every, reproduce, rivals)
         if not chosen and not claims:
-            raise runner.UsageError("nothing to run: name a study, or use --all, --reproduce or --list")
+            raise runner.UsageError("nothing to run: name a study, or use --all, --rivals, --reproduce or --list")
         expected = runner.read_expected(runner.EXPECTED)
         runner.check_results(study.RESULTS)
     except (runner.UsageError, SourceSyntaxError) as error:
@@ -77,13 +78,14 @@ def main(
     raise typer.Exit(code)
 
 
-def choose(names: list[str], every: bool, reproduce: bool) -> list[str]:
+def choose(names: list[str], every: bool, reproduce: bool, rivals: bool) -> list[str]:
     """The studies asked for, in the order of the registry."""
     for name in names:
         runner.check_name(name)
     if reproduce:
         names = [*names, *(name for name in STUDIES if (found := runner.loaded(name)) is None or found.reproduce)]
-    return [name for name in STUDIES if every or name in names]
+    kinds = {True: rivals, False: every}
+    return [name for name in STUDIES if kinds[name in RIVALS] or name in names]
 
 
 def _line(name: str) -> str:
@@ -93,7 +95,11 @@ def _line(name: str) -> str:
     except Exception as error:
         # The list must show the others too.
         return f"{name:<20} cannot be loaded: {type(error).__name__}: {error}"
-    marks = [*(["reproduce"] if found.reproduce else []), *(f"needs {need}" for need in found.needs)]
+    marks = [
+        *(["reproduce"] if found.reproduce else []),
+        *(["rivals"] if name in RIVALS else []),
+        *(f"needs {need}" for need in found.needs),
+    ]
     return f"{name:<20} {found.question}" + (f"  [{', '.join(marks)}]" if marks else "")
 
 

@@ -53,7 +53,9 @@ class ContactMethod(Protocol):
         [1/m], from the geometry alone."""
 
 
-REGISTRY: Registry[ContactMethod] = Registry(METHODS, "contact method", "contact")
+REGISTRY: Registry[ContactMethod] = Registry(
+    METHODS, ("references.rivals", "METHODS"), "fctd_references.contact_methods", "contact method", "contact"
+)
 method_class = REGISTRY.find
 installed_version = REGISTRY.installed_version
 need = REGISTRY.need

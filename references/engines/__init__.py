@@ -85,7 +85,9 @@ class StringEngine(Protocol):
         """Run a window of a case; InputError for a case or a window that cannot be run."""
 
 
-REGISTRY: Registry[StringEngine] = Registry(ENGINES, "engine", "engine")
+REGISTRY: Registry[StringEngine] = Registry(
+    ENGINES, ("references.rivals", "ENGINES"), "fctd_references.engines", "engine", "engine"
+)
 engine_class = REGISTRY.find
 installed_version = REGISTRY.installed_version
 need = REGISTRY.need

@@ -7,16 +7,16 @@ alternating order, and a ratio is the median of the ratios of the rounds.
 import os
 import platform
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
 from fctd.store.origin import versions
-from references import engines
-from references.contact import METHODS, installed_version, method_class
+from references.contact import METHODS, method_class
 from references.engines import ENGINES, engine_class
+from references.registry import version_of
 
 Action = Callable[[], object]
 
@@ -80,19 +80,20 @@ def turn(
     return taken
 
 
-def machine() -> dict[str, str]:
-    """Properties of the machine on which timings depend: processor, cores and versions of all packages timed."""
-    found = {"processor": cpu_name(), "cores": str(os.cpu_count()), **versions()}
-    for name in METHODS:
-        found[method_class(name).distribution] = installed_version(name) or "not installed"
-    for name in ENGINES:
-        found[engine_class(name).distribution] = engines.installed_version(name) or "not installed"
-    return found
+def machine(more: Iterable[str] = ()) -> dict[str, str]:
+    """Properties of the machine on which timings depend: processor, cores, and versions of all packages timed.
+
+    more : packages beside those of the suite.
+    """
+    suite = [method_class(name).distribution for name in METHODS]
+    suite += [engine_class(name).distribution for name in ENGINES]
+    timed = {name: version_of(name) or "not installed" for name in (*suite, *more)}
+    return {"processor": cpu_name(), "cores": str(os.cpu_count()), **versions(), **timed}
 
 
-def machine_table() -> pd.DataFrame:
+def machine_table(more: Iterable[str] = ()) -> pd.DataFrame:
     """``machine`` as a table with the columns what and value."""
-    return pd.DataFrame(machine().items(), columns=["what", "value"])
+    return pd.DataFrame(machine(more).items(), columns=["what", "value"])
 
 
 def cpu_name() -> str:

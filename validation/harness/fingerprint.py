@@ -14,6 +14,7 @@ import tomllib
 from dataclasses import asdict, dataclass, field
 from functools import cache
 from importlib.metadata import PackageNotFoundError, requires, version
+from importlib.util import find_spec
 from pathlib import Path
 
 import grimp
@@ -21,6 +22,8 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 from pydantic import TypeAdapter
 
+from references import contact, engines
+from references.registry import RIVAL_PACKAGES, label, version_of
 from references.timing.stopwatch import cpu_name
 from validation.harness.files import ABSENT, digest, digest_of
 from validation.harness.study import ROOT
@@ -81,6 +84,32 @@ def surroundings(quick: bool, root: Path = ROOT) -> dict[str, str]:
     project = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     asked = (*project["dependencies"], *project["optional-dependencies"]["suite"])
     return found | {f"package {name}": installed for name, installed in sorted(_packages(asked).items())}
+
+
+# Inputs of studies of rivals begin so.
+RIVAL, PLUGIN = "rival ", "plugin "
+
+
+def rivals() -> dict[str, str]:
+    """Inputs of the studies of rivals: versions of their packages; of each plugin name, version and digest of code."""
+    found = {f"{RIVAL}{name}": version_of(name) or ABSENT for name in RIVAL_PACKAGES}
+    for registry in (contact.REGISTRY, engines.REGISTRY):
+        for name, point in registry.plugins().items():
+            found[f"{PLUGIN}{registry.noun} {name}"] = f"{label(point)}, {_digest_of_package(point.module)}"
+    return found
+
+
+def _digest_of_package(module: str) -> str:
+    """Digest of all sources of the package or file that a module belongs to; ``absent`` where there is none."""
+    try:
+        spec = find_spec(module.partition(".")[0])
+    except (ImportError, ValueError):
+        spec = None
+    if spec is None:
+        return ABSENT
+    folders = [Path(folder) for folder in spec.submodule_search_locations or ()]
+    files = sorted(file for folder in folders for file in folder.rglob("*.py")) or [Path(str(spec.origin))]
+    return digest_of(b"".join(file.read_bytes() for file in files if file.is_file()))
 
 
 @cache  # a process keeps the packages that it has imported

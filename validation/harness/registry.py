@@ -62,3 +62,7 @@ STUDIES: dict[str, str] = {
     "sweep": "validation.studies.sweep",
     "ladder": "validation.studies.ladder.study",
 }
+
+# Studies of rivals and plugins (references/rivals.py): left out of --all and --reproduce, so that neither repeats them
+# where no rival is installed; --rivals runs them.
+RIVALS: tuple[str, ...] = ()

@@ -24,7 +24,7 @@ from fctd.case.text import counted, printable_lines
 from validation.harness import fingerprint, store
 from validation.harness.files import reading
 from validation.harness.fingerprint import Inputs, Sources
-from validation.harness.registry import STUDIES
+from validation.harness.registry import RIVALS, STUDIES
 from validation.harness.side_by_side import apart, each
 from validation.harness.store import Judged, Provenance, Record, Standing
 from validation.harness.study import NEEDS, ROOT, Context, Outcome, Study, T, silent
@@ -213,6 +213,8 @@ def run_one(
         study = load(name)
         blank = replace(blank, question=study.question)
         now = Inputs(rules.sources.used_by(STUDIES[name]), dict(around))
+        if name in RIVALS:
+            now.around |= fingerprint.rivals()
         if "data" in study.needs:
             now.around[DATA] = str(context.data)
         else:
@@ -268,8 +270,9 @@ def changes(names: Iterable[str], results: Path, sources: Sources) -> dict[str, 
         if (before := fingerprint.read(results / name)) is None:
             continue
         around = surroundings(before.around.get(fingerprint.LENGTH) == "quick", sources.root)
-        # The folder of the data is no input here; the files that were read are.
-        around = around | {key: value for key, value in before.around.items() if key == DATA}
+        # The folder of the data is no input here; the files that were read are.  Rivals have their own environment.
+        elsewhere = (DATA, fingerprint.RIVAL, fingerprint.PLUGIN)
+        around = around | {key: value for key, value in before.around.items() if key.startswith(elsewhere)}
         if changed := Inputs(sources.used_by(STUDIES[name]), around).changed_since(before, sources.root):
             found[name] = changed
     return found
