@@ -16,10 +16,13 @@ METHODS: dict[str, str] = {
     "cylinders": "references.contact.own:Cylinders",
     "arcs": "references.contact.own:Arcs",
     "for_loop": "references.contact.own:ForLoop",
+    "axis_frame": "references.contact.axis_frame:AxisFrame",
+    "sdf": "references.contact.sdf:Sdf",
     "fcl": "references.contact.fcl:Fcl",
     "coal": "references.contact.coal:Coal",
     "bullet": "references.contact.bullet:Bullet",
     "mujoco": "references.contact.mujoco:MuJoCo",
+    "libigl": "references.contact.libigl:LibIgl",
     "trimesh": "references.contact.trimesh:TriMesh",
 }
 

@@ -40,8 +40,8 @@ class Bullet(MeshMethod):
         self._wall = wall_of(bullet, client, np.asarray(self.tube.mesh.vertices), self.tube)
         self._spheres: dict[float, int] = {}
 
-    def query(self, points: Array, radii: Array) -> Contacts:
-        """See ``ContactMethod.query``."""
+    def contacts(self, points: Array, radii: Array) -> Contacts:
+        """See ``MeshMethod.contacts``."""
         closest, move = self._bullet.getClosestPoints, self._bullet.resetBasePositionAndOrientation
         n = len(points)
         penetration, normal, md = np.full(n, -np.inf), np.full((n, 3), np.nan), np.full(n, np.nan)

@@ -43,8 +43,8 @@ class SphereMethod(MeshMethod):
         self._collide = options.query == "collide"
         self.gives_clearance = not self._collide
 
-    def query(self, points: Array, radii: Array) -> Contacts:
-        """See ``ContactMethod.query``."""
+    def contacts(self, points: Array, radii: Array) -> Contacts:
+        """See ``MeshMethod.contacts``."""
         return self._by_collision(points, radii) if self._collide else self._by_distance(points, radii)
 
 

@@ -42,8 +42,8 @@ class MuJoCo(MeshMethod):
         self._park(0)
         mujoco.mj_fwdPosition(self._model, self._data)  # places the vertices of the flex, once
 
-    def query(self, points: Array, radii: Array) -> Contacts:
-        """See ``ContactMethod.query``."""
+    def contacts(self, points: Array, radii: Array) -> Contacts:
+        """See ``MeshMethod.contacts``."""
         n = len(points)
         penetration, normal = np.full(n, -np.inf), np.full((n, 3), np.nan)
         faces = np.zeros(n, np.int64)

@@ -29,7 +29,7 @@ class TriMesh(MeshMethod):
         # trimesh builds the tree on first use: build it here, so that no query includes the time.
         assert self.tube.mesh.triangles_tree is not None
 
-    def query(self, points: Array, radii: Array) -> Contacts:
-        """See ``ContactMethod.query``."""
+    def contacts(self, points: Array, radii: Array) -> Contacts:
+        """See ``MeshMethod.contacts``."""
         near, _, faces = self._proximity.closest_point(self.tube.mesh, points)
         return self.tube.contacts(points, radii, np.asarray(near), np.asarray(faces))

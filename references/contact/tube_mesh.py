@@ -5,6 +5,7 @@ r(1 − cos π/n) across the hole and by κℓ²/8 along the outside of a bend. 
 open.
 """
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated, Any
@@ -25,11 +26,15 @@ MOST_TRIANGLES = 20_000_000
 
 
 class TubeOptions(Table):
-    """Facets around the hole; largest distance between rings [m]; largest error of the facets in a bend [m]."""
+    """Facets around the hole; largest distance between rings [m]; largest error of the facets in a bend [m].
+
+    smooth_normals : whether a contact's normal is interpolated between those of the vertices.
+    """
 
     facets: Annotated[int, units.Whole(at_least=3)] = 48
     ring_spacing: units.PositiveLength = 2.0
     chord_tolerance: units.PositiveLength | None = None
+    smooth_normals: bool = False
 
 
 @dataclass(frozen=True)
@@ -45,6 +50,8 @@ class Tube:
     options: TubeOptions
     md: Array
     centres: Array
+    across: Array
+    aside: Array
     radius: float
 
     @cached_property
@@ -100,11 +107,45 @@ class Tube:
         """Unit normals of the faces (m, 3), out of the hole."""
         return np.asarray(self.mesh.face_normals)
 
+    @cached_property
+    def vertex_normals(self) -> Array:
+        """Unit normals of the vertices (k, facets, 3) by ring, means of those of the faces around, out of the hole."""
+        return np.asarray(self.mesh.vertex_normals).reshape(len(self.md), self.facets, 3)
 
-class MeshMethod:
+    def smoothed(self, hits: Contacts, points: Array) -> Contacts:
+        """Contacts of points (n, 3) [m] with normals interpolated between the four vertices around each point."""
+        known = np.isfinite(hits.md)
+        md, places = hits.md[known], points[known]
+        ring = np.clip(np.searchsorted(self.md, md, side="right") - 1, 0, len(self.md) - 2)
+        down = ((md - self.md[ring]) / (self.md[ring + 1] - self.md[ring]))[:, None]
+        offset = places - ((1 - down) * self.centres[ring] + down * self.centres[ring + 1])
+        angle = np.arctan2((offset * self.aside[ring]).sum(axis=1), (offset * self.across[ring]).sum(axis=1))
+        turns = angle / (2 * np.pi) * self.facets
+        first = np.floor(turns).astype(int)
+        share = (turns - first)[:, None]
+        a, b = first % self.facets, (first + 1) % self.facets
+        corners = self.vertex_normals
+        above = (1 - share) * corners[ring, a] + share * corners[ring, b]
+        below = (1 - share) * corners[ring + 1, a] + share * corners[ring + 1, b]
+        mixed = (1 - down) * above + down * below
+        normal = hits.normal.copy()
+        normal[known] = mixed / np.linalg.norm(mixed, axis=1, keepdims=True)
+        return hits._replace(normal=normal)
+
+
+class MeshMethod(ABC):
     """Common part of the contact methods that query the tube mesh."""
 
     tube: Tube
+
+    @abstractmethod
+    def contacts(self, points: Array, radii: Array) -> Contacts:
+        """Contacts with the facets as the library finds them; see ``ContactMethod.query``."""
+
+    def query(self, points: Array, radii: Array) -> Contacts:
+        """See ``ContactMethod.query``."""
+        hits = self.contacts(points, radii)
+        return self.tube.smoothed(hits, points) if self.tube.options.smooth_normals else hits
 
     @property
     def pieces(self) -> int:
@@ -135,13 +176,13 @@ def build_tube(case: Case, options: TubeOptions) -> Tube:
             key="facets",
             value=f"{2.0 * options.facets * len(md):.3g} triangles",
         )
-    centres, across, aside = _ring_frames(hole, md)
+    centres, across, aside = ring_frames(hole, md)
     angle = 2 * np.pi * np.arange(options.facets) / options.facets
     spokes = np.cos(angle)[:, None] * across[:, None] + np.sin(angle)[:, None] * aside[:, None]
     radius = hole.radii_towards(md, spokes)
     vertices = (centres[:, None] + radius[:, :, None] * spokes).reshape(-1, 3)
     mesh = trimesh.Trimesh(vertices, _faces(len(md), options.facets), process=False, validate=False)
-    tube = Tube(mesh, options, md, centres, float(radius.max()))
+    tube = Tube(mesh, options, md, centres, across, aside, float(radius.max()))
     check_tube(tube)
     return tube
 
@@ -199,7 +240,7 @@ def _ring_depths(hole: Wellbore, options: TubeOptions) -> Array:
     return np.append(np.concatenate(parts), breaks[-1])
 
 
-def _ring_frames(hole: Wellbore, md: Array) -> tuple[Array, Array, Array]:
+def ring_frames(hole: Wellbore, md: Array) -> tuple[Array, Array, Array]:
     """Centres and two unit vectors across the hole (k, 3), transported along the axis without twist."""
     inside = np.clip(md, hole.md[0], hole.md[-1])
     centres, tangents = hole.at(inside)

@@ -16,12 +16,14 @@ from validation.cases import load
 
 CASE = bent_case()
 # Mesh methods are tested with two resolutions, to show an error that does not depend on it.
-MESHES = ("fcl", "coal", "bullet", "mujoco", "trimesh")
+MESHES = ("fcl", "coal", "bullet", "mujoco", "libigl", "trimesh")
 SETTINGS = [("cylinders", {}), ("cylinders", {"cylinder_length": "6 m"}), ("arcs", {}), ("for_loop", {})]
+SETTINGS += [("axis_frame", {}), ("sdf", {}), ("sdf", {"cell": "15 mm", "interpolation": "linear", "source": "mesh"})]
 SETTINGS += [
     (name, {"facets": facets, "ring_spacing": ring}) for name in MESHES for facets, ring in ((24, 3.0), (96, 1.0))
 ]
 SETTINGS += [(name, {"query": "collide"}) for name in ("fcl", "coal")]
+SETTINGS += [(name, {"smooth_normals": True}) for name in ("libigl", "bullet")]
 FINE = {"facets": 96, "ring_spacing": 1.0}
 IDS = ["-".join([name, *(f"{value}" for value in options.values())]) for name, options in SETTINGS]
 BUILT: dict[str, contact.ContactMethod] = {}

@@ -9,8 +9,9 @@ import trimesh
 from fctd.case.errors import InputError
 from fctd.model.pieces import RUN_OUT
 from fctd.model.wellbore import build_wellbore, find_contacts
+from references import contact
 from references.contact.tube_mesh import TubeOptions, build_tube, check_tube
-from tests.references.wells import HOLE, bent_case
+from tests.references.wells import HOLE, RADIUS, bent_case, points_near_wall
 
 CASE = bent_case()
 
@@ -96,3 +97,13 @@ def test_spacing_longer_than_the_hole_and_too_many_triangles() -> None:
         tube_of(ring_spacing=241.0)
     with pytest.raises(InputError, match="triangles"):
         tube_of(facets=100_000, ring_spacing=0.5)
+
+
+def test_smooth_normals_lean_less_than_those_of_facets() -> None:
+    points, _ = points_near_wall("turn", 200)
+    exact, worst = find_contacts(build_wellbore(bent_case()), points, RADIUS), []
+    for smooth in (False, True):
+        hits = contact.build("libigl", bent_case(), smooth_normals=smooth).query(points, np.full(200, RADIUS))
+        worst.append(np.arccos(np.clip(np.sum(hits.normal * exact.normal, axis=1), -1, 1)).max())
+        np.testing.assert_allclose(np.linalg.norm(hits.normal, axis=1), 1, atol=1e-12)
+    assert worst[1] < 0.5 * worst[0]
