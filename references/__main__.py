@@ -1,5 +1,6 @@
 """``python -m references``: list contact methods and string engines, and run a case with one of them."""
 
+from pathlib import Path
 from typing import Annotated, Any
 
 import typer
@@ -14,7 +15,7 @@ from fctd.cli.options import CaseFile, Csv, Friction, Out, Overrides, Quiet, cha
 from fctd.cli.simulate import RunOutput, simulate_file
 from fctd.store.run_folder import about_of
 from references import contact, engines
-from references.contact import ContactMethod, build
+from references.contact import ContactMethod, build, frames
 from references.registry import absent, label
 
 PROGRAM = "python -m references simulate"
@@ -112,6 +113,16 @@ def engine_command(
         screen.print(f"  {'passed' if row.passed else 'FAILED'}  {row.check}: {row.value:.3g} (at most {row.bound:g})")
     if run.status != "valid":
         raise typer.Exit(1)
+
+
+@app.command("frames")
+def frames_command(
+    out: Annotated[Path, typer.Option("--out", metavar="FILE", help="The Parquet file to write.")],
+    count: Annotated[int, typer.Option("--count", min=1, help="Points in each of the four holes.")] = 2000,
+) -> None:
+    """Write points near the wall of four holes with their exact contacts, for contact methods elsewhere."""
+    frames.write(out, count)
+    screen.print(f"{out}: {count} points in each of {len(frames.holes())} holes")
 
 
 def _chosen(options: list[str]) -> dict[str, Any]:
