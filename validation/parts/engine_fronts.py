@@ -1,0 +1,84 @@
+"""Errors of an engine on one window of one string: against truth, against itself, and against a shifted start."""
+
+from collections.abc import Collection
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from fctd import Case, equilibrium
+from fctd.mechanics import state
+from fctd.simulation.run import Run
+from references import engines
+from references.engines import EngineRun, Stepper, StringEngine, Window
+from references.engines.run import InWindows, late, run_window
+from validation.cases import load, rotation
+from validation.harness.study import Rows, table_of_rows
+
+BIT = 2450.0
+FINER = 16  # steps of the finer run in one of an engine's own
+SHIFT = 1e-6  # of the start [m]
+LOADS = {"hookload": "hookload_N", "torque": "surface_torque_N_m"}
+
+
+class Shifted(InWindows):
+    """An engine whose string starts a micrometre aside, every second segment the other way."""
+
+    name, honours = "shifted", ()
+
+    def __init__(self, engine: StringEngine) -> None:
+        self._engine = engine
+        self.name: str = engine.name  # type: ignore[misc]
+        self.honours: Collection[str] = engine.honours  # type: ignore[misc]
+
+    def begin(self, run: Run) -> Stepper:
+        """See ``StringEngine.begin``."""
+        places = state.row(run.S, state.X, run.segments)
+        places += SHIFT * np.where(np.arange(run.segments) % 2, 1.0, -1.0)
+        return self._engine.begin(run)
+
+
+def the_case(window: Window) -> Case:
+    """The curved chain rotating over a window."""
+    operations = rotation(BIT, window.start + window.duration + 1, ramp=4.0)
+    return load("curved_chain", operations=operations, record__interval=0.05)
+
+
+@table_of_rows
+def engine_errors(names: dict[str, tuple[str, dict[str, Any]]], window: Window) -> Rows:
+    """A row per engine, name in the table -> engine and options.
+
+    Differences in percent of hook load and torque: of a run from the steady solver's answer; from the same engine at a
+    sixteenth of its step; and of a run whose start is shifted from one whose start is not.
+    """
+    case = the_case(window)
+    steady = equilibrium(case, "rotate_off_bottom", BIT)
+    truth = pd.Series({"hookload": steady.hookload, "torque": steady.surface_torque})
+    for label, (name, options) in names.items():
+        own = engines.build(name, **options).run(case, window)
+        fine = engines.build(name, **(options | {"step": own.step / FINER})).run(case, window)
+        shifted = run_window(case, window, Shifted(engines.build(name, **options)))
+        loads, finer, aside = (_loads(run) for run in (own, fine, shifted))
+        row: dict[str, Any] = {"engine": label, "status": own.status, "failed": own.message, "step_ms": 1e3 * own.step}
+        for load_name in LOADS:
+            row[f"{load_name}_off_truth_percent"] = 100 * (loads[load_name] / truth[load_name] - 1)
+            row[f"{load_name}_off_itself_percent"] = 100 * (loads[load_name] / finer[load_name] - 1)
+            row[f"{load_name}_spread_percent"] = 100 * (aside[load_name] / loads[load_name] - 1)
+        steps = len(own.profile) and own.steps
+        yield row | {
+            "finer_status": fine.status,
+            "us_per_segment_step": 1e6 * own.wall_s / max(steps * case_segments(case), 1),
+            "real_time_factor": window.duration / own.wall_s,
+            "wall_s": own.wall_s,
+            "finer_wall_s": fine.wall_s,
+        }
+
+
+def case_segments(case: Case) -> int:
+    """Segments of a case with one component that is given in segments."""
+    return int(case.string.components[0].segments or 0)
+
+
+def _loads(run: EngineRun) -> pd.Series:
+    means = late(run)
+    return pd.Series({name: means[column] for name, column in LOADS.items()})
