@@ -6,7 +6,9 @@ point that rolls around its section, as in FCTD's engine; the distance from a me
 """
 
 import json
+from collections.abc import Collection
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -23,10 +25,10 @@ from fctd.store.whole_file import whole_file
 RADIUS = 0.051  # contact radius of the string [m]
 BAND = 0.015  # points lie within this distance of touching [m]
 SEED = 20261128
-# Measured depth [m], inclination [deg], azimuth [deg].
-TURN = [[0, 0, 0], [200, 0, 0], [500, 60, 0], [740, 60, 55], [900, 60, 55]]
-S_WELL = [[0, 0, 0], [150, 0, 0], [450, 70, 30], [650, 70, 30], [950, 5, 30], [1000, 5, 30]]
-PAST_HORIZONTAL = [[0, 0, 0], [100, 0, 0], [500, 95, 350], [800, 100, 10], [1000, 88, 20]]
+Stations = list[list[float]]  # measured depth [m], inclination [deg], azimuth [deg]
+TURN: Stations = [[0, 0, 0], [200, 0, 0], [500, 60, 0], [740, 60, 55], [900, 60, 55]]
+S_WELL: Stations = [[0, 0, 0], [150, 0, 0], [450, 70, 30], [650, 70, 30], [950, 5, 30], [1000, 5, 30]]
+PAST_HORIZONTAL: Stations = [[0, 0, 0], [100, 0, 0], [500, 95, 350], [800, 100, 10], [1000, 88, 20]]
 
 
 def holes() -> dict[str, Case]:
@@ -39,16 +41,17 @@ def holes() -> dict[str, Case]:
     }
 
 
-def frames(count: int) -> pd.DataFrame:
-    """Points of all holes, ``count`` in each, in random order, with their exact contacts.
+def frames(count: int, names: Collection[str] | None = None) -> pd.DataFrame:
+    """Points of the holes named, by default all, ``count`` in each, in random order, with their exact contacts.
 
     Columns: hole, x_m, y_m, z_m (north, east, down), radius_m, penetration_m (negative is clearance), normal_x,
     normal_y, normal_z (from the axis to the wall), md_m.
     """
-    rng = np.random.default_rng(SEED)
     parts = []
     for name, case in holes().items():
-        hole = build_wellbore(case)
+        if names is not None and name not in names:
+            continue
+        hole, rng = build_wellbore(case), np.random.default_rng(SEED)
         md, angle = rng.uniform(5.0, hole.total_depth - 5.0, count), rng.uniform(0, 2 * np.pi, count)
         axis, tangent = hole.at(md)
         high, right = hole_frame(tangent)
@@ -83,9 +86,9 @@ def read(path: Path) -> tuple[pd.DataFrame, dict[str, Case]]:
     return table.to_pandas(use_threads=False), {name: Case.model_validate(raw) for name, raw in cases.items()}
 
 
-def _case(name: str, stations: list[list[float]], diameter: float, washed_out: bool = False) -> Case:
+def _case(name: str, stations: Stations, diameter: float, washed_out: bool = False) -> Case:
     bottom = stations[-1][0]
-    hole = {
+    hole: dict[str, Any] = {
         "stations": stations, "geometry": "sampled" if washed_out else "arcs",
         "intervals": [{"to_md": bottom, "diameter": diameter, "friction": 0.2, "kind": "open"}],
     }  # fmt: skip

@@ -43,6 +43,7 @@ STUDIES: dict[str, str] = {
     "segment_count": "validation.studies.segment_count",
     "refine": "validation.studies.refine",
     "contact_accuracy": "validation.studies.contact_accuracy",
+    "contact_fronts": "validation.studies.contact_fronts",
     "contact_swap": "validation.studies.contact_swap",
     "mesh_torque": "validation.studies.mesh_torque",
     "engines_agree": "validation.studies.engines_agree",

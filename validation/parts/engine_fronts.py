@@ -1,6 +1,6 @@
 """Errors of an engine on one window of one string: against truth, against itself, and against a shifted start."""
 
-from collections.abc import Collection
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -11,31 +11,30 @@ from fctd.mechanics import state
 from fctd.simulation.run import Run
 from references import engines
 from references.engines import EngineRun, Stepper, StringEngine, Window
-from references.engines.run import InWindows, late, run_window
+from references.engines.run import late
 from validation.cases import load, rotation
 from validation.harness.study import Rows, table_of_rows
 
 BIT = 2450.0
 FINER = 16  # steps of the finer run in one of an engine's own
 SHIFT = 1e-6  # of the start [m]
+PERIODS = 3.8  # two periods of the chain's twist [s], over which a mean keeps none of its swing
 LOADS = {"hookload": "hookload_N", "torque": "surface_torque_N_m"}
 
 
-class Shifted(InWindows):
+def shifted(name: str) -> StringEngine:
     """An engine whose string starts a micrometre aside, every second segment the other way."""
+    engine = engines.engine_class(name)
 
-    name, honours = "shifted", ()
+    class Shifted(engine):  # type: ignore[misc, valid-type]
+        def begin(self, run: Run) -> Stepper:
+            places = state.row(run.S, state.X, run.segments)
+            places += SHIFT * np.where(np.arange(run.segments) % 2, 1.0, -1.0)
+            begun: Stepper = super().begin(run)
+            return begun
 
-    def __init__(self, engine: StringEngine) -> None:
-        self._engine = engine
-        self.name: str = engine.name  # type: ignore[misc]
-        self.honours: Collection[str] = engine.honours  # type: ignore[misc]
-
-    def begin(self, run: Run) -> Stepper:
-        """See ``StringEngine.begin``."""
-        places = state.row(run.S, state.X, run.segments)
-        places += SHIFT * np.where(np.arange(run.segments) % 2, 1.0, -1.0)
-        return self._engine.begin(run)
+    made: StringEngine = Shifted(engines.REGISTRY.options(name, {}))
+    return made
 
 
 def the_case(window: Window) -> Case:
@@ -45,8 +44,8 @@ def the_case(window: Window) -> Case:
 
 
 @table_of_rows
-def engine_errors(names: dict[str, tuple[str, dict[str, Any]]], window: Window) -> Rows:
-    """A row per engine, name in the table -> engine and options.
+def engine_errors(names: Iterable[tuple[str, str]], window: Window) -> Rows:
+    """A row per engine: its name in the table, and its name in the registry.
 
     Differences in percent of hook load and torque: of a run from the steady solver's answer; from the same engine at a
     sixteenth of its step; and of a run whose start is shifted from one whose start is not.
@@ -54,29 +53,16 @@ def engine_errors(names: dict[str, tuple[str, dict[str, Any]]], window: Window) 
     case = the_case(window)
     steady = equilibrium(case, "rotate_off_bottom", BIT)
     truth = pd.Series({"hookload": steady.hookload, "torque": steady.surface_torque})
-    for label, (name, options) in names.items():
-        own = engines.build(name, **options).run(case, window)
-        fine = engines.build(name, **(options | {"step": own.step / FINER})).run(case, window)
-        shifted = run_window(case, window, Shifted(engines.build(name, **options)))
-        loads, finer, aside = (_loads(run) for run in (own, fine, shifted))
+    for label, name in names:
+        own = engines.build(name).run(case, window)
+        fine = engines.build(name, step=own.step / FINER).run(case, window)
+        loads, finer, aside = (_loads(run) for run in (own, fine, shifted(name).run(case, window)))
         row: dict[str, Any] = {"engine": label, "status": own.status, "failed": own.message, "step_ms": 1e3 * own.step}
         for load_name in LOADS:
             row[f"{load_name}_off_truth_percent"] = 100 * (loads[load_name] / truth[load_name] - 1)
             row[f"{load_name}_off_itself_percent"] = 100 * (loads[load_name] / finer[load_name] - 1)
             row[f"{load_name}_spread_percent"] = 100 * (aside[load_name] / loads[load_name] - 1)
-        steps = len(own.profile) and own.steps
-        yield row | {
-            "finer_status": fine.status,
-            "us_per_segment_step": 1e6 * own.wall_s / max(steps * case_segments(case), 1),
-            "real_time_factor": window.duration / own.wall_s,
-            "wall_s": own.wall_s,
-            "finer_wall_s": fine.wall_s,
-        }
-
-
-def case_segments(case: Case) -> int:
-    """Segments of a case with one component that is given in segments."""
-    return int(case.string.components[0].segments or 0)
+        yield row | {"finer_status": fine.status, "wall_s": own.wall_s, "finer_wall_s": fine.wall_s}
 
 
 def _loads(run: EngineRun) -> pd.Series:
