@@ -14,12 +14,14 @@ OUT = study.ROOT / "reports" / "out"
 app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
 
 
-@app.command()
-def main() -> None:
+@app.callback(invoke_without_command=True)
+def main(context: typer.Context) -> None:
     """Write reports/out/index.html and print where it is; exit code 1 when a result could not be read or drawn.
 
     2: a package is missing, or the folder cannot be written.
     """
+    if context.invoked_subcommand is not None:
+        return
     try:
         from reports import page
     except ModuleNotFoundError as error:
@@ -41,6 +43,15 @@ def main() -> None:
         typer.echo(printable_lines(problem), err=True)
     typer.echo(printable_lines(f"report: {OUT / 'index.html'}"))
     raise typer.Exit(1 if problems else 0)
+
+
+@app.command("which-contact")
+def which() -> None:
+    """Write docs/which_contact.md: which contact method to take for which need, by the stored results."""
+    from reports import which_contact
+
+    which_contact.write_guide(study.RESULTS)
+    typer.echo(printable_lines(f"guide: {which_contact.GUIDE}"))
 
 
 if __name__ == "__main__":

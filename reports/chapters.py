@@ -13,11 +13,13 @@ from validation.harness.store import Record
 FILE = Path(__file__).with_name("chapters.toml")
 
 
-class _Table(BaseModel):
+class Strict(BaseModel):
+    """A table of a file whose every key is known."""
+
     model_config = ConfigDict(frozen=True, extra="forbid")
 
 
-class Sentence(_Table):
+class Sentence(Strict):
     """A sentence of an answer; numbers : study and name of the check, for ``{0}`` and so on."""
 
     says: str
@@ -41,7 +43,7 @@ class Sentence(_Table):
         return self.says.format(*values)
 
 
-class Chapter(_Table):
+class Chapter(Strict):
     """A chapter; picture : STUDY/FIGURE."""
 
     id: str
@@ -52,7 +54,7 @@ class Chapter(_Table):
     sentence: tuple[Sentence, ...]
 
 
-class PaperFigure(_Table):
+class PaperFigure(Strict):
     """A figure of the paper; ours : STUDY/FIGURE, or a study that has tables alone."""
 
     figure: int
@@ -60,7 +62,7 @@ class PaperFigure(_Table):
     ours: str
 
 
-class Contents(_Table):
+class Contents(Strict):
     """The content of ``chapters.toml``."""
 
     chapter: tuple[Chapter, ...]

@@ -7,7 +7,7 @@ from typing import Any
 import jinja2
 
 from fctd.store.whole_folder import whole_folder
-from reports import chapters, results, wells, words
+from reports import chapters, results, wells, which_contact, words
 from reports.claims import LOOKS, judged
 from reports.figures import Tables
 from reports.figures.judged import WELLS
@@ -29,7 +29,7 @@ def render(
 ) -> list[str]:
     """Write the pages, ``figures`` and ``results.json`` into a folder; return what is missing.
 
-    Pages: ``index.html``, ``claims.html``, ``wells.html`` and those of ``studies``.
+    Pages: ``index.html``, ``claims.html``, ``wells.html``, ``which_contact.html`` and those of ``studies``.
 
     A folder of that name is replaced at the end, as a whole: an interruption leaves the pages before.
 
@@ -80,6 +80,7 @@ def _render(
         "findings": [(section, judged) for section in sections.values() for judged in section.findings],
         "absent": [section for section in sections.values() if section.absent],
         "machine": _machine(sections),
+        "which": which_contact.table(stored),
     }
     _write_pages(out, given)
     results.write(sections.values(), claims, out)
@@ -111,6 +112,7 @@ def _write_pages(out: Path, given: Mapping[str, Any]) -> None:
     write("index.html", "index.html")
     write("claims.html", "claims.html")
     write("wells.html", "wells.html")
+    write("which_contact.html", "which_contact.html")
     for section in given["sections"].values():
         write("study.html", f"studies/{section.study}.html", section=section)
 

@@ -1,0 +1,48 @@
+"""Fronts of contact methods: what accuracy costs, over every method's settings."""
+
+import pandas as pd
+from matplotlib.axes import Axes
+
+from reports import words
+from reports.figures import Tables, figure, style
+
+# Errors smaller than this are drawn here: the exact ones have no place on a logarithmic axis [mm, %].
+LEAST_MM, LEAST_PERCENT = 1e-3, 1e-3
+# More methods than colours: a second round of them has empty markers.
+COLOURS = 6
+
+
+@figure(
+    "contact_fronts",
+    "rival_contact",
+    name="fronts",
+    caption=(
+        "Every contact method over its settings: cost of a point in a call with 1000 of them against the root mean "
+        "square error of its penetration (left), and against the change of a turning string's torque (right). The wide "
+        "grey line joins the settings that no other one beats in both; errors below a thousandth stand at the bottom."
+    ),
+)
+@style.panels(5.2, 1, 2, sharex=True)
+def fronts(tables: Tables, distance: Axes, torque: Axes) -> None:
+    """Error of penetration and of torque against the cost of a point, a line for each method."""
+    table = tables["fronts"].dropna(subset="ns_1000").sort_values("ns_1000")
+    for ax, column, least in (
+        (distance, "rms_error_mm", LEAST_MM),
+        (torque, "torque_off_percent", LEAST_PERCENT),
+    ):
+        rows = table.dropna(subset=column)
+        rows = rows.assign(error=rows[column].abs().clip(lower=least))
+        if ax is distance:
+            best = rows[rows["pareto"]].sort_values("ns_1000")
+            ax.plot(best["ns_1000"], best["error"], color=style.QUIET, linewidth=4, alpha=0.5, label="front")
+        for index, method in enumerate(table["method"].unique()):
+            _series(ax, rows[rows["method"] == method], index, words.name(str(method)))
+        ax.set(xscale="log", yscale="log", xlabel="time of a point, ns")
+    distance.set_ylabel("error of penetration, mm (root mean square)")
+    torque.set_ylabel("change of torque, %")
+    style.legend_outside(distance, columns=5)
+
+
+def _series(ax: Axes, rows: pd.DataFrame, index: int, label: str) -> None:
+    look = style.marked(index) | {"markerfacecolor": "white" if index >= COLOURS else style.COLOURS[index % COLOURS]}
+    ax.plot(rows["ns_1000"], rows["error"], **look | {"linewidth": 1.0}, label=label)

@@ -1,0 +1,217 @@
+"""Which contact method to take: a row for each need, with numbers from stored results; for the page and the guide."""
+
+import hashlib
+import tomllib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any, Literal
+
+import pandas as pd
+
+from fctd.case.errors import InputError
+from references import contact, engines, packages
+from reports import words
+from reports.chapters import Strict
+from validation.harness import store
+from validation.harness.store import Record
+
+FILE = Path(__file__).with_name("which_contact.toml")
+GUIDE = Path(__file__).parents[1] / "docs" / "which_contact.md"
+COMMAND = "python -m reports which-contact"
+# The mark at the end of the guide; a text that was written otherwise has another digest.
+MARK = "<!-- written by `{command}`, digest {digest} -->"
+STUDIES = ("contact_fronts", "rival_contact", "rival_engines", "washed_out_hole", "sticking", "sweep")
+HEADINGS = ("need", "method", "setting", "cost", "error in torque", "precision", "licence, size", "Python", "trap")
+
+Source = tuple[str, str] | tuple[str, str, str, str, str]
+
+
+class Need(Strict):
+    """A need and what to take for it.
+
+    costs, errors : for ``{0}`` and so on in the text before, a check (study, name) or a cell of a table (study, table,
+    name of the row, column, unit).  take : a name of the registry, or ``own``.
+    """
+
+    need: str
+    kind: Literal["contact", "engine"]
+    take: str
+    setting: str
+    cost: str
+    costs: tuple[Source, ...]
+    error: str
+    errors: tuple[Source, ...]
+    precision: str
+    trap: str
+
+
+class _Needs(Strict):
+    row: tuple[Need, ...]
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table as text, and what it was made of: dates, machines and commits."""
+
+    headings: tuple[str, ...]
+    rows: list[tuple[str, ...]]
+    origins: list[str]
+
+
+@cache
+def needs() -> tuple[Need, ...]:
+    """The rows of ``which_contact.toml``.  Raises InputError for a method or an engine that no registry has."""
+    found = _Needs.model_validate(tomllib.loads(FILE.read_text(encoding="utf-8"))).row
+    for each in found:
+        if each.take != "own" and each.take not in _registry(each).names():
+            raise InputError("a name of a registry, or own", key=f"take, for {each.need!r}", value=each.take)
+    return found
+
+
+class Results:
+    """Stored results by study: records and tables, read once."""
+
+    def __init__(self, folder: Path) -> None:
+        self.records: dict[str, Record] = {}
+        self.tables: dict[str, dict[str, pd.DataFrame]] = {}
+        for study in STUDIES:
+            try:
+                record = store.read(folder / study)
+                self.records[study], self.tables[study] = record, store.read_tables(folder / study, record)
+            except (OSError, ValueError, TypeError, LookupError):
+                continue  # its numbers are said to be missing
+
+    def quantity(self, source: Source) -> str:
+        """A number with its unit, or that it has not been measured and how to do so."""
+        study = source[0]
+        if len(source) == 2:
+            checks = (
+                {judged.check.name: judged.check for judged in self.records[study].checks} if self._has(study) else {}
+            )
+            if source[1] in checks:
+                return words.quantity(checks[source[1]].value, checks[source[1]].unit)
+        else:
+            _, table, key, column, unit = source
+            rows = self.tables.get(study, {}).get(table, pd.DataFrame())
+            found = rows[rows.iloc[:, 0] == key] if len(rows) else rows
+            if len(found) and column in found and pd.notna(found[column].iloc[0]):
+                return words.quantity(float(found[column].iloc[0]), unit)
+        return f"(not measured yet: {study})"
+
+    def _has(self, study: str) -> bool:
+        return study in self.records
+
+    def origins(self) -> list[str]:
+        """For each study: day, machine, commit, and whether the run was quick."""
+        return [
+            f"{study}: {record.date[:10]}, {record.provenance.cpu}, {record.provenance.cores} cores, commit "
+            f"{record.provenance.commit}, {'quick' if record.quick else 'full'} run"
+            for study, record in self.records.items()
+        ]
+
+
+def table(folder: Path) -> Table:
+    """The needs with their numbers from the results in a folder."""
+    results = Results(folder)
+    rows: list[tuple[str, ...]] = []
+    for each in needs():
+        cost, error = (
+            text.format(*map(results.quantity, sources))
+            for text, sources in ((each.cost, each.costs), (each.error, each.errors))
+        )
+        method = "FCTD itself" if each.take == "own" else f"`{each.take}`"
+        rows.append((each.need, method, each.setting, cost, error, each.precision, *_package(each, results), each.trap))
+    return Table(HEADINGS, rows, results.origins())
+
+
+def fronts(folder: Path) -> Table:
+    """Every setting of every method that has been measured, in the order of the studies."""
+    results = Results(folder)
+    columns = ["setting", "single_us", "ns_1000", "max_error_mm", "max_angle_deg", "torque_off_percent", "memory_MB"]
+    found = [of["fronts"] for of in results.tables.values() if "fronts" in of]
+    rows = pd.concat(found, ignore_index=True).reindex(columns=columns) if found else pd.DataFrame(columns=columns)
+    headings = [
+        " ".join(filter(None, (label, f"[{unit}]" if unit else ""))) for label, unit in map(words.heading, columns)
+    ]
+    return Table(tuple(headings), list(zip(*(words.column(rows[name]) for name in columns), strict=True)), [])
+
+
+def write_guide(folder: Path) -> None:
+    """Write ``docs/which_contact.md`` from the results in a folder."""
+    text = guide(table(folder), fronts(folder))
+    GUIDE.write_text(text + mark(text) + "\n", encoding="utf-8")
+
+
+def guide(chosen: Table, measured: Table) -> str:
+    """The guide without its mark."""
+    origins = "".join(f"- {line}\n" for line in chosen.origins)
+    return (
+        "# Which contact method?\n\n"
+        f"`{COMMAND}` writes this page from stored results; no number of it is written by hand.\n\n"
+        f"{_markdown(chosen)}\n"
+        "An error in torque is that of the curved chain turning, against the engine's own arcs over the same window.\n"
+        "Size is that of a package with what it needs beside FCTD's own packages. `make rivals` installs `embree`,\n"
+        "`warp`, `rapier` and `exudyn` in an environment of their own.\n\n"
+        "## Every setting\n\n"
+        f"{_markdown(measured)}\n"
+        "## Measured on\n\n"
+        f"{origins}\n"
+        f"{NOT_TAKEN}\n"
+    )
+
+
+def mark(text: str) -> str:
+    """The mark that belongs to the text of a guide."""
+    return MARK.format(command=COMMAND, digest=hashlib.sha256(text.encode()).hexdigest()[:16])
+
+
+NOT_TAKEN = """## Tried, and not taken
+
+- Open3D: single precision and 945 MB, slower than libigl in single calls.
+- MeshLib: licensed for evaluation and non-commercial use alone.
+- VTK: a Python loop over points, 566 MB, 100 times the cost of a ray of Embree.
+- point-cloud-utils: it builds its tree anew in every call.
+- pysdf: no wheel; it fails to build and takes the whole installation with it.
+- ovphysx: 623 MB, its licence binds it to one vendor's platform, and it changes the versions of other packages.
+- openseespy: its licence forbids commercial redistribution, and it has no pipe in a pipe.
+- Genesis: 30 packages in single precision; its claims of speed were disputed.
+- Drake: its last wheel for Python 3.11 is old, and its meshes have to be closed, which a hole is not.
+"""
+
+
+def _registry(need: Need) -> Any:
+    return contact.REGISTRY if need.kind == "contact" else engines.REGISTRY
+
+
+def _package(need: Need, results: Results) -> tuple[str, str]:
+    """Licence with installed size, and Pythons; of a package that is not installed here, from a study that had it."""
+    if need.take == "own":
+        return "FCTD's own", _span(packages.PYTHONS)
+    about = packages.about(_registry(need).find(need.take).distribution)
+    if about.distribution == packages.OWN:
+        return "FCTD's own", _span(about.pythons)
+    if about.version is None:
+        about = _stored(about, results.tables.values())
+    if about.version is None or about.installed_mb is None:
+        return f"{about.distribution}: not installed", _span(about.pythons)
+    return f"{about.licence}, {about.installed_mb:.0f} MB", _span(about.pythons)
+
+
+def _stored(about: packages.Package, tables: Iterable[Mapping[str, pd.DataFrame]]) -> packages.Package:
+    for of in tables:
+        rows = of.get("packages", pd.DataFrame(columns=["distribution", "version"]))
+        found = rows[(rows["distribution"] == about.distribution) & rows["version"].notna()]
+        for _, row in found.head(1).iterrows():
+            return about._replace(version=row["version"], licence=row["licence"], installed_mb=row["installed_mb"])
+    return about
+
+
+def _span(pythons: tuple[str, ...]) -> str:
+    return pythons[0] if len(pythons) == 1 else f"{pythons[0]} to {pythons[-1]}"
+
+
+def _markdown(of: Table) -> str:
+    lines = [of.headings, ["---"] * len(of.headings), *of.rows]
+    return "".join(f"| {' | '.join(cell.replace('|', '/') for cell in line)} |\n" for line in lines)
