@@ -34,7 +34,7 @@ class Warp(SinglePrecision):
     Options: ClassVar[type[Table]] = WarpOptions
 
     def __init__(self, case: Case, options: WarpOptions) -> None:
-        self._warp = warp = quiet(need("warp", self.name))
+        self._warp = warp = plain(need("warp", self.name))
         if options.device == "cuda" and not warp.is_cuda_available():
             raise InputError('"cpu", since there is no GPU of CUDA', key="device", value=options.device)
         super().__init__(case, options)
@@ -59,9 +59,9 @@ class Warp(SinglePrecision):
         return origins + near.numpy(), self.chunks.first_faces[chunk] + faces.numpy()
 
 
-def quiet(warp: Any) -> Any:
-    """Warp without the lines that it prints about itself."""
-    warp.config.log_level = warp.LOG_ERROR
+def plain(warp: Any) -> Any:
+    """Warp without lines about itself, and without derivatives, for which it compiles twice as long."""
+    warp.config.log_level, warp.config.enable_backward = warp.LOG_ERROR, False
     return warp
 
 

@@ -140,12 +140,12 @@ def footprints(context: Context, case: Case, names: list[str]) -> Rows:
         yield {"method": name, "pieces": contact.build(name, case).pieces, "memory_MB": memory, "build_s": seconds}
 
 
-def tried(missing: list[str]) -> pd.DataFrame:
+def tried() -> pd.DataFrame:
     """The usual calls of a library that give wrong results."""
     at = traps.scene()
     rows = [
         {
-            "package": contact.method_class(trap.method).distribution,
+            "package": trap.distribution,
             "tried": trap.tried,
             "what_is_measured": trap.measure.__doc__.splitlines()[0] if trap.measure.__doc__ else "",
             "found": traps.measure(trap, at),
@@ -153,7 +153,7 @@ def tried(missing: list[str]) -> pd.DataFrame:
             "used_instead": trap.instead,
         }
         for trap in traps.TRAPS
-        if trap.method not in missing
+        if traps.installed(trap)
     ]
     return pd.DataFrame(rows)
 
@@ -174,7 +174,7 @@ def run(context: Context) -> Outcome:
     for column in ("max_penetration_error_mm", "max_angle_error_deg"):
         cost[column] = cost["setting"].map(bends[column].max())
     raced = [name for name in contact.METHODS if name not in missing]
-    trapped = tried(missing)
+    trapped = tried()
     return Outcome(
         tables={
             "errors": errors,
