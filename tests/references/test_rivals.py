@@ -4,12 +4,11 @@ import sys
 from importlib.metadata import PackageNotFoundError, version
 
 import pytest
-from typer.testing import CliRunner
 
 from fctd.case.errors import InputError
 from references import contact, registry
-from references.__main__ import app
 from references.rivals import METHODS
+from tests.references.listing import listed
 from tests.references.wells import bent_case
 
 
@@ -29,14 +28,13 @@ def without_rivals(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.usefixtures("without_rivals")
 def test_rivals_that_are_not_installed_are_listed() -> None:
-    done = CliRunner().invoke(app, ["list"], terminal_width=300)
-    lines = done.output.splitlines()
+    found = listed()
     for name in METHODS:
         distribution = contact.method_class(name).distribution
-        (row,) = (line for line in lines if line.startswith(f"│ {name} "))
+        (row,) = (line for line in found.splitlines() if line.startswith(f"│ {name} "))
         assert [cell.strip() for cell in row.split("│")[2:4]] == [distribution, "not installed"]
         told = f"Package {distribution}, which is not installed ('make rivals' installs it in an environment of its own"
-        assert told in " ".join(done.output.split())
+        assert told in found
 
 
 @pytest.mark.usefixtures("without_rivals")
