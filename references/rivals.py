@@ -4,6 +4,10 @@ Their classes can be imported without their packages.  A rival that is not insta
 lists and tables.  Nothing of the suite imports this module: registries find it by name, studies of rivals import it.
 """
 
-METHODS: dict[str, str] = {}
+METHODS: dict[str, str] = {
+    "embree": "references.contact.embree:Embree",
+    "warp": "references.contact.warp:Warp",
+    "rapier": "references.contact.rapier:Rapier",
+}
 
 ENGINES: dict[str, str] = {}

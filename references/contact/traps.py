@@ -15,11 +15,12 @@ from references.contact import bullet as bullet_method
 from references.contact import coal as coal_method
 from references.contact import fcl as fcl_method
 from references.contact import mujoco as mujoco_method
-from references.contact import need
 from references.contact.tube_mesh import Tube, TubeOptions, build_tube
+from references.registry import import_optional, version_of
 
 RADIUS = 0.051  # of the string [m]
-STATIONS = ((0.0, 0.0, 0.0), (40.0, 8.0, 0.0))  # a bend of 286 m radius
+Stations = tuple[tuple[float, float, float], ...]
+STATIONS: Stations = ((0.0, 0.0, 0.0), (40.0, 8.0, 0.0))  # a bend of 286 m radius
 HOLE = 0.3112  # diameter [m]
 
 
@@ -34,26 +35,27 @@ class Scene(NamedTuple):
 
 
 class Trap(NamedTuple):
-    """The call that fails, the contact method, a function that measures the error, its unit, and the remedy."""
+    """The call that fails, package and module of it, a function that measures the error, its unit, and the remedy."""
 
     tried: str
-    method: str
+    distribution: str
+    module: str
     measure: Callable[[Any, Scene], float]
     unit: str
     instead: str
 
 
-def scene(count: int = 150) -> Scene:
-    """A bent tube and seeded points that press up to 10 mm into its wall."""
+def scene(count: int = 150, stations: Stations = STATIONS) -> Scene:
+    """A tube, bent if not told otherwise, and seeded points that press up to 10 mm into its wall."""
+    end = stations[-1][0]
     hole_spec = {
-        "stations": STATIONS, "geometry": "arcs",
-        "intervals": [{"to_md": STATIONS[-1][0], "diameter": HOLE, "friction": 0.2}],
+        "stations": stations, "geometry": "arcs", "intervals": [{"to_md": end, "diameter": HOLE, "friction": 0.2}],
     }  # fmt: skip
     pipe = {"name": "pipe", "outer_diameter": 2 * RADIUS, "inner_diameter": 0.06, "segments": 4}
     case = Case.model_validate({"name": "bend", "wellbore": hole_spec, "string": {"components": [pipe]}})
     hole = build_wellbore(case)
     rng = np.random.default_rng(11)
-    md, angle = rng.uniform(3.0, 37.0, count), rng.uniform(0, 2 * np.pi, count)
+    md, angle = rng.uniform(3.0, end - 3.0, count), rng.uniform(0, 2 * np.pi, count)
     points = hole.off_axis(md, angle, 0.5 * HOLE - RADIUS + rng.uniform(0.003, 0.010, count))
     hits = find_contacts(hole, points, RADIUS)
     return Scene(build_tube(case, TubeOptions()), points, hits.penetration, hits.normal, hole.at(md)[1])
@@ -140,22 +142,41 @@ def mujoco_fixed_sphere(mujoco: Any, at: Scene) -> float:
 
 
 TRAPS = (
-    Trap("a capsule along the string", "fcl", fcl_capsule, "m", "a sphere at the contact point"),
-    Trap("one contact asked for (the default)", "fcl", fcl_first_contact, "mm", "all contacts, the deepest taken"),
-    Trap("distance of a penetrating sphere", "fcl", fcl_penetrating_distance, "%", "distance of its centre"),
-    Trap("distance of a penetrating sphere", "coal", coal_penetrating_distance, "mm", "distance of its centre"),
+    Trap("a capsule along the string", "python-fcl", "fcl", fcl_capsule, "m", "a sphere at the contact point"),
+    Trap(
+        "one contact asked for (the default)",
+        "python-fcl",
+        "fcl",
+        fcl_first_contact,
+        "mm",
+        "all contacts, the deepest taken",
+    ),
+    Trap(
+        "distance of a penetrating sphere",
+        "python-fcl",
+        "fcl",
+        fcl_penetrating_distance,
+        "%",
+        "distance of its centre",
+    ),
+    Trap("distance of a penetrating sphere", "coal", "coal", coal_penetrating_distance, "mm", "distance of its centre"),
     Trap(
         "a sphere off its body's origin",
-        "bullet",
+        "pybullet",
+        "pybullet",
         bullet_offset_sphere,
         "%",
         "nothing: queries see it, steps may not",
     ),
-    Trap("fixed (mocap) spheres", "mujoco", mujoco_fixed_sphere, "%", "bodies with free joints, set by hand"),
+    Trap("fixed (mocap) spheres", "mujoco", "mujoco", mujoco_fixed_sphere, "%", "bodies with free joints, set by hand"),
 )
 
 
 def measure(trap: Trap, at: Scene) -> float:
     """The number of a trap; InputError where its package is not installed."""
-    modules = {"fcl": "fcl", "coal": "coal", "bullet": "pybullet", "mujoco": "mujoco"}
-    return trap.measure(need(modules[trap.method], trap.method), at)
+    return trap.measure(import_optional(trap.module, trap.distribution, trap.tried, "contact"), at)
+
+
+def installed(trap: Trap) -> bool:
+    """Whether the package of a trap is installed."""
+    return version_of(trap.distribution) is not None

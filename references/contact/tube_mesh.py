@@ -77,18 +77,39 @@ class Tube:
     def md_of(self, faces: NDArray[np.int64], points: Array) -> Array:
         """Measured depths (n,) [m] of points (n, 3) beside faces (n,)."""
         ring = np.clip(faces // (2 * self.facets), 0, len(self.md) - 2)
-        start, span = self.centres[ring], self.centres[ring + 1] - self.centres[ring]
-        share = np.sum((points - start) * span, axis=1) / np.sum(span * span, axis=1)
-        return np.asarray(self.md[ring] + share * (self.md[ring + 1] - self.md[ring]))
+        return np.asarray(self.md[ring] + self._share(ring, points) * (self.md[ring + 1] - self.md[ring]))
 
     def md_near(self, points: Array) -> Array:
         """Measured depths (n,) [m] of points (n, 3) whose faces are not known."""
+        return self.md_of(2 * self.facets * self.ring_above(points), points)
+
+    def ring_above(self, points: Array) -> NDArray[np.int64]:
+        """The ring (n,) above each of the points (n, 3): each lies between this one and the next."""
         _, ring = self._rings.query(points)
         before = np.clip(ring - 1, 0, None)
         start = self.centres[ring]
         ahead = np.sum((points - start) * (start - self.centres[before]), axis=1) >= 0
-        between = np.where(ahead, ring, before)
-        return self.md_of(2 * self.facets * between, points)
+        return np.minimum(np.where(ahead, ring, before), len(self.md) - 2)
+
+    def axis_beside(self, ring: NDArray[np.int64], points: Array) -> Array:
+        """Feet (n, 3) of points (n, 3) on the chords of the axis below rings (n,)."""
+        span = self.centres[ring + 1] - self.centres[ring]
+        return np.asarray(self.centres[ring] + self._share(ring, points)[:, None] * span)
+
+    def _share(self, ring: NDArray[np.int64], points: Array) -> Array:
+        """Where points (n, 3) lie between rings (n,) and the next ones, as a share of the distance."""
+        start = self.centres[ring]
+        span = self.centres[ring + 1] - start
+        return np.asarray(np.sum((points - start) * span, axis=1) / np.sum(span * span, axis=1))
+
+    def face_beside(self, ring: NDArray[np.int64], points: Array) -> NDArray[np.int64]:
+        """A face (n,) of the facet that points (n, 3) below rings (n,) face, seen from the axis."""
+        span, offset = self.centres[ring + 1] - self.centres[ring], points - self.axis_beside(ring, points)
+        across = np.asarray(self.mesh.vertices)[ring * self.facets] - self.centres[ring]
+        aside = np.cross(span / np.linalg.norm(span, axis=1)[:, None], across)
+        turn = np.arctan2(np.sum(offset * aside, axis=1), np.sum(offset * across, axis=1)) % (2 * np.pi)
+        facet = np.minimum((turn * self.facets / (2 * np.pi)).astype(np.int64), self.facets - 1)
+        return np.asarray(2 * (ring * self.facets + facet))
 
     def contacts(self, points: Array, radii: Array, near: Array, faces: NDArray[np.int64]) -> Contacts:
         """Contacts of points whose nearest points on the mesh (n, 3) and their faces (n,) are known."""

@@ -4,13 +4,12 @@ import textwrap
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
 
 import fctd
 from references import contact, engines
-from references.__main__ import app
 from references.engines import Window
 from tests.references.engines.turning import turning
+from tests.references.listing import listed
 
 METHOD = """
     from fctd.case.errors import Table
@@ -39,10 +38,6 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder whose modules can be imported."""
     monkeypatch.syspath_prepend(tmp_path)
     return tmp_path
-
-
-def listed() -> str:
-    return CliRunner().invoke(app, ["list"], terminal_width=200).output.replace("\n", "")
 
 
 def test_a_contact_method_is_one_class_and_one_line(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -7,20 +7,14 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from fctd import Case, InputError, build_wellbore, find_contacts
+from fctd import Case, InputError
 from references import contact
 from references.contact import traps
 from references.timing.footprint import footprint
 from references.timing.stopwatch import machine_table, race
-from validation.cases import load
 from validation.harness.study import Check, Context, Outcome, Rows, Study, left_out, table_of_rows
+from validation.parts.wall_points import RADIUS, errors_of, label, points_in, the_case, tried
 
-RADIUS = 0.051  # contact radius of the pipe [m]
-HOLE = 0.1556  # hole radius [m]
-BAND = 0.015  # points lie within this distance of touching [m]
-# Vertical, a build and then a turn of 286 m radius (20°/100 m, as sharp as the paper's), and straight hole.
-STATIONS = [[0, 0, 0], [200, 0, 0], [500, 60, 0], [740, 60, 55], [900, 60, 55]]
-REGIONS = {"straight": (10.0, 190.0), "build": (205.0, 495.0), "turn in space": (505.0, 735.0)}
 BASELINE = "cylinders, 2 m"
 
 
@@ -36,73 +30,6 @@ def settings(quick: bool) -> Iterator[tuple[str, dict[str, Any]]]:
             yield from ((name, {"cylinder_length": each, "overlap": min(0.2, 0.5 * each)}) for each in lengths)
         else:
             yield name, {}
-
-
-def label(name: str, options: dict[str, Any]) -> str:
-    """The name of a setting in tables and figures."""
-    if "facets" in options:
-        return f"{name}, {options['facets']} facets, {options['ring_spacing']:g} m"
-    return f"{name}, {options['cylinder_length']:g} m" if options else name
-
-
-def the_case() -> Case:
-    """The hole of exact arcs; the meshes and the cylinders are made from it."""
-    size = [{"to_md": STATIONS[-1][0], "diameter": 2 * HOLE, "friction": 0.2}]
-    return load(
-        "curved_chain",
-        wellbore__stations=STATIONS,
-        wellbore__intervals=size,
-        wellbore__geometry="arcs",
-        string__top_md=0.0,
-        operations=None,
-    )
-
-
-def points_in(case: Case, count: int) -> pd.DataFrame:
-    """Seeded points near the wall: a quarter in each region and a quarter where 2 m cylinders overlap in bends."""
-    exact, rng = build_wellbore(case), np.random.default_rng(20240525)
-    parts = []
-    for region in (*REGIONS, "overlap"):
-        if region == "overlap":
-            # The first 0.2 m of the cylinders of 2 m that stand for build and turn.
-            md = 200.0 + 2.0 * rng.integers(3, 265, count) + rng.uniform(0.0, 0.2, count)
-        else:
-            md = rng.uniform(*REGIONS[region], count)
-        angle = rng.uniform(0, 2 * np.pi, count)
-        offset = HOLE - RADIUS + rng.uniform(-BAND, BAND, count)
-        places = exact.off_axis(md, angle, offset)
-        parts.append(pd.DataFrame(places, columns=["x", "y", "z"]).assign(region=region, offset=offset))
-    return pd.concat(parts, ignore_index=True)
-
-
-def errors_of(method: contact.ContactMethod, points: pd.DataFrame, case: Case) -> Rows:
-    """A row for each region: contacts missed and false, errors of penetration and normal, and their bounds."""
-    places = np.ascontiguousarray(points[["x", "y", "z"]])
-    exact = find_contacts(build_wellbore(case), places, RADIUS)
-    hits = method.query(places, np.full(len(places), RADIUS))
-    for region, chosen in points.groupby("region", sort=False).indices.items():
-        depth, turn = method.error_bound(0.0 if region == "straight" else 1 / 286.479)
-        truth, found = exact.penetration[chosen], hits.penetration[chosen]
-        known = np.isfinite(found)
-        error = found[known] - truth[known]
-        cosine = np.sum(hits.normal[chosen] * exact.normal[chosen], axis=1)[known]
-        direction = np.degrees(np.arccos(np.clip(cosine, -1, 1)))
-        turned = np.degrees(turn + np.arcsin(np.minimum(depth / points["offset"].to_numpy()[chosen][known], 1)))
-        # NaN, no answer, counts as a miss.
-        missed, false = (truth > 0) & ~(found > 0), (truth <= 0) & (found > 0)
-        yield {
-            "region": region,
-            "points": len(chosen),
-            "missed_percent": 100 * float(missed.mean()),
-            "false_percent": 100 * float(false.mean()),
-            "deepest_missed_mm": 1e3 * float(truth[missed].max(initial=0.0)),
-            "max_penetration_error_mm": 1e3 * float(np.abs(error).max()),
-            "rms_penetration_error_mm": 1e3 * float(np.sqrt((error**2).mean())),
-            "bound_mm": 1e3 * depth,
-            "max_angle_error_deg": float(direction.max()),
-            "angle_over_bound": float((direction / np.maximum(turned, 1e-4)).max()),
-            "max_md_error_m": float(np.nanmax(np.abs(hits.md - exact.md)[chosen])),
-        }
 
 
 def built(context: Context, case: Case) -> tuple[dict[str, contact.ContactMethod], list[dict[str, str]], list[str]]:
@@ -140,24 +67,6 @@ def footprints(context: Context, case: Case, names: list[str]) -> Rows:
         yield {"method": name, "pieces": contact.build(name, case).pieces, "memory_MB": memory, "build_s": seconds}
 
 
-def tried(missing: list[str]) -> pd.DataFrame:
-    """The usual calls of a library that give wrong results."""
-    at = traps.scene()
-    rows = [
-        {
-            "package": contact.method_class(trap.method).distribution,
-            "tried": trap.tried,
-            "what_is_measured": trap.measure.__doc__.splitlines()[0] if trap.measure.__doc__ else "",
-            "found": traps.measure(trap, at),
-            "unit": trap.unit,
-            "used_instead": trap.instead,
-        }
-        for trap in traps.TRAPS
-        if trap.method not in missing
-    ]
-    return pd.DataFrame(rows)
-
-
 def run(context: Context) -> Outcome:
     """Errors of every setting at the same points, cost per point, memory and build time, and wrong results."""
     quick, case = context.quick, the_case()
@@ -174,7 +83,7 @@ def run(context: Context) -> Outcome:
     for column in ("max_penetration_error_mm", "max_angle_error_deg"):
         cost[column] = cost["setting"].map(bends[column].max())
     raced = [name for name in contact.METHODS if name not in missing]
-    trapped = tried(missing)
+    trapped = tried([trap for trap in traps.TRAPS if traps.installed(trap)])
     return Outcome(
         tables={
             "errors": errors,

@@ -3,27 +3,26 @@
 import pytest
 
 from fctd.case.errors import InputError
-from references import contact
 from references.contact import traps
 from references.registry import absent
 
 # Least error where the obvious way fails, far above that of the geometry (2 mm of facets and chords).
 FAILS = {
-    ("fcl", "a capsule along the string"): 0.1,
-    ("fcl", "one contact asked for (the default)"): 4.0,
-    ("fcl", "distance of a penetrating sphere"): 90.0,
+    ("python-fcl", "a capsule along the string"): 0.1,
+    ("python-fcl", "one contact asked for (the default)"): 4.0,
+    ("python-fcl", "distance of a penetrating sphere"): 90.0,
     ("coal", "distance of a penetrating sphere"): 4.0,
     ("mujoco", "fixed (mocap) spheres"): 100.0,
 }
 
 
-@pytest.mark.parametrize("trap", traps.TRAPS, ids=[f"{trap.method}-{trap.tried}" for trap in traps.TRAPS])
+@pytest.mark.parametrize("trap", traps.TRAPS, ids=[f"{trap.distribution}-{trap.tried}" for trap in traps.TRAPS])
 def test_the_obvious_way_fails_as_recorded(trap: traps.Trap) -> None:
-    if contact.installed_version(trap.method) is None:
-        pytest.skip(f"package {absent(contact.method_class(trap.method).distribution)}")
+    if not traps.installed(trap):
+        pytest.skip(f"package {absent(trap.distribution)}")
     found = traps.measure(trap, traps.scene(40))
-    if (trap.method, trap.tried) in FAILS:
-        assert found >= FAILS[trap.method, trap.tried]
+    if (trap.distribution, trap.tried) in FAILS:
+        assert found >= FAILS[trap.distribution, trap.tried]
     else:
         assert found == 0
 

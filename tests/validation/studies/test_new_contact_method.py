@@ -4,14 +4,13 @@ import textwrap
 
 import pandas as pd
 import pytest
-from typer.testing import CliRunner
 
 from references import contact
-from references.__main__ import app
 from references.timing.workloads import moving
 from reports import figures
+from tests.references.listing import listed
 from validation.harness.study import Context, silent
-from validation.parts import speed_kernel
+from validation.parts import speed_kernel, wall_points
 from validation.studies import contact_accuracy, contact_swap, speed
 
 FILE = """
@@ -63,7 +62,7 @@ def written(study, tables):
 
 
 def test_it_is_listed(toy):
-    assert "asks the engine" in CliRunner().invoke(app, ["list"], terminal_width=200).output.replace("\n", "")
+    assert "asks the engine" in listed()
 
 
 @pytest.mark.slow
@@ -72,7 +71,7 @@ def test_it_is_in_every_table_of_errors_cost_and_memory(toy, monkeypatch):
     monkeypatch.setattr(contact_accuracy.traps, "TRAPS", [])
     tables = contact_accuracy.run(Context(quick=False)).tables
     errors = tables["errors"].query("method == 'toy'")
-    assert set(errors["region"]) == {*contact_accuracy.REGIONS, "overlap"}
+    assert set(errors["region"]) == {*wall_points.REGIONS, "overlap"}
     assert errors["max_penetration_error_mm"].max() < 1e-6
     assert "toy" in set(tables["cost"]["method"])
     assert "toy" in set(tables["builds"]["method"])

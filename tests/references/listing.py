@@ -1,0 +1,13 @@
+"""What ``python -m references list`` prints."""
+
+from unittest.mock import patch
+
+from typer.testing import CliRunner
+
+from references.__main__ import app, screen
+
+
+def listed() -> str:
+    """The list on a screen wide enough for a line for each row."""
+    with patch.object(screen, "_width", 400):
+        return CliRunner().invoke(app, ["list"]).output
