@@ -166,6 +166,6 @@ def printed(table: pd.DataFrame, caption: str) -> Printed:
     names = list(map(str, table.columns))
     columns = [(*words.heading(name), pd.api.types.is_numeric_dtype(table[name])) for name in names]
     cells = [words.column(table[name]) for name in names]
-    failed = np.flatnonzero(words.failed_gate(table)) if "gate" in names else []
-    struck = {(int(row), column) for row in failed for column, name in enumerate(names) if name in words.SPEEDS}
+    failed = np.flatnonzero(words.failed_gate(table)).tolist() if "gate" in names else []
+    struck = {(row, column) for row in failed for column, name in enumerate(names) if name in words.SPEEDS}
     return Printed(caption, columns, list(zip(*cells, strict=True)), frozenset(struck))

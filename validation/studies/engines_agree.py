@@ -33,7 +33,7 @@ ENGINES: dict[str, tuple[str, dict[str, Any]]] = {
     "MuJoCo, default": ("mujoco", {"settings": "default"}),
     "PyElastica": ("elastica", {}),
 }
-CHAIN = {"MuJoCo ball chain": ("mujoco_chain", {})}  # hangs freely alone
+CHAIN: dict[str, tuple[str, dict[str, Any]]] = {"MuJoCo ball chain": ("mujoco_chain", {})}  # hangs freely alone
 SOLVER, BY_SIMILARITY = "steady solver", "steady solver, full size by similarity"
 STEPPER = "FCTD's stepper, at its own size"
 FAIR = ("Bullet", "MuJoCo", "PyElastica")

@@ -115,6 +115,7 @@ def test_positions_in_single_precision_do_not_fall_at_depth() -> None:
 def test_a_string_that_sleeps_is_found() -> None:
     names = broken(Faulty(stepper=Asleep))
     assert {"speed of the timed string", "contact force of the timed string", "error of the fall at 0 m"} <= set(names)
+    assert "friction over μN" in names  # no number, since there is no contact force
 
 
 def test_a_rule_that_is_broken_says_what_was_measured() -> None:
