@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import matplotlib as mpl
+import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure as Canvas
 from matplotlib.text import Text
@@ -45,11 +46,15 @@ class Picture:
 
 @dataclass(frozen=True)
 class Printed:
-    """A table as text; a column has a label, a unit, and is set to the right where it holds numbers."""
+    """A table as text; a column has a label, a unit, and is set to the right where it holds numbers.
+
+    struck : cells by row and column that are struck through; the row says why.
+    """
 
     caption: str
     columns: list[tuple[str, str, bool]]
     rows: list[tuple[str, ...]]
+    struck: frozenset[tuple[int, int]] = frozenset()
 
     @property
     def long(self) -> bool:
@@ -157,7 +162,10 @@ def _small(canvas: Canvas) -> str:
 
 
 def printed(table: pd.DataFrame, caption: str) -> Printed:
-    """A table's columns as text."""
-    columns = [(*words.heading(name), pd.api.types.is_numeric_dtype(table[name])) for name in map(str, table.columns)]
-    cells = [words.column(table[name]) for name in table.columns]
-    return Printed(caption, columns, list(zip(*cells, strict=True)))
+    """A table's columns as text; the speeds of an engine that failed its gate are struck through."""
+    names = list(map(str, table.columns))
+    columns = [(*words.heading(name), pd.api.types.is_numeric_dtype(table[name])) for name in names]
+    cells = [words.column(table[name]) for name in names]
+    failed = np.flatnonzero(words.failed_gate(table)).tolist() if "gate" in names else []
+    struck = {(row, column) for row in failed for column, name in enumerate(names) if name in words.SPEEDS}
+    return Printed(caption, columns, list(zip(*cells, strict=True)), frozenset(struck))

@@ -51,6 +51,9 @@ TIMES = {
     "wall_s": ("wall time", "s"),
 }
 
+# Columns that say how fast an engine is; the pages strike them through where it failed the gate before any speed.
+SPEEDS = (*TIMES, "real_time_factor", "ratio_to_fctd", "ratio_low", "ratio_high", "value")
+
 # What the words of a column's name stand for: the engine's own quantities, names and abbreviations.
 SPELT = {
     COLUMNS[name].stem.replace("_", " "): COLUMNS[name].label
@@ -135,6 +138,11 @@ def column(values: "pd.Series[Any]") -> list[str]:
     while decimals and all(f"{size:.{decimals}f}".endswith("0") for size in sizes):
         decimals -= 1
     return [_fixed(value, decimals) if math.isfinite(value) else number(value) for value in numbers]
+
+
+def failed_gate(table: pd.DataFrame) -> "pd.Series[bool]":
+    """Rows of engines that failed the gate before any speed; their times are struck through and never left out."""
+    return table["gate"].str.startswith("failed")
 
 
 def _label(identifier: str) -> str:

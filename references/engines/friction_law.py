@@ -1,4 +1,4 @@
-"""Test of an engine's friction by Coulomb's law: a pipe that turns in a straight, horizontal hole.
+"""Test of an engine's friction by Coulomb's law: a pipe that turns in a level hole, straight or with a bend.
 
 Every point slides across the hole, so that friction has to be μN and to act across the hole, for any N that the engine
 finds and any azimuth of the hole.  FCTD computes only the initial state.
@@ -12,10 +12,11 @@ from fctd.case.load import Case
 from fctd.mechanics import state
 from fctd.simulation.preparation import prepare
 from references import engines
-from references.engines import Window
+from references.engines import EngineRun, Window
 from references.engines.run import late
 
-SEGMENTS, LENGTH, FACTOR, CONTACT_RADIUS = 4, 100.0, 0.2, 0.051
+SEGMENT, FACTOR, CONTACT_RADIUS = 25.0, 0.2, 0.051
+RPM = 60.0
 LEAD = 6.0  # [s], from rest until the pipe turns steadily
 
 
@@ -33,17 +34,30 @@ class Sliding(NamedTuple):
 
 
 def straight(azimuth: float) -> Case:
-    """The case of a turning pipe in a straight, horizontal hole with this azimuth [deg]."""
-    pipe = {"name": "pipe", "outer_diameter": 2 * CONTACT_RADIUS, "inner_diameter": 0.06, "length": LENGTH}
+    """The case of a turning pipe in a straight, level hole with this azimuth [deg]."""
+    return _level([[0, 90, azimuth], [200, 90, azimuth]], 4)
+
+
+def with_bend(angle: float) -> Case:
+    """The case of a turning pipe in a level hole, straight but for a bend of 40 m about its middle [deg]."""
+    return _level([[0, 90, 0], [130, 90, 0], [170, 90, angle], [300, 90, angle]], 8, geometry="arcs")
+
+
+def _level(stations: list[list[float]], segments: int, **hole: str) -> Case:
+    length, end = segments * SEGMENT, stations[-1][0]
+    pipe = {"name": "pipe", "outer_diameter": 2 * CONTACT_RADIUS, "inner_diameter": 0.06, "length": length}
     return Case.model_validate(
         {
-            "name": "straight hole",
+            "name": "level hole",
             "wellbore": {
-                "stations": [[0, 90, azimuth], [200, 90, azimuth]],
-                "intervals": [{"to_md": 200, "diameter": 0.3112, "friction": FACTOR}],
+                "stations": stations,
+                "intervals": [{"to_md": end, "diameter": 0.3112, "friction": FACTOR}],
+                **hole,
             },
-            "string": {"top_md": 50, "components": [pipe | {"segments": SEGMENTS}]},
-            "operations": [{"kind": "rotate_off_bottom", "at_md": 150, "duration": 20, "rpm": 60, "ramp_time": 2}],
+            "string": {"top_md": 50, "components": [pipe | {"segments": segments}]},
+            "operations": [
+                {"kind": "rotate_off_bottom", "at_md": 50 + length, "duration": 20, "rpm": RPM, "ramp_time": 2}
+            ],
             "record": {"interval": 0.1},
         }
     )
@@ -51,11 +65,19 @@ def straight(azimuth: float) -> Case:
 
 def sliding(name: str, azimuth: float, duration: float = 2.0, **options: Any) -> Sliding:
     """Friction of the pipe in engine ``name``; azimuth of the hole [deg], duration of the window [s]."""
-    run = engines.build(name, **options).run(straight(azimuth), Window(LEAD, duration))
+    return sliding_in(engines.build(name, **options).run(straight(azimuth), Window(LEAD, duration)))
+
+
+def sliding_in(run: EngineRun) -> Sliding:
+    """Friction of the pipe in a run of one of these cases; nan for a pipe that does not touch its wall.
+
+    In a bend it is the sum over all points, along the hole and across it.
+    """
     mean = late(run)
     # The hook load is the friction along the hole: weight acts across it.
     along, across = mean["hookload_N"], mean["sum_r_ft_N_m"] / CONTACT_RADIUS
-    share = np.hypot(along, across) / (FACTOR * mean["total_contact_force_N"])
+    limit = FACTOR * mean["total_contact_force_N"]
+    share = np.hypot(along, across) / limit if limit > 0 else np.nan
     return Sliding(float(share), float(np.arctan2(along, across)), run.status, run.message)
 
 

@@ -47,6 +47,8 @@ LAWS = {"paper": 0, "coulomb": 1, "karnopp": 2}
 # Grey lines: zero difference, and bounds.
 ZERO: dict[str, Any] = {"color": QUIET, "linewidth": 1}
 BOUND: dict[str, Any] = ZERO | {"linestyle": (0, (4, 2))}
+# What is struck through: a dash over each mark.
+STRUCK: dict[str, Any] = {"color": "#222222", "linestyle": "none", "marker": "_", "markersize": 15}
 # Dashes of the lines of first and second order.
 ORDERS: dict[int, Any] = {1: (0, (1, 1.5)), 2: (0, (6, 2, 1, 2))}
 

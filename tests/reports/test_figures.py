@@ -38,6 +38,23 @@ def test_build_intervals_are_where_the_inclination_changes():
     assert style.build_intervals(md[shuffled], inclination[shuffled]) == [(1750.0, 2250.0), (2300.0, 2450.0)]
 
 
+def test_times_that_failed_the_gate_are_struck_through():
+    """Each dot stays, and a dash lies over those of the engine that failed."""
+    rows = [
+        (state, 60, step, engine, time, "failed: lean" if engine == "loose" else "passed")
+        for state in ("contact", "no contact")
+        for step in ("own step", "equal step")
+        for engine, time in (("sound", 1.0), ("loose", 100.0))
+    ]
+    columns = ["state", "segments", "step", "engine", "ms_per_simulated_s", "gate"]
+    (figure,) = [figure for figure in figures.by_study()["speed"] if figure.name == "seconds"]
+    drawn = figure.draw({"times": pd.DataFrame(rows, columns=columns)}).axes[0].get_lines()
+    dots, dashes = ([line for line in drawn if (line.get_marker() == "_") == dash] for dash in (False, True))
+    assert [np.isfinite(np.asarray(line.get_xdata(), float)).sum() for line in dots[:-1]] == [2, 2, 2, 2]
+    assert [np.nanmax(np.asarray(line.get_xdata(), float)) for line in dashes] == [100, 100, 100, 100]
+    assert all(np.isfinite(np.asarray(line.get_xdata(), float)).sum() == 1 for line in dashes)
+
+
 def test_series_differ_in_lightness_from_their_neighbours():
     def lightness(colour):
         return np.dot([0.2126, 0.7152, 0.0722], mpl.colors.to_rgb(colour))

@@ -85,6 +85,18 @@ def test_table_for_display_has_units_in_its_head(render):
     assert not missing(text, "Wrong owners", "wrong owner %", "build to 120° 120 10 000 42.1", "quick run")
 
 
+def test_times_of_an_engine_that_failed_the_gate_are_struck_through_with_the_reason(render):
+    """And kept: the time of an engine that passed stands beside it, as do numbers that are no time."""
+    rows = {"engine": ["sound", "loose"], "hookload_kN": [1.5, 2.5], "wall_s": [3.5, 4.5]}
+    table = pd.DataFrame(rows | {"gate": ["passed", "failed: lean 19.8 ° (at most 15)"]})
+    given, _ = finished("ownership", display={"times": "Times"})
+    html, _ = render((given, {"times": table}))
+    assert re.findall(r"<s>(.*?)</s>", html) == ["4.5"]
+    assert not missing(words_of(html), "3.5", "failed: lean 19.8 ° (at most 15)")
+    plain, _ = render((given, {"times": table.drop(columns="gate")}))
+    assert "<s>" not in plain
+
+
 def test_skipped_failed_and_missing_studies_are_visible(render):
     skipped = replace(BLANK, study="volve", status="skipped", message="the public data folder is missing")
     failed = replace(BLANK, study="broken", status="failed", message="ArithmeticError: lost", question="")

@@ -1,4 +1,4 @@
-"""The same string in independent engines: loads, contact forces, and the 1000:1 model."""
+"""The same string in independent engines: the gate before any speed, loads, contact forces, and the 1000:1 model."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -13,7 +13,7 @@ from references.engines.run import late
 from references.engines.scaling import SCALE, Factors, factors, scaled
 from validation.cases import load, rotation, trip
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
-from validation.parts import engine_notes, engine_settings
+from validation.parts import engine_notes, engine_settings, gated
 from validation.parts.windows import last_seconds
 
 BIT, S_BIT = 2450.0, 480.0
@@ -33,6 +33,7 @@ ENGINES: dict[str, tuple[str, dict[str, Any]]] = {
     "MuJoCo, default": ("mujoco", {"settings": "default"}),
     "PyElastica": ("elastica", {}),
 }
+CHAIN: dict[str, tuple[str, dict[str, Any]]] = {"MuJoCo ball chain": ("mujoco_chain", {})}  # hangs freely alone
 SOLVER, BY_SIMILARITY = "steady solver", "steady solver, full size by similarity"
 STEPPER = "FCTD's stepper, at its own size"
 FAIR = ("Bullet", "MuJoCo", "PyElastica")
@@ -136,7 +137,7 @@ def hanging(names: tuple[str, ...], duration: float) -> Rows:
     )  # fmt: skip
     own = None
     for name in names:
-        engine, options = ENGINES.get(name, ("mujoco_chain", {}))
+        engine, options = (ENGINES | CHAIN)[name]
         run = engines.build(engine, **options).run(case, Window(0.0, duration))
         torque = run.history["surface_torque_N_m"].to_numpy()
         own = torque if own is None else own
@@ -269,7 +270,7 @@ def of_part(part: Part) -> dict[str, pd.DataFrame]:
     """The tables of a part."""
     quick, context = part.quick, Context(quick=part.quick)
     if not part.engine:
-        names = (*part.fair, *(("MuJoCo ball chain",) if "MuJoCo" in part.fair else ()))
+        names = (*part.fair, *(CHAIN if "MuJoCo" in part.fair else ()))
         tables = {
             "hanging": hanging(names, 2.5 if quick else 5.0),
             "thousand": one_to_thousand(("Bullet",) if "Bullet" in part.fair else (), 1.0 if quick else 3.0),
@@ -310,8 +311,9 @@ def run(context: Context) -> Outcome:
     split = {engine: tuple(name for name in others if name.partition(",")[0] == engine) for engine in ("FCTD", *FAIR)}
     parts = [Part(engine, names, fair, missing, quick) for engine, names in split.items() if names]
     found = context.apart(of_part, [*parts, Part("", (), fair, missing, quick)])
-    tables = joined(found[:-1]) | found[-1]
+    tables, gates = gated.held(joined(found[:-1]) | found[-1], ENGINES | CHAIN)
     display = {
+        "gate": gated.CAPTION,
         "chain": "Curved chain: every engine over the same window from FCTD's state in motion",
         "well": "Paper-well tripped in to 2250 m: 60 and 170 segments",
         "s_shape": "A well not used to set any engine: S-shaped, turning by 50°, inclined at the top, in mud",
@@ -323,8 +325,8 @@ def run(context: Context) -> Outcome:
     }
     return Outcome(
         tables=tables,
-        checks=checks(tables, fair, [*missing]),
-        notes=engine_notes.notes([*missing], LEAD, WELL_LEAD, RAMP),
+        checks=[*checks(tables, fair, [*missing]), *gated.checks(gates)],
+        notes=[*engine_notes.notes([*missing], LEAD, WELL_LEAD, RAMP), gated.NOTE],
         display={name: caption for name, caption in display.items() if name in tables},
     )
 

@@ -11,12 +11,12 @@ from fctd.mechanics.faults import UnstableError
 from fctd.mechanics.topdrive import Motion
 from fctd.simulation.run import Run
 from references import contact, engines
-from references.engines import Stepper
+from references.engines import Stepper, gate
 from references.engines.free_bodies import FreeBodies
 from references.timing.stopwatch import machine_table, race, units_for
 from references.timing.workloads import NoWall, asking, copy_of, moving
 from validation.harness.study import Check, Context, Kind, Outcome, Progress, Study, left_out
-from validation.parts import speed_kernel
+from validation.parts import gated, speed_kernel
 from validation.parts.methods import FULL_ONLY, TOO_SLOW
 from validation.parts.speed_kernel import BEST, CONTACT, LEAD, chain, step_on
 
@@ -43,7 +43,7 @@ LEAST_OTHER = 5.0  # least cost of every other engine over FCTD
 
 COLUMNS = [
     "state", "segments", "step", "engine", "step_ms", "ms_per_simulated_s", "real_time_factor",
-    "ratio_to_fctd", "ratio_low", "ratio_high", "check",
+    "ratio_to_fctd", "ratio_low", "ratio_high", "check", "gate",
 ]  # fmt: skip
 
 
@@ -124,16 +124,20 @@ def entries(kind: str, names: list[str], counts: Collection[int]) -> list[Entry]
     return found + [Entry(n, TAKEN, name) for n in counts for name in names if name == FCTD or name.endswith(IN_LOOP)]
 
 
-def race_engines(names: list[str], best: dict[int, float], rounds: int, aim: float, progress: Progress) -> pd.DataFrame:
-    """Wall time of a simulated second of every engine, at its own step and at the shortest of all steps.
+def race_engines(
+    names: list[str], best: dict[int, float], rounds: int, aim: float, progress: Progress
+) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Wall time of a simulated second of every engine, at its own step and at the shortest of all steps, and its gate.
 
     best : FCTD's largest stable step [s] for each number of segments, timed in addition to its own step.  aim : length
-    of a call [s].  Everything with the same kind of step is one race, so that any two rows of it can be compared.
+    of a call [s].  Before a race every engine is held to the gate at that kind of step, with the shortest string.
+    Everything with the same kind of step is one race, so that any two rows of it can be compared.
     """
     cases = {(n, state): chain(n, **(OPEN if state == FREE else {})) for n in best for state in (FREE, TOUCHING)}
     starts = {key: moving(case, LEAD) for key, case in cases.items()}
     starts |= {(n, TAKEN): starts[n, TOUCHING] for n in best}
     tables: list[pd.DataFrame] = []
+    gate_tables: list[pd.DataFrame] = []
     own: dict[Entry, float] = {}
     for kind in (OWN, EQUAL):
         racers: dict[Entry, Racer] = {}
@@ -150,14 +154,22 @@ def race_engines(names: list[str], best: dict[int, float], rounds: int, aim: flo
                 run, stepper = begin(name, start, state, step)
             own.setdefault(entry, stepper.step)
             racers[entry] = Racer(run, stepper, motion)
-        tables.append(race_of(racers, rounds, aim).assign(step=kind))
+        given = {} if kind == OWN else {"step": min(s for other, s in own.items() if other.segments == min(best))}
+        gates = gated.examined(
+            {each: (OTHERS.get(each, "fctd"), given) for each in names if not each.endswith(IN_LOOP)}
+        )
+        gate_tables.append(gate.table(gates).assign(step=kind))
+        tables.append(race_of(racers, gates, rounds, aim).assign(step=kind))
     table = pd.concat(tables, ignore_index=True)
     table = table.assign(ms_per_simulated_s=table["ns_least"] / 1e6, real_time_factor=1e9 / table["ns_least"])
-    return table[COLUMNS]
+    return table[COLUMNS], pd.concat(gate_tables, ignore_index=True)
 
 
-def race_of(racers: dict[Entry, Racer], rounds: int, aim: float) -> pd.DataFrame:
-    """One race, a row for each stepper with the validity of its string at the end; closes the steppers."""
+def race_of(racers: dict[Entry, Racer], gates: gated.Gates, rounds: int, aim: float) -> pd.DataFrame:
+    """One race, a row for each stepper with the validity of its string at the end; closes the steppers.
+
+    gates : of the engines; our loop has FCTD's, whatever its contact.  The string that was timed is held to its own.
+    """
     actions: dict[str, Callable[[], object]] = {}
     counts, baseline = {}, {}
     for entry, racer in racers.items():
@@ -172,6 +184,10 @@ def race_of(racers: dict[Entry, Racer], rounds: int, aim: float) -> pd.DataFrame
     table["step_ms"] = [1e3 * racer.stepper.step for racer in racers.values()]
     table["check"] = [
         "falls" if entry.state == TAKEN else verdict(racer.run, racer.stepper) for entry, racer in racers.items()
+    ]
+    table["gate"] = [
+        gate.verdict([*gates.get(entry.engine, gates[FCTD]), *gate.in_motion(*racer, touching=entry.state == TOUCHING)])
+        for entry, racer in racers.items()
     ]
     for racer in racers.values():
         racer.stepper.close()
@@ -194,6 +210,8 @@ def ratios(times: pd.DataFrame, scaling: pd.DataFrame) -> pd.DataFrame:
     ]  # fmt: skip
     at = times.set_index(["state", "step", "segments", "engine"]).sort_index()
     ratio, wall, counts = at["ratio_to_fctd"], at["ms_per_simulated_s"], sorted(times["segments"].unique())
+    verdicts = times.sort_values("gate").drop_duplicates("engine").set_index("engine")["gate"]  # failures come first
+    gates = [""] * len(rows)
     for name in [name for name in times["engine"].unique() if name not in (FCTD, BEST, CHAIN)]:
         in_loop = name.endswith(IN_LOOP)
         for n in counts:
@@ -224,7 +242,8 @@ def ratios(times: pd.DataFrame, scaling: pd.DataFrame) -> pd.DataFrame:
                 ("ours", f"the same for each segment, × {few}/{many}", across * few / many,
                  f"{what}, shorter step of shorter segments"),
             ]  # fmt: skip
-    return pd.DataFrame(rows, columns=["whose", "ratio", "value", "contains"])
+        gates += [verdicts[name]] * (len(rows) - len(gates))
+    return pd.DataFrame(rows, columns=["whose", "ratio", "value", "contains"]).assign(gate=gates)
 
 
 def targets(times: pd.DataFrame, found: dict[str, pd.DataFrame]) -> list[Check]:
@@ -299,7 +318,7 @@ def run(context: Context) -> Outcome:
     counts = SEGMENTS[:1] if quick else SEGMENTS
     steps = pd.concat([speed_kernel.ladder(n, 5.0 if quick else 60.0) for n in counts], ignore_index=True)
     best = {n: float(steps.loc[steps["holds"] & (steps["segments"] == n), "step_ms"].max()) / 1e3 for n in counts}
-    times = race_engines(names, best, 9 if quick else 25, 0.002 if quick else 0.01, context.progress)
+    times, rules = race_engines(names, best, 9 if quick else 25, 0.002 if quick else 0.01, context.progress)
     found = {
         "kernel": speed_kernel.kernel(best[SEGMENTS[0]], 25 if quick else 201, 0.002),
         "scaling": speed_kernel.scaling((60, 170, 1000) if quick else speed_kernel.LENGTHS, 9 if quick else 51, 0.005),
@@ -308,6 +327,7 @@ def run(context: Context) -> Outcome:
     held = targets(times, found)
     tables = {
         "times": times,
+        "gate": rules,
         "ratios": ratios(times, found["scaling"]),
         "targets": table_of(held, found["kernel"]),
         "steps": steps,
@@ -321,6 +341,7 @@ def run(context: Context) -> Outcome:
         notes=notes(found["kernel"], missing),
         display={
             "times": "Wall time of a simulated second of the curved chain, turning in contact or hanging free",
+            "gate": gated.CAPTION,
             "ratios": "The paper's ratios and ours, and the differences that each contains",
             "targets": "Targets and measured values",
             "steps": "FCTD's largest stable step: loads over the same window against those of the smallest step",
@@ -336,6 +357,7 @@ def notes(kernel: pd.DataFrame, missing: list[str]) -> list[str]:
     """Notes for the reader of the numbers."""
     return [
         *left_out(missing),
+        gated.NOTE,
         "All engines start with the same string from the same state in motion, FCTD's after some seconds (MuJoCo's "
         "ball chain, which hangs free, starts from rest); nothing is extrapolated, and times of building and "
         "compiling are excluded. The time of a row is that of its fastest round of some milliseconds, which other "

@@ -2,21 +2,19 @@
 
 import re
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import pandas as pd
 import pytest
 
 from fctd.mechanics import state, topdrive
-from fctd.mechanics.energy import Energy
 from fctd.simulation.preparation import prepare
 from fctd.simulation.run import Run
 from references import engines
 from references.engines import Window
 from references.engines.checks import axial_period, drift
-from references.engines.own import Fctd
 from references.engines.run import run_window
+from tests.references.engines.faulty import Faulty, through_the_wall
 from tests.references.engines.turning import WINDOW, begun, turning
 
 
@@ -34,50 +32,6 @@ def test_a_bad_option_fails_the_check_for_its_error(name: str, options: dict[str
     assert run.status == "invalid"
     assert re.search(rf"{failed} \(.*, at most", run.message)
     assert not run.checks.set_index("check").loc[failed, "passed"]
-
-
-class FaultyStepper:
-    """FCTD's stepper, with a fault added to the run after every advance."""
-
-    def __init__(self, run: Run, fault: Callable[[Run], None]) -> None:
-        self._stepper, self._run, self._fault = Fctd(Fctd.Options()).begin(run), run, fault
-        self.step = run.step
-
-    def advance(self, motion: Any, duration: float) -> None:
-        self._stepper.advance(motion, duration)
-        self._fault(self._run)
-
-    def refresh(self) -> None:
-        self._stepper.refresh()
-
-    def energy(self) -> Energy:
-        return self._stepper.energy()
-
-    def note(self) -> str:
-        return self._stepper.note()
-
-    def close(self) -> None:
-        self._stepper.close()
-
-
-class Faulty(Fctd):
-    """FCTD as an engine whose stepper adds a fault."""
-
-    def __init__(self, fault: Callable[[Run], None]) -> None:
-        super().__init__(Fctd.Options())
-        self._fault = fault
-
-    def begin(self, run: Run) -> Any:
-        return FaultyStepper(run, self._fault)
-
-
-def through_the_wall(run: Run) -> None:
-    """Move the bit into the wall by half of its clearance."""
-    n = run.segments
-    walls = np.stack([state.row(run.S, row, n)[-1] for row in (state.PX, state.PY, state.PZ)])
-    clearance = run.S[state.HOLE + n] - run.S[state.RADIUS + n]
-    for row, part in zip((state.X, state.Y, state.Z), walls / np.linalg.norm(walls), strict=True):
-        run.S[row + n] += 0.5 * clearance * part
 
 
 def gained_energy(run: Run) -> None:

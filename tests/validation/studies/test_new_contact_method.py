@@ -95,7 +95,9 @@ def test_it_is_raced_and_turns_the_chain(toy, monkeypatch):
 def test_it_is_among_the_engines_of_the_study_of_speed(toy):
     assert "toy in our loop" in speed.available(quick=True)[0]
     step = moving(speed_kernel.chain(60), 0.0)[0].step
-    times = speed.race_engines(["FCTD", "toy in our loop"], {60: step}, 2, 0.0005, silent)
+    times, rules = speed.race_engines(["FCTD", "toy in our loop"], {60: step}, 2, 0.0005, silent)
+    assert set(rules["engine"]) == {"FCTD"}
+    assert (times["gate"] == "passed").all()
     assert set(times.query("engine == 'toy in our loop'")["state"]) == {speed.FREE, speed.TOUCHING, speed.TAKEN}
     assert not times["check"].str.startswith("invalid").any()
     scaling = pd.DataFrame({"segments": [60.0, 170.0], "step_ms": [4.0, 1.4], "ns_least": [20.0, 20.0]})

@@ -23,8 +23,9 @@ def times() -> pd.DataFrame:
             (TOUCHING, OWN, FCTD, 3, 3), (TOUCHING, OWN, FCL, 300, 3), (TOUCHING, OWN, "Bullet", 2000, 3),
             (FREE, OWN, FCTD, 2, 2), (FREE, OWN, FCL, 20, 2), (FREE, OWN, "Bullet", 240, 2),
         ):  # fmt: skip
-            rows.append((state, segments, step, engine, growth * cost, cost / base, "valid"))
-    columns = ["state", "segments", "step", "engine", "ms_per_simulated_s", "ratio_to_fctd", "check"]
+            gate = "failed: lean" if (engine, step) == ("Bullet", OWN) else "passed"
+            rows.append((state, segments, step, engine, growth * cost, cost / base, "valid", gate))
+    columns = ["state", "segments", "step", "engine", "ms_per_simulated_s", "ratio_to_fctd", "check", "gate"]
     return pd.DataFrame(rows, columns=columns)
 
 
@@ -56,6 +57,14 @@ def test_ratios_say_what_they_contain():
     assert value[f"{FCL} with 170 segments : FCTD with 60, contact, own steps"] == pytest.approx(1000)
     assert value["Bullet : FCTD, 60 segments, no contact, own steps"] == 120
     assert "contact" not in table["contains"]["Bullet : FCTD, 60 segments, no contact, own steps"]
+
+
+def test_ratios_of_an_engine_that_failed_the_gate_are_kept_and_say_so():
+    table = speed.ratios(times(), scaling())
+    found = table.groupby(table["ratio"].str.startswith("Bullet"))["gate"].unique()
+    assert list(found[True]) == ["failed: lean"]
+    assert table.loc[table["ratio"].str.startswith(FCL), "gate"].unique().tolist() == ["passed"]
+    assert table.loc[table["whose"] == "paper", "gate"].unique().tolist() == [""]
 
 
 def test_one_count_has_no_ratio_across_counts():
