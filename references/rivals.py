@@ -6,4 +6,7 @@ lists and tables.  Nothing of the suite imports this module: registries find it 
 
 METHODS: dict[str, str] = {}
 
-ENGINES: dict[str, str] = {}
+ENGINES: dict[str, str] = {
+    "exudyn": "references.engines.exudyn:Exudyn",
+    "rapier": "references.engines.rapier:Rapier",
+}
