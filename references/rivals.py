@@ -10,4 +10,7 @@ METHODS: dict[str, str] = {
     "rapier": "references.contact.rapier:Rapier",
 }
 
-ENGINES: dict[str, str] = {}
+ENGINES: dict[str, str] = {
+    "exudyn": "references.engines.exudyn:Exudyn",
+    "rapier": "references.engines.rapier:Rapier",
+}

@@ -105,9 +105,9 @@ def _wrenches(S, top, n, laws, motion, pipe, dt, out):  # type: ignore[no-untype
 
 
 @njit(error_model="numpy", cache=True)
-def _store(S, top, n, pipe, feed, rate, dt, poses):  # type: ignore[no-untyped-def]
-    """Update the bodies from poses (n, 13), and the top drive."""
-    for j in range(1, n + 1):
+def place_bodies(S, poses):  # type: ignore[no-untyped-def]
+    """Update the bodies from poses (n, 13)."""
+    for j in range(1, len(poses) + 1):
         p = poses[j - 1]
         w, x, y, z = state.quaternion(S, j)
         # Of the two quaternions of an orientation the one nearer to the last: twist is computed from it.
@@ -120,6 +120,11 @@ def _store(S, top, n, pipe, feed, rate, dt, poses):  # type: ignore[no-untyped-d
         S[state.WX + j] = xx * p[10] + xy * p[11] + xz * p[12]
         S[state.WY + j] = yx * p[10] + yy * p[11] + yz * p[12]
         S[state.WZ + j] = zx * p[10] + zy * p[11] + zz * p[12]
+
+
+@njit(error_model="numpy", cache=True)
+def move_top(S, top, pipe, feed, rate, dt):  # type: ignore[no-untyped-def]
+    """``move_top_drive`` for Python."""
     move_top_drive(S, top, pipe, feed, rate, dt)
 
 
@@ -192,7 +197,8 @@ class FreeBodies:
             self._poses = bodies.step(before, self._wrenches, dt)
             if self.watch:
                 _sum_contacts(run.S, *bodies.contacts(), before, self._poses, dt, self._slid)
-            _store(run.S, run.top, n, run.pipe, feed, rate, dt, self._poses)
+            place_bodies(run.S, self._poses)
+            move_top(run.S, run.top, run.pipe, feed, rate, dt)
         run.steps += steps
 
     def refresh(self) -> None:
