@@ -83,25 +83,26 @@ class Results:
             except (OSError, ValueError, TypeError, LookupError):
                 continue  # its numbers are said to be missing
 
-    def quantity(self, source: Source) -> str:
-        """A number with its unit, or that it has not been measured and how to do so."""
-        study = source[0]
-        if len(source) == 2:
-            checks = (
-                {judged.check.name: judged.check for judged in self.records[study].checks} if self._has(study) else {}
-            )
-            if source[1] in checks:
-                return words.quantity(checks[source[1]].value, checks[source[1]].unit)
-        else:
-            _, table, key, column, unit = source
-            rows = self.tables.get(study, {}).get(table, pd.DataFrame())
-            found = rows[rows.iloc[:, 0] == key] if len(rows) else rows
-            if len(found) and column in found and pd.notna(found[column].iloc[0]):
-                return words.quantity(float(found[column].iloc[0]), unit)
-        return f"(not measured yet: {study})"
+    def filled(self, text: str, sources: Iterable[Source]) -> str:
+        """A text with its numbers; where one has not been measured, which studies would measure it."""
+        found = {source: self._quantity(source) for source in sources}
+        if missing := dict.fromkeys(source[0] for source, quantity in found.items() if quantity is None):
+            return f"not measured yet: {', '.join(missing)}"
+        return text.format(*found.values())
 
-    def _has(self, study: str) -> bool:
-        return study in self.records
+    def _quantity(self, source: Source) -> str | None:
+        """A number with its unit, None where no result has it."""
+        study = source[0]
+        if study not in self.records:
+            return None
+        if len(source) == 2:
+            checks = {judged.check.name: judged.check for judged in self.records[study].checks}
+            check = checks.get(source[1])
+            return None if check is None else words.quantity(check.value, check.unit)
+        _, table, key, column, unit = source
+        rows = self.tables[study].get(table, pd.DataFrame(columns=["name", column]))
+        found = rows.loc[rows.iloc[:, 0] == key, column] if column in rows else pd.Series(dtype=float)
+        return None if not len(found) or pd.isna(found.iloc[0]) else words.quantity(float(found.iloc[0]), unit)
 
     def origins(self) -> list[str]:
         """For each study: day, machine, commit, and whether the run was quick."""
@@ -117,10 +118,7 @@ def table(folder: Path) -> Table:
     results = Results(folder)
     rows: list[tuple[str, ...]] = []
     for each in needs():
-        cost, error = (
-            text.format(*map(results.quantity, sources))
-            for text, sources in ((each.cost, each.costs), (each.error, each.errors))
-        )
+        cost, error = results.filled(each.cost, each.costs), results.filled(each.error, each.errors)
         method = "FCTD itself" if each.take == "own" else f"`{each.take}`"
         rows.append((each.need, method, each.setting, cost, error, each.precision, *_package(each, results), each.trap))
     return Table(HEADINGS, rows, results.origins())

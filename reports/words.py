@@ -61,7 +61,14 @@ SPELT = {
 }
 SPELT |= {each.lower(): each for each in ("FCL", "FCTD", "Mitchell", "Newton", "RMS", "TVD")}
 # Contact methods by the names of the paper and of the libraries.
-METHODS = {"for_loop": "FOR-loop", "fcl": "FCL", "bullet": "Bullet", "mujoco": "MuJoCo", "sdf": "sampled distance"}
+METHODS = {
+    "for_loop": "FOR-loop",
+    "fcl": "FCL",
+    "bullet": "Bullet",
+    "mujoco": "MuJoCo",
+    "sdf": "sampled distance",
+    "axis_frame": "axis frame",
+}
 
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 SPACE, NARROW_SPACE = "\u00a0", "\u202f"  # neither breaks a line

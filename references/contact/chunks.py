@@ -74,8 +74,8 @@ class SinglePrecision(MeshMethod):
         self.tube = build_tube(case, options)
         self.chunks = Chunks(self.tube, whole=options.origin == "well")
 
-    def query(self, points: Array, radii: Array) -> Contacts:
-        """See ``ContactMethod.query``."""
+    def contacts(self, points: Array, radii: Array) -> Contacts:
+        """See ``MeshMethod.contacts``."""
         near, faces = self.nearest(points, self.tube.ring_above(points))
         return self.tube.contacts(points, radii, near, faces)
 

@@ -150,7 +150,7 @@ class _Stepper:
                     stiffness=np.diag(springs),
                     damping=np.diag(damped * springs),
                     useIntrinsicFormulation=True,
-                )  # fmt: skip
+                )
             )
         none = np.zeros((6 * n, 6 * n))
         system.AddObject(items.ObjectGenericODE2(nodeNumbers=nodes, massMatrix=none, forceUserFunction=self._given))

@@ -10,7 +10,7 @@ def test_the_size_is_that_of_what_a_package_brings_alone() -> None:
     assert "libcoal" in packages.needed("coal")
     assert coal.installed_mb is not None
     assert trimesh.installed_mb is not None
-    assert coal.installed_mb > trimesh.installed_MB > 1
+    assert coal.installed_mb > trimesh.installed_mb > 1
     assert own.installed_mb == 0
     assert coal.licence == "BSD-3-Clause"
 

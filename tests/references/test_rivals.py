@@ -31,7 +31,7 @@ def test_rivals_that_are_not_installed_are_listed() -> None:
     found = listed()
     for name in METHODS:
         distribution = contact.method_class(name).distribution
-        (row,) = (line for line in found.splitlines() if line.startswith(f"│ {name} "))
+        row = next(line for line in found.splitlines() if line.startswith(f"│ {name} "))  # methods before engines
         assert [cell.strip() for cell in row.split("│")[2:4]] == [distribution, "not installed"]
         told = f"Package {distribution}, which is not installed ('make rivals' installs it in an environment of its own"
         assert told in found

@@ -35,8 +35,9 @@ def finished(name, **changes):
 
 
 def pages_of(out):
-    """The first page, the claims, the measured wells, and the pages of the studies."""
-    return [out / "index.html", out / "claims.html", out / "wells.html", *sorted((out / "studies").glob("*.html"))]
+    """The first page, the claims, the measured wells, the contact methods, and the pages of the studies."""
+    first = [out / f"{name}.html" for name in ("index", "claims", "wells", "which_contact")]
+    return [*first, *sorted((out / "studies").glob("*.html"))]
 
 
 def study_page(tmp_path, name="overlap"):

@@ -12,7 +12,6 @@ from fctd.model.wellbore import Contacts
 from references.contact import ContactMethod
 from references.contact.tube_mesh import MeshMethod, Tube
 from references.timing.stopwatch import Action, race
-from validation.harness.study import Rows, table_of_rows
 
 # Points in a batch, and the largest cost [ns] of a point in the batch before with which it is measured.
 BATCHES = {1: np.inf, 1_000: np.inf, 100_000: 1e4, 10_000_000: 100.0}
@@ -97,32 +96,6 @@ def _least(action: Action, times: int) -> float:
 
 def _asking(method: ContactMethod, points: Points) -> Action:
     return lambda: method.query(*points)
-
-
-@table_of_rows
-def errors(methods: Mapping[str, ContactMethod], frame: pd.DataFrame, tangents: Array) -> Rows:
-    """Errors of every method at points with exact contacts (``references.contact.frames``), a row for each.
-
-    tangents (n, 3) : of the hole at the points.  Each method is asked before at points half a metre further up, as in
-    a string that slides: a method that keeps what it found has that error too.
-    """
-    places, radii = frame[["x_m", "y_m", "z_m"]].to_numpy(), frame["radius_m"].to_numpy()
-    normal = frame[["normal_x", "normal_y", "normal_z"]].to_numpy()
-    truth = frame["penetration_m"].to_numpy()
-    for key, method in methods.items():
-        method.query(places - 0.5 * tangents, radii)
-        hits = method.query(places, radii)
-        known = np.isfinite(hits.penetration)
-        off = hits.penetration[known] - truth[known]
-        lean = np.degrees(np.arccos(np.clip(np.sum(hits.normal * normal, axis=1)[known], -1, 1)))
-        touches = hits.penetration > 0
-        yield {
-            "setting": key,
-            "missed_percent": 100 * float(((truth > 0) & ~touches).mean()),
-            "max_error_mm": 1e3 * float(np.abs(off).max(initial=0.0)),
-            "rms_error_mm": 1e3 * float(np.sqrt(np.mean(off**2))) if known.any() else np.nan,
-            "max_angle_deg": float(lean.max(initial=0.0)),
-        }
 
 
 def pareto(cost: pd.Series, error: pd.Series) -> pd.Series:

@@ -1,7 +1,6 @@
 """A hole with bends, points near its wall, and the errors of a contact method there."""
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -15,16 +14,10 @@ from validation.harness.study import Rows, table_of_rows
 RADIUS = 0.051  # contact radius of the pipe [m]
 HOLE = 0.1556  # hole radius [m]
 BAND = 0.015  # points lie within this distance of touching [m]
+SLID = 0.5  # way of the string between two queries [m]
 # Vertical, a build and then a turn of 286 m radius (20°/100 m, as sharp as the paper's), and straight hole.
 STATIONS: list[list[float]] = [[0, 0, 0], [200, 0, 0], [500, 60, 0], [740, 60, 55], [900, 60, 55]]
 REGIONS = {"straight": (10.0, 190.0), "build": (205.0, 495.0), "turn in space": (505.0, 735.0)}
-
-
-def label(name: str, options: dict[str, Any]) -> str:
-    """The name of a setting in tables and figures."""
-    if "facets" in options:
-        return f"{name}, {options['facets']} facets, {options['ring_spacing']:g} m"
-    return f"{name}, {options['cylinder_length']:g} m" if options else name
 
 
 def the_case(deeper: float = 0.0) -> Case:
@@ -63,9 +56,13 @@ def points_in(case: Case, count: int) -> pd.DataFrame:
 
 
 def errors_of(method: contact.ContactMethod, points: pd.DataFrame, case: Case) -> Rows:
-    """A row for each region: contacts missed and false, errors of penetration and normal, and their bounds."""
-    places = np.ascontiguousarray(points[["x", "y", "z"]])
-    exact = find_contacts(build_wellbore(case), places, RADIUS)
+    """A row for each region: contacts missed and false, errors of penetration and normal, and their bounds.
+
+    The method was asked before at points SLID further up, as in a string that slides: what it keeps it has from there.
+    """
+    places, hole = np.ascontiguousarray(points[["x", "y", "z"]]), build_wellbore(case)
+    exact = find_contacts(hole, places, RADIUS)
+    method.query(places - SLID * hole.at(exact.md)[1], np.full(len(places), RADIUS))
     hits = method.query(places, np.full(len(places), RADIUS))
     for region, chosen in points.groupby("region", sort=False).indices.items():
         depth, turn = method.error_bound(0.0 if region == "straight" else 1 / 286.479)
