@@ -21,7 +21,19 @@ class Figure:
 
 
 # The modules whose figures register themselves; a study's figures stand on its page in the order of its module.
-MODULES = ("contact", "fronts", "methods", "strings", "buckling", "segments", "motion", "wells", "volve_f4", "judged")
+MODULES = (
+    "contact",
+    "fronts",
+    "methods",
+    "precision",
+    "strings",
+    "buckling",
+    "segments",
+    "motion",
+    "wells",
+    "volve_f4",
+    "judged",
+)
 _FIGURES: dict[str, list[Figure]] = {}
 Draw = Callable[[Tables], Canvas]
 

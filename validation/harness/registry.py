@@ -48,6 +48,7 @@ STUDIES: dict[str, str] = {
     "mesh_torque": "validation.studies.mesh_torque",
     "engines_agree": "validation.studies.engines_agree",
     "speed": "validation.studies.speed",
+    "precision_in_depth": "validation.studies.precision_in_depth",
     "real_survey": "validation.studies.real_survey",
     "real_chart": "validation.studies.real_chart",
     "buckled_wells": "validation.studies.buckled_wells",

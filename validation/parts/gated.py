@@ -1,6 +1,6 @@
 """The gate before any speed (``references/engines/gate.py``) in the tables of studies: numbers, column and checks."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 import pandas as pd
@@ -24,17 +24,22 @@ def examined(configurations: Mapping[str, tuple[str, dict[str, Any]]]) -> Gates:
 
 
 def held(
-    tables: dict[str, pd.DataFrame], configurations: Mapping[str, tuple[str, dict[str, Any]]]
+    tables: dict[str, pd.DataFrame],
+    configurations: Mapping[str, tuple[str, dict[str, Any]]],
+    free: Collection[str] = (),
 ) -> tuple[dict[str, pd.DataFrame], Gates]:
     """Tables of engines, those with wall times with the gate's verdict in a column, and the rules as a table ``gate``.
 
-    configurations : of ``examined``; those that no such table names are left out.
+    configurations : of ``examined``; those that no such table names are left out.  free : tables of freely hanging
+    strings, to whose times the rules of the wall do not apply.
     """
     timed = {key for key, table in tables.items() if "wall_s" in table}
     named = {name for key in timed for name in tables[key]["engine"]}
     gates = examined({name: each for name, each in configurations.items() if name in named})
-    verdicts = {name: gate.verdict(rules) for name, rules in gates.items()}
-    judged = {key: tables[key].assign(gate=tables[key]["engine"].map(verdicts)) for key in timed}
+    judged = {}
+    for key in timed:
+        verdicts = {name: gate.verdict(rules, touching=key not in free) for name, rules in gates.items()}
+        judged[key] = tables[key].assign(gate=tables[key]["engine"].map(verdicts))
     return tables | judged | {"gate": gate.table(gates)}, gates
 
 

@@ -311,7 +311,7 @@ def run(context: Context) -> Outcome:
     split = {engine: tuple(name for name in others if name.partition(",")[0] == engine) for engine in ("FCTD", *FAIR)}
     parts = [Part(engine, names, fair, missing, quick) for engine, names in split.items() if names]
     found = context.apart(of_part, [*parts, Part("", (), fair, missing, quick)])
-    tables, gates = gated.held(joined(found[:-1]) | found[-1], ENGINES | CHAIN)
+    tables, gates = gated.held(joined(found[:-1]) | found[-1], ENGINES | CHAIN, free=("hanging",))
     display = {
         "gate": gated.CAPTION,
         "chain": "Curved chain: every engine over the same window from FCTD's state in motion",

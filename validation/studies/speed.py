@@ -186,8 +186,9 @@ def race_of(racers: dict[Entry, Racer], gates: gated.Gates, rounds: int, aim: fl
         "falls" if entry.state == TAKEN else verdict(racer.run, racer.stepper) for entry, racer in racers.items()
     ]
     table["gate"] = [
-        gate.verdict([*gates.get(entry.engine, gates[FCTD]), *gate.in_motion(*racer, touching=entry.state == TOUCHING)])
+        gate.verdict([*gates.get(entry.engine, gates[FCTD]), *gate.in_motion(*racer, touching=wall)], touching=wall)
         for entry, racer in racers.items()
+        for wall in (entry.state == TOUCHING,)
     ]
     for racer in racers.values():
         racer.stepper.close()
@@ -200,18 +201,18 @@ def ratios(times: pd.DataFrame, scaling: pd.DataFrame) -> pd.DataFrame:
     grown = float(second[170] / second[60])
     rows = [
         ("paper", "MSC Adams 34 h with 170 segments : FCTD 4 h with 60, contact", 34 / 4,
-         "contact, program, solver, step, number of segments"),
-        ("paper", "the same for each segment, 34/4 × 60/170", 34 / 4 * 60 / 170, "contact, program, solver, step"),
-        ("paper", "MSC Adams 12 s : FCTD 4 s, no contact, equal numbers", 12 / 4, "program, solver"),
+         "contact, program, solver, step, number of segments", ""),
+        ("paper", "the same for each segment, 34/4 × 60/170", 34 / 4 * 60 / 170, "contact, program, solver, step", ""),
+        ("paper", "MSC Adams 12 s : FCTD 4 s, no contact, equal numbers", 12 / 4, "program, solver", ""),
         ("paper", "what is left for contact, (34/4 × 60/170) / (12/4)", 34 / 4 * 60 / 170 / 3,
-         "contact, if cost grows with the number of segments alone and steps were equal"),
+         "contact, if cost grows with the number of segments alone and steps were equal", ""),
         ("paper", LEFT_AS_OURS, 34 / 4 / grown / 3,
-         f"contact, if steps were as short as segments ask: a simulated second of 170 costs FCTD {grown:.1f} of 60"),
+         f"contact, if steps were as short as segments ask: a simulated second of 170 costs FCTD {grown:.1f} of 60",
+         ""),
     ]  # fmt: skip
     at = times.set_index(["state", "step", "segments", "engine"]).sort_index()
     ratio, wall, counts = at["ratio_to_fctd"], at["ms_per_simulated_s"], sorted(times["segments"].unique())
-    verdicts = times.sort_values("gate").drop_duplicates("engine").set_index("engine")["gate"]  # failures come first
-    gates = [""] * len(rows)
+    held = at["gate"]
     for name in [name for name in times["engine"].unique() if name not in (FCTD, BEST, CHAIN)]:
         in_loop = name.endswith(IN_LOOP)
         for n in counts:
@@ -220,17 +221,18 @@ def ratios(times: pd.DataFrame, scaling: pd.DataFrame) -> pd.DataFrame:
                 alone /= 1 - ratio[TAKEN, EQUAL, n, FCTD]
                 rows += [
                     ("ours", f"{name} : FCTD, {n} segments, a step", ratio[TOUCHING, EQUAL, n, name],
-                     "contact, and a call from Python in every step"),
-                    ("ours", f"{name} : FCTD, {n} segments, each less its own loop without contact", alone, "contact"),
+                     "contact, and a call from Python in every step", held[TOUCHING, EQUAL, n, name]),
+                    ("ours", f"{name} : FCTD, {n} segments, each less its own loop without contact", alone, "contact",
+                     held[TOUCHING, EQUAL, n, name]),
                 ]  # fmt: skip
                 continue
             rows += [
                 ("ours", f"{name} : FCTD, {n} segments, contact, equal step", ratio[TOUCHING, EQUAL, n, name],
-                 "contact, program, solver"),
+                 "contact, program, solver", held[TOUCHING, EQUAL, n, name]),
                 ("ours", f"{name} : FCTD, {n} segments, contact, own steps", ratio[TOUCHING, OWN, n, name],
-                 "contact, program, solver, step"),
+                 "contact, program, solver, step", held[TOUCHING, OWN, n, name]),
                 ("ours", f"{name} : FCTD, {n} segments, no contact, own steps", ratio[FREE, OWN, n, name],
-                 "program, solver, step"),
+                 "program, solver, step", held[FREE, OWN, n, name]),
             ]  # fmt: skip
         if len(counts) > 1:
             few, many = counts
@@ -238,12 +240,11 @@ def ratios(times: pd.DataFrame, scaling: pd.DataFrame) -> pd.DataFrame:
             what = "contact, call from Python" if in_loop else "contact, program, solver, step"
             rows += [
                 ("ours", f"{name} with {many} segments : FCTD with {few}, contact, own steps", across,
-                 f"{what}, number of segments and their shorter step"),
+                 f"{what}, number of segments and their shorter step", held[TOUCHING, OWN, many, name]),
                 ("ours", f"the same for each segment, × {few}/{many}", across * few / many,
-                 f"{what}, shorter step of shorter segments"),
+                 f"{what}, shorter step of shorter segments", held[TOUCHING, OWN, many, name]),
             ]  # fmt: skip
-        gates += [verdicts[name]] * (len(rows) - len(gates))
-    return pd.DataFrame(rows, columns=["whose", "ratio", "value", "contains"]).assign(gate=gates)
+    return pd.DataFrame(rows, columns=["whose", "ratio", "value", "contains", "gate"])
 
 
 def targets(times: pd.DataFrame, found: dict[str, pd.DataFrame]) -> list[Check]:

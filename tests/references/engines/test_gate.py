@@ -123,5 +123,7 @@ def test_a_rule_that_is_broken_says_what_was_measured() -> None:
     assert gate.verdict([rule]) == "failed: lean 19.8 ° (at most 15)"
     assert gate.verdict([rule._replace(value=np.nan)]) == "failed: lean nan ° (at most 15)"
     assert gate.verdict([rule._replace(value=15.0)]) == gate.PASSED
+    assert gate.verdict([rule._replace(at_wall=True)], touching=False) == gate.PASSED
+    assert gate.verdict([rule], touching=False).startswith("failed")
     table = gate.table({"one": [rule], "two": [rule._replace(value=1.0)]})
     assert table[["engine", "passed"]].to_numpy().tolist() == [["one", False], ["two", True]]
