@@ -1,12 +1,12 @@
 """A hole with bends, points near its wall, and the errors of a contact method there."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from fctd import Case, build_wellbore, find_contacts
+from fctd import Case, InputError, build_wellbore, find_contacts
 from references import contact
 from references.contact import traps
 from validation.cases import load
@@ -18,6 +18,7 @@ BAND = 0.015  # points lie within this distance of touching [m]
 # Vertical, a build and then a turn of 286 m radius (20°/100 m, as sharp as the paper's), and straight hole.
 STATIONS: list[list[float]] = [[0, 0, 0], [200, 0, 0], [500, 60, 0], [740, 60, 55], [900, 60, 55]]
 REGIONS = {"straight": (10.0, 190.0), "build": (205.0, 495.0), "turn in space": (505.0, 735.0)}
+Mesh = tuple[int, float]  # facets around the hole, ring spacing [m]
 
 
 def label(name: str, options: dict[str, Any]) -> str:
@@ -25,6 +26,49 @@ def label(name: str, options: dict[str, Any]) -> str:
     if "facets" in options:
         return f"{name}, {options['facets']} facets, {options['ring_spacing']:g} m"
     return f"{name}, {options['cylinder_length']:g} m" if options else name
+
+
+def settings(name: str, lengths: Iterable[float], meshes: Iterable[Mesh]) -> Iterator[dict[str, Any]]:
+    """Options of a method: cylinders of these lengths [m], or meshes of these facets and ring spacings [m]."""
+    keys = contact.method_class(name).Options.model_fields
+    if "facets" in keys:
+        yield from ({"facets": facets, "ring_spacing": ring} for facets, ring in meshes)
+    elif "cylinder_length" in keys:
+        yield from ({"cylinder_length": each, "overlap": min(0.2, 0.5 * each)} for each in lengths)
+    else:
+        yield {}
+
+
+def built(
+    case: Case, names: Iterable[str], lengths: Sequence[float], meshes: Sequence[Mesh]
+) -> tuple[dict[str, contact.ContactMethod], list[dict[str, str]], list[str]]:
+    """Methods by the label of their setting, settings that a library rejects, names that are not installed.
+
+    A method is asked once: a plugin that raises whatever it may is among the settings that are rejected.
+    """
+    plugins, hole = contact.REGISTRY.plugins(), build_wellbore(case)
+    middle = hole.at(np.array([0.5 * hole.total_depth]))[0]
+    methods: dict[str, contact.ContactMethod] = {}
+    refused: list[dict[str, str]] = []
+    missing: list[str] = []
+    for name in names:
+        try:
+            if contact.installed_version(name) is None:
+                missing.append(name)
+                continue
+        except InputError as error:  # a plugin that cannot be imported
+            refused.append({"setting": name, "why": str(error)})
+            continue
+        for options in settings(name, lengths, meshes):
+            key, foreseen = label(name, options), Exception if name in plugins else InputError
+            try:
+                method = contact.build(name, case, **options)
+                method.query(middle, np.array([RADIUS]))
+            except foreseen as error:
+                refused.append({"setting": key, "why": str(error) or type(error).__name__})
+            else:
+                methods[key] = method
+    return methods, refused, missing
 
 
 def the_case(deeper: float = 0.0) -> Case:

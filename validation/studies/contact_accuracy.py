@@ -1,51 +1,19 @@
 """Every contact method at the same points near the wall: missed contacts, errors and cost."""
 
-from collections.abc import Iterator
 from functools import partial
-from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from fctd import Case, InputError
+from fctd import Case
 from references import contact
 from references.contact import traps
 from references.timing.footprint import footprint
 from references.timing.stopwatch import machine_table, race
 from validation.harness.study import Check, Context, Outcome, Rows, Study, left_out, table_of_rows
-from validation.parts.wall_points import RADIUS, errors_of, label, points_in, the_case, tried
+from validation.parts.wall_points import RADIUS, built, errors_of, points_in, the_case, tried
 
 BASELINE = "cylinders, 2 m"
-
-
-def settings(quick: bool) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Every registered method with its options, from coarse to fine where it has cylinders or facets."""
-    lengths = (0.5, 2.0, 5.0) if quick else (0.5, 1.0, 2.0, 5.0, 10.0)
-    meshes = ((24, 2.0), (48, 2.0)) if quick else ((12, 4.0), (24, 2.0), (48, 2.0), (96, 1.0))
-    for name in contact.METHODS:
-        keys = contact.method_class(name).Options.model_fields
-        if "facets" in keys:
-            yield from ((name, {"facets": facets, "ring_spacing": ring}) for facets, ring in meshes)
-        elif "cylinder_length" in keys:
-            yield from ((name, {"cylinder_length": each, "overlap": min(0.2, 0.5 * each)}) for each in lengths)
-        else:
-            yield name, {}
-
-
-def built(context: Context, case: Case) -> tuple[dict[str, contact.ContactMethod], list[dict[str, str]], list[str]]:
-    """Methods by the label of their setting, settings that a library rejects, names that are not installed."""
-    methods: dict[str, contact.ContactMethod] = {}
-    refused: list[dict[str, str]] = []
-    missing = [name for name in contact.METHODS if contact.installed_version(name) is None]
-    for name, options in settings(context.quick):
-        if name in missing:
-            continue
-        key = label(name, options)
-        try:
-            methods[key] = contact.build(name, case, **options)
-        except InputError as error:
-            refused.append({"setting": key, "why": str(error)})
-    return methods, refused, missing
 
 
 def costs(methods: dict[str, contact.ContactMethod], points: pd.DataFrame, rounds: int) -> pd.DataFrame:
@@ -71,7 +39,9 @@ def run(context: Context) -> Outcome:
     """Errors of every setting at the same points, cost per point, memory and build time, and wrong results."""
     quick, case = context.quick, the_case()
     points = points_in(case, 250 if quick else 2500)
-    methods, refused, missing = built(context, case)
+    lengths = (0.5, 2.0, 5.0) if quick else (0.5, 1.0, 2.0, 5.0, 10.0)
+    meshes = ((24, 2.0), (48, 2.0)) if quick else ((12, 4.0), (24, 2.0), (48, 2.0), (96, 1.0))
+    methods, refused, missing = built(case, contact.METHODS, lengths, meshes)
     rows = [
         {"setting": key, "method": key.partition(",")[0]} | row
         for key, method in context.progress(methods.items(), "methods")
