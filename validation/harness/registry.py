@@ -44,6 +44,7 @@ STUDIES: dict[str, str] = {
     "refine": "validation.studies.refine",
     "contact_accuracy": "validation.studies.contact_accuracy",
     "contact_fronts": "validation.studies.contact_fronts",
+    "rival_contact": "validation.studies.rival_contact",
     "contact_swap": "validation.studies.contact_swap",
     "mesh_torque": "validation.studies.mesh_torque",
     "engines_agree": "validation.studies.engines_agree",
@@ -67,4 +68,4 @@ STUDIES: dict[str, str] = {
 
 # Studies of rivals and plugins (references/rivals.py): left out of --all and --reproduce, so that neither repeats them
 # where no rival is installed; --rivals runs them.
-RIVALS: tuple[str, ...] = ()
+RIVALS: tuple[str, ...] = ("rival_contact",)

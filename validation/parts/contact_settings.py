@@ -3,39 +3,41 @@
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
-from fctd import Case, InputError
+from fctd import Case, InputError, build_wellbore
 from references import contact
 from references.contact import ContactMethod
 from validation.parts.methods import TOO_SLOW
+from validation.parts.wall_points import RADIUS
 
-# Facets around and distance of rings [m]; cells of the sampled distance [m].
+# Lengths of cylinders [m], facets around and distance of rings [m], cells of the sampled distance [m], ways along [m].
+LENGTHS = (10.0, 5.0, 2.0, 0.5)
 MESHES = ((12, 4.0), (24, 2.0), (48, 2.0), (96, 1.0))
 CELLS = (0.04, 0.028, 0.02, 0.014)
+DRIFTS = (2.0, 1.0, 0.25)
 
 
-def settings(quick: bool) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Every method of the suite over the settings that trade error for cost, from coarse to fine."""
-    for name in contact.METHODS:
-        keys = contact.method_class(name).Options.model_fields
-        if "cell" in keys:
-            yield from ((name, {"cell": cell}) for cell in (CELLS[:1] if quick else CELLS))
-            if not quick:
-                yield from ((name, {"cell": cell, "interpolation": "linear"}) for cell in CELLS[::2])
-        elif "drift" in keys:
-            yield from ((name, {"drift": drift}) for drift in ((1.0,) if quick else (2.0, 1.0, 0.25)))
-        elif "facets" in keys:
-            meshes = MESHES[1:2] if quick else MESHES[:2] if name == TOO_SLOW else MESHES
-            yield from ((name, {"facets": facets, "ring_spacing": ring}) for facets, ring in meshes)
-            if name == "libigl":
-                smooth = {"smooth_normals": True}
-                yield from ((name, {"facets": facets, "ring_spacing": ring} | smooth) for facets, ring in meshes)
-        elif "cylinder_length" in keys:
-            lengths = (2.0,) if quick else (10.0, 5.0, 2.0, 0.5)
-            yield from ((name, {"cylinder_length": length, "overlap": min(0.2, 0.5 * length)}) for length in lengths)
-        else:
-            yield name, {}
+def settings(name: str, quick: bool) -> Iterator[dict[str, Any]]:
+    """Options of a method, from coarse to fine: quick, one of them."""
+    keys = contact.method_class(name).Options.model_fields
+    if "cell" in keys:
+        yield from ({"cell": cell} for cell in (CELLS[:1] if quick else CELLS))
+        if not quick:
+            yield from ({"cell": cell, "interpolation": "linear"} for cell in CELLS[::2])
+    elif "drift" in keys:
+        yield from ({"drift": drift} for drift in (DRIFTS[1:2] if quick else DRIFTS))
+    elif "facets" in keys:
+        meshes = MESHES[1:2] if quick else MESHES[:2] if name == TOO_SLOW else MESHES
+        yield from ({"facets": facets, "ring_spacing": ring} for facets, ring in meshes)
+        if name == "libigl":
+            yield from ({"facets": facets, "ring_spacing": ring, "smooth_normals": True} for facets, ring in meshes)
+    elif "cylinder_length" in keys:
+        lengths = LENGTHS[2:3] if quick else LENGTHS
+        yield from ({"cylinder_length": length, "overlap": min(0.2, 0.5 * length)} for length in lengths)
+    else:
+        yield {}
 
 
 def label(name: str, options: Mapping[str, Any]) -> str:
@@ -50,17 +52,31 @@ def label(name: str, options: Mapping[str, Any]) -> str:
     return name if length is None else f"{name}, {length:g} m"
 
 
-def built(
-    asked: Iterable[tuple[str, dict[str, Any]]], case: Case
-) -> tuple[dict[str, ContactMethod], pd.DataFrame, list[str]]:
-    """Methods by label, settings that a library refuses with the reason, names that are not installed."""
+def built(case: Case, names: Iterable[str], quick: bool) -> tuple[dict[str, ContactMethod], pd.DataFrame, list[str]]:
+    """Methods by the label of their setting, settings that a library rejects, names that are not installed.
+
+    A method is asked once: a plugin that raises whatever it may is among the settings that are rejected.
+    """
+    plugins, hole = contact.REGISTRY.plugins(), build_wellbore(case)
+    middle = hole.at(np.array([0.5 * hole.total_depth]))[0]
     methods: dict[str, ContactMethod] = {}
-    refused, missing = [], dict.fromkeys(name for name in contact.METHODS if contact.installed_version(name) is None)
-    for name, options in asked:
-        if name in missing:
-            continue
+    refused: list[dict[str, str]] = []
+    missing: list[str] = []
+    for name in names:
         try:
-            methods[label(name, options)] = contact.build(name, case, **options)
-        except InputError as error:
-            refused.append({"setting": label(name, options), "why": str(error)})
-    return methods, pd.DataFrame(refused, columns=["setting", "why"]), list(missing)
+            if contact.installed_version(name) is None:
+                missing.append(name)
+                continue
+        except InputError as error:  # a plugin that cannot be imported
+            refused.append({"setting": name, "why": str(error)})
+            continue
+        for options in settings(name, quick):
+            key, foreseen = label(name, options), Exception if name in plugins else InputError
+            try:
+                method = contact.build(name, case, **options)
+                method.query(middle, np.array([RADIUS]))
+            except foreseen as error:
+                refused.append({"setting": key, "why": str(error) or type(error).__name__})
+            else:
+                methods[key] = method
+    return methods, pd.DataFrame(refused, columns=["setting", "why"]), missing

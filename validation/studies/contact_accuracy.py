@@ -11,7 +11,7 @@ from references.contact import traps
 from references.timing.footprint import footprint
 from references.timing.stopwatch import machine_table, race
 from validation.harness.study import Check, Context, Outcome, Rows, Study, left_out, table_of_rows
-from validation.parts.contact_settings import built, settings
+from validation.parts.contact_settings import built
 from validation.parts.wall_points import RADIUS, errors_of, points_in, the_case, tried
 
 BASELINE = "cylinders, 2 m"
@@ -40,7 +40,7 @@ def run(context: Context) -> Outcome:
     """Errors of every setting at the same points, cost per point, memory and build time, and wrong results."""
     quick, case = context.quick, the_case()
     points = points_in(case, 250 if quick else 2500)
-    methods, refused, missing = built(settings(quick), case)
+    methods, refused, missing = built(case, contact.METHODS, quick)
     rows = [
         {"setting": key, "method": key.partition(",")[0]} | row
         for key, method in context.progress(methods.items(), "methods")

@@ -93,8 +93,9 @@ def run(context: Context) -> Outcome:
     """Errors, costs and loads of all settings on one hole; errors of engines on one window."""
     quick = context.quick
     case = the_case()
-    methods, refused, missing = built(settings(quick), case)
-    asked = [(name, options) for name, options in settings(quick) if label(name, options) in methods]
+    methods, refused, missing = built(case, contact.METHODS, quick)
+    there = [name for name in contact.METHODS if name not in missing]
+    asked = [(name, each) for name in there for each in settings(name, quick) if label(name, each) in methods]
     sample = points_in(case, 60 if quick else 500).sample(frac=1.0, random_state=1)
     found = errors(methods, sample, case)
     points = contact_costs.Points(np.ascontiguousarray(sample[["x", "y", "z"]]), np.full(len(sample), RADIUS))
