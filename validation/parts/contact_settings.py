@@ -55,9 +55,9 @@ def label(name: str, options: Mapping[str, Any]) -> str:
 def built(case: Case, names: Iterable[str], quick: bool) -> tuple[dict[str, ContactMethod], pd.DataFrame, list[str]]:
     """Methods by the label of their setting, settings that a library rejects, names that are not installed.
 
-    A method is asked once: a plugin that raises whatever it may is among the settings that are rejected.
+    A method is asked once: one from outside the suite that raises whatever it may is among those that are rejected.
     """
-    plugins, hole = contact.REGISTRY.plugins(), build_wellbore(case)
+    hole = build_wellbore(case)
     middle = hole.at(np.array([0.5 * hole.total_depth]))[0]
     methods: dict[str, ContactMethod] = {}
     refused: list[dict[str, str]] = []
@@ -71,7 +71,7 @@ def built(case: Case, names: Iterable[str], quick: bool) -> tuple[dict[str, Cont
             refused.append({"setting": name, "why": str(error)})
             continue
         for options in settings(name, quick):
-            key, foreseen = label(name, options), Exception if name in plugins else InputError
+            key, foreseen = label(name, options), InputError if name in contact.METHODS else Exception
             try:
                 method = contact.build(name, case, **options)
                 method.query(middle, np.array([RADIUS]))
