@@ -29,6 +29,7 @@ class Package(NamedTuple):
     pythons: tuple[str, ...]
 
 
+@cache
 def about(name: str) -> Package:
     """What is known of a package, also of one that is not installed."""
     found = _installed(name)

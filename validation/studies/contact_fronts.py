@@ -23,6 +23,7 @@ from validation.parts.windows import last_seconds
 OWN = contact_costs.OWN
 ENGINES = {"FCTD": "fctd", "Bullet": "bullet", "MuJoCo": "mujoco", "PyElastica": "elastica"}
 BIT = 2450.0
+QUICK_LOADS = (OWN, "sdf", "libigl")  # methods whose loads a quick run computes
 
 
 @table_of_rows
@@ -105,7 +106,7 @@ def run(context: Context) -> Outcome:
     fronts["pieces"] = [methods[key].pieces for key in fronts["setting"]]
     if not quick:
         fronts = fronts.merge(builds(context.progress(asked, "memory"), case), on="setting", how="left")
-    in_loop = [each for each in asked if each[0] != TOO_SLOW and not (quick and each[0] in ("bullet", "mujoco"))]
+    in_loop = [each for each in asked if (each[0] in QUICK_LOADS if quick else each[0] != TOO_SLOW)]
     fronts = fronts.merge(loads(context.progress(in_loop, "loads"), 1.0 if quick else 4.0), on="setting", how="left")
     # Every wall has a mesh; cylinders, arcs and their axis are those of a swept circle.
     any_wall = fronts["method"].isin([name for name, options in asked if {"facets", "cell"} & options.keys()])
