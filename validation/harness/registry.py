@@ -50,6 +50,7 @@ STUDIES: dict[str, str] = {
     "engines_agree": "validation.studies.engines_agree",
     "speed": "validation.studies.speed",
     "precision_in_depth": "validation.studies.precision_in_depth",
+    "rival_precision": "validation.studies.rival_precision",
     "real_survey": "validation.studies.real_survey",
     "real_chart": "validation.studies.real_chart",
     "buckled_wells": "validation.studies.buckled_wells",
@@ -68,4 +69,4 @@ STUDIES: dict[str, str] = {
 
 # Studies of rivals and plugins (references/rivals.py): left out of --all and --reproduce, so that neither repeats them
 # where no rival is installed; --rivals runs them.
-RIVALS: tuple[str, ...] = ("rival_contact",)
+RIVALS: tuple[str, ...] = ("rival_contact", "rival_precision")
