@@ -46,6 +46,7 @@ STUDIES: dict[str, str] = {
     "contact_swap": "validation.studies.contact_swap",
     "mesh_torque": "validation.studies.mesh_torque",
     "engines_agree": "validation.studies.engines_agree",
+    "rival_engines": "validation.studies.rival_engines",
     "speed": "validation.studies.speed",
     "real_survey": "validation.studies.real_survey",
     "real_chart": "validation.studies.real_chart",
@@ -65,4 +66,4 @@ STUDIES: dict[str, str] = {
 
 # Studies of rivals and plugins (references/rivals.py): left out of --all and --reproduce, so that neither repeats them
 # where no rival is installed; --rivals runs them.
-RIVALS: tuple[str, ...] = ()
+RIVALS: tuple[str, ...] = ("rival_engines",)
