@@ -17,7 +17,6 @@ from types import ModuleType
 from typing import Any, ClassVar
 
 import numpy as np
-from numba import njit
 from scipy.spatial.transform import Rotation
 
 from fctd.arrays import Array
@@ -25,20 +24,24 @@ from fctd.case.errors import Table
 from fctd.mechanics import state
 from fctd.mechanics.dynamics import load, padded_columns, update_axes, update_velocities
 from fctd.mechanics.energy import Energy
+from fctd.mechanics.jit import entry
 from fctd.mechanics.joints import update_joint_loads
 from fctd.mechanics.moving_string import STILL
 from fctd.mechanics.rotations import rotation_columns
 from fctd.mechanics.stored_walls import update_walls
 from fctd.mechanics.topdrive import Motion
-from fctd.mechanics.wall_law import stiffen_walls
 from fctd.simulation.features import OWN, UNKNOWN_KEYS
 from fctd.simulation.run import Run
 from references.engines import StepOptions, need
 from references.engines.free_bodies import move_top, poses_of
 from references.engines.run import InWindows
 
+# What others feed or press (stands, bit, cake), what needs code of its own in the compiled step (orthotropic, bows,
+# other laws of the wall), and a rotation that is not planned, whose reading would be a step late.
+LEFT_OUT = {"stands", "bit_loads", "cake", "orthotropic", "bows", "wall_law", "given_loads", "drive", UNKNOWN_KEYS}
 
-@njit(error_model="numpy", cache=True)
+
+@entry
 def _put(S, n, places, speeds):  # type: ignore[no-untyped-def]
     """Update the bodies from Exudyn's coordinates (n, 6): place [m] and rotation vector; velocity and own spin."""
     for j in range(1, n + 1):
@@ -55,7 +58,7 @@ def _put(S, n, places, speeds):  # type: ignore[no-untyped-def]
         S[state.WX + j], S[state.WY + j], S[state.WZ + j] = v[3], v[4], v[5]
 
 
-@njit(error_model="numpy", cache=True)
+@entry
 def _hand_over(S, top, owner, n, C, laws, motion, pipe, dt, speeds, inertia, out):  # type: ignore[no-untyped-def]
     """Loads that give the bodies what FCTD's step gives them, beside the springs of joints 2 to n.
 
@@ -78,8 +81,6 @@ def _hand_over(S, top, owner, n, C, laws, motion, pipe, dt, speeds, inertia, out
         row[5] = -(zx * mx + zy * my + zz * mz)
     feed, rate = load(S, top, n, laws, motion, pipe, dt)
     update_walls(S, owner, n, padded_columns(n), C, laws.geometry)
-    if laws.wall_exponent != 1:
-        stiffen_walls(S, top, n, laws)
     update_velocities(S, padded_columns(n), laws, dt)
     for j in range(1, n + 1):
         row, before, m = out[j - 1], speeds[j - 1], inertia[j - 1]
@@ -144,14 +145,11 @@ class _Stepper:
                 for body, arm in arms
             ]
             springs = np.array([S[row + j] for row in stiffness])
-            system.AddObject(
-                items.ObjectConnectorRigidBodySpringDamper(
-                    markerNumbers=ends,
-                    stiffness=np.diag(springs),
-                    damping=np.diag(damped * springs),
-                    useIntrinsicFormulation=True,
-                )
-            )
+            joint = items.ObjectConnectorRigidBodySpringDamper(
+                markerNumbers=ends, stiffness=np.diag(springs), damping=np.diag(damped * springs),
+                useIntrinsicFormulation=True,
+            )  # fmt: skip
+            system.AddObject(joint)
         none = np.zeros((6 * n, 6 * n))
         system.AddObject(items.ObjectGenericODE2(nodeNumbers=nodes, massMatrix=none, forceUserFunction=self._given))
         system.Assemble()
@@ -209,7 +207,7 @@ class Exudyn(InWindows):
     name: ClassVar[str] = "exudyn"
     distribution: ClassVar[str] = "exudyn"
     does: ClassVar[str] = "rigid bodies on Exudyn's springs, by its integrator; FCTD's wall, friction and top drive"
-    honours: ClassVar[Collection[str]] = OWN - {"stands", "bit_loads", "cake", UNKNOWN_KEYS}
+    honours: ClassVar[Collection[str]] = OWN - LEFT_OUT
     Options: ClassVar[type[Table]] = StepOptions
 
     def __init__(self, options: StepOptions) -> None:

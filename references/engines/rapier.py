@@ -108,7 +108,7 @@ class _Stepper:
             )
             for name, row in AXES.items():
                 axis, stiffness = getattr(rapier.JointAxis, name), float(S[row + j])
-                damping = stiffness * (laws.joint_damping + (laws.torsion_damping if name == "ANG_Z" else 0.0))
+                damping = stiffness * laws.joint_damping
                 joint = joint.motor_model(axis, rapier.MotorModel.FORCE_BASED).motor(axis, 0, 0, stiffness, damping)
             joints.append(self._world.impulse_joints.insert(above, below, joint.build()))
         return joints
@@ -234,9 +234,7 @@ class Rapier(InWindows):
     name: ClassVar[str] = "rapier"
     distribution: ClassVar[str] = "rapier3d"
     does: ClassVar[str] = "single precision; Rapier's bodies, springs, contact with a mesh and friction"
-    honours: ClassVar[Collection[str]] = frozenset(
-        {"wall", "no_wall", "middle_contact", "incline", "joint_damping", "loss_factor"}
-    )
+    honours: ClassVar[Collection[str]] = frozenset({"wall", "no_wall", "middle_contact", "incline"})
     Options: ClassVar[type[Table]] = RapierOptions
 
     def __init__(self, options: RapierOptions) -> None:

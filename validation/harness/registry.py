@@ -48,6 +48,7 @@ STUDIES: dict[str, str] = {
     "contact_swap": "validation.studies.contact_swap",
     "mesh_torque": "validation.studies.mesh_torque",
     "engines_agree": "validation.studies.engines_agree",
+    "rival_engines": "validation.studies.rival_engines",
     "speed": "validation.studies.speed",
     "precision_in_depth": "validation.studies.precision_in_depth",
     "rival_precision": "validation.studies.rival_precision",
@@ -69,4 +70,4 @@ STUDIES: dict[str, str] = {
 
 # Studies of rivals and plugins (references/rivals.py): left out of --all and --reproduce, so that neither repeats them
 # where no rival is installed; --rivals runs them.
-RIVALS: tuple[str, ...] = ("rival_contact", "rival_precision")
+RIVALS: tuple[str, ...] = ("rival_contact", "rival_precision", "rival_engines")
