@@ -1,10 +1,12 @@
 """From stored results to pages: the first with its chapters, the claims, measured wells, and one for every study."""
 
+import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 import jinja2
+from markupsafe import Markup, escape
 
 from fctd.store.whole_folder import whole_folder
 from reports import chapters, results, wells, which_contact, words
@@ -103,6 +105,7 @@ def _write_pages(out: Path, given: Mapping[str, Any]) -> None:
         "long_cell": LONG_CELL,
     }
     environment.filters["typeset"] = words.typeset
+    environment.filters["struck"] = _struck
 
     def write(template: str, name: str, **more: Any) -> None:
         root = "../" * name.count("/")
@@ -115,6 +118,11 @@ def _write_pages(out: Path, given: Mapping[str, Any]) -> None:
     write("which_contact.html", "which_contact.html")
     for section in given["sections"].values():
         write("study.html", f"studies/{section.study}.html", section=section)
+
+
+def _struck(text: str) -> Markup:
+    """A text whose parts between ``~~`` are struck through, as in Markdown."""
+    return Markup(re.sub(r"~~(.*?)~~", r"<s>\1</s>", str(escape(text))))
 
 
 def _chapters(sections: Mapping[str, Section]) -> list[dict[str, Any]]:

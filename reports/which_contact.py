@@ -104,6 +104,15 @@ class Results:
         found = rows.loc[rows.iloc[:, 0] == key, column] if column in rows else pd.Series(dtype=float)
         return None if not len(found) or pd.isna(found.iloc[0]) else words.quantity(float(found.iloc[0]), unit)
 
+    def gate(self, engine: str) -> str:
+        """How an engine failed the gate before any speed; empty where it passed, or where it was not tried."""
+        for of in self.tables.values():
+            rows = of.get("engines", pd.DataFrame(columns=["name", "gate"]))
+            named = rows[rows["name"] == engine]
+            if len(named) and words.failed_gate(named).iloc[0]:
+                return str(named["gate"].iloc[0])
+        return ""
+
     def origins(self) -> list[str]:
         """For each study: day, machine, commit, and whether the run was quick."""
         return [
@@ -119,6 +128,8 @@ def table(folder: Path) -> Table:
     rows: list[tuple[str, ...]] = []
     for each in needs():
         cost, error = results.filled(each.cost, each.costs), results.filled(each.error, each.errors)
+        if failed := results.gate(each.take):
+            cost = f"~~{cost}~~ {failed}"
         method = "FCTD itself" if each.take == "own" else f"`{each.take}`"
         rows.append((each.need, method, each.setting, cost, error, each.precision, *_package(each, results), each.trap))
     return Table(HEADINGS, rows, results.origins())

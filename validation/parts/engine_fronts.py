@@ -57,7 +57,13 @@ def engine_errors(names: Iterable[tuple[str, str]], window: Window) -> Rows:
         own = engines.build(name).run(case, window)
         fine = engines.build(name, step=own.step / FINER).run(case, window)
         loads, finer, aside = (_loads(run) for run in (own, fine, shifted(name).run(case, window)))
-        row: dict[str, Any] = {"engine": label, "status": own.status, "failed": own.message, "step_ms": 1e3 * own.step}
+        row: dict[str, Any] = {
+            "engine": label,
+            "name": name,
+            "status": own.status,
+            "failed": own.message,
+            "step_ms": 1e3 * own.step,
+        }
         for load_name in LOADS:
             row[f"{load_name}_off_truth_percent"] = 100 * (loads[load_name] / truth[load_name] - 1)
             row[f"{load_name}_off_itself_percent"] = 100 * (loads[load_name] / finer[load_name] - 1)

@@ -14,7 +14,7 @@ from references.timing.footprint import footprint
 from references.timing.stopwatch import machine_table
 from validation.cases import load, rotation, trip
 from validation.harness.study import Check, Context, Outcome, Rows, Study, left_out, log_slope, table_of_rows
-from validation.parts import contact_costs, engine_fronts
+from validation.parts import contact_costs, engine_fronts, gated
 from validation.parts.contact_settings import CELLS, built, label, settings
 from validation.parts.methods import TOO_SLOW
 from validation.parts.wall_points import RADIUS, SLID, errors_of, points_in, the_case
@@ -125,13 +125,15 @@ def run(context: Context) -> Outcome:
         "engines": engine_fronts.engine_errors(context.progress(chosen, "engines"), window),
         "machine": machine_table(),
     }
+    tables, gates = gated.held(tables, {key: (name, {}) for key, name in chosen})
     return Outcome(
         tables=tables,
-        checks=checks(tables, quick),
+        checks=[*checks(tables, quick), *gated.checks(gates)],
         notes=notes(missing),
         display={
             "fronts": "Every setting: errors at the same points, cost of a call and of a point in batches, loads",
             "engines": "Engines on one window of one string: off the truth, off themselves, and after a shifted start",
+            "gate": gated.CAPTION,
             "packages": "What the package of a method costs its user",
             "refused": "Settings that a library refuses",
             "machine": "What the times depend on",
@@ -191,6 +193,7 @@ def notes(missing: list[str]) -> list[str]:
         "Engines: the chain turns for two periods of its twist from FCTD's state. 'off truth' is against the steady "
         "solver, 'off itself' against the same engine at a sixteenth of its step, and 'spread' the difference after "
         "every second segment began a micrometre aside.",
+        gated.NOTE,
     ]
 
 
