@@ -1,7 +1,7 @@
-"""Does requirements.lock hold all that each supported Python needs, as wheels?  Nothing is installed.
+"""Does requirements.lock hold all that each supported Python needs, as wheels, alone and together with rivals.lock?
 
-``python .ci/resolve.py`` does nothing while the lock is the one that the file ``resolved`` records; otherwise it
-resolves the lock for every Python and writes the record, which is committed with the lock.
+Nothing is installed.  ``python .ci/resolve.py`` does nothing while the locks are those that the file ``resolved``
+records; otherwise it resolves them for every Python and writes the record, which is committed with the locks.
 """
 
 import hashlib
@@ -17,6 +17,7 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
 LOCK = Path(__file__).parents[1] / "requirements.lock"
+RIVALS = LOCK.with_name("rivals.lock")
 RECORD = Path(__file__).with_name("resolved")
 PYTHONS = ("3.11", "3.12", "3.13", "3.14")
 
@@ -72,21 +73,23 @@ def resolve(lock: str, python: str) -> list[str]:
 
 
 def main() -> int:
-    """Exit code: 0 when the lock resolves, 1 when it does not."""
-    lock = LOCK.read_text()
-    now = hashlib.sha256("\n".join([*PYTHONS, *pins(lock)]).encode()).hexdigest()
+    """Exit code: 0 when the locks resolve, 1 when one does not."""
+    suite = LOCK.read_text()
+    locks = {LOCK.name: suite, f"{LOCK.name} with {RIVALS.name}": f"{suite}\n{RIVALS.read_text()}"}
+    now = hashlib.sha256("\n".join([*PYTHONS, *map(str, map(pins, locks.values()))]).encode()).hexdigest()
     if RECORD.is_file() and RECORD.read_text().strip() == now:
-        print(f"{LOCK.name}: resolved before for Python {', '.join(PYTHONS)}")
+        print(f"{', '.join(locks)}: resolved before for Python {', '.join(PYTHONS)}")
         return 0
     failures = []
-    for python in PYTHONS:
-        found = resolve(lock, python)
-        print(f"{LOCK.name}: Python {python}: {'; '.join(found) or 'resolves'}", flush=True)
-        failures += found
+    for name, lock in locks.items():
+        for python in PYTHONS:
+            found = resolve(lock, python)
+            print(f"{name}: Python {python}: {'; '.join(found) or 'resolves'}", flush=True)
+            failures += found
     if failures:
         return 1
     RECORD.write_text(now + "\n")
-    print(f"commit {RECORD.parent.name}/{RECORD.name}: the lock is not resolved again until it changes")
+    print(f"commit {RECORD.parent.name}/{RECORD.name}: the locks are not resolved again until one changes")
     return 0
 
 

@@ -1,4 +1,4 @@
-"""Set-up: the lock against pyproject.toml, its check for every Python, and the message for an unsupported Python."""
+"""Set-up: the locks against pyproject.toml and rivals, their check for every Python, the message for another one."""
 
 import importlib.util
 import shutil
@@ -12,8 +12,11 @@ import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
+from references.registry import RIVAL_PACKAGES
+
 ROOT = Path(__file__).parents[1]
 LOCK = (ROOT / "requirements.lock").read_text()
+RIVALS = (ROOT / "rivals.lock").read_text()
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 
 
@@ -39,6 +42,15 @@ def test_every_python_has_all_packages_but_pybullet(resolve: ModuleType) -> None
     assert tuple(f"3.{minor}" for minor in range(9, 18) if f"3.{minor}.0" in specifier) == resolve.PYTHONS
 
 
+def test_rivals_are_locked_beside_the_suite_for_every_python(resolve: ModuleType) -> None:
+    """The names are those of the registry; no package is pinned twice."""
+    assert tuple(Requirement(line).name for line in resolve.pins(RIVALS)) == RIVAL_PACKAGES
+    for python in resolve.PYTHONS:
+        both = [canonicalize_name(each.name) for each in resolve.wanted(f"{LOCK}\n{RIVALS}", python)]
+        assert set(RIVAL_PACKAGES) < set(both)
+        assert len(both) == len(set(both))
+
+
 def test_what_a_package_needs_on_another_python_has_to_be_in_the_lock(resolve: ModuleType) -> None:
     locked = resolve.wanted("old==1.0\nnewer==2.0  # via old\n", "3.13")
     needs = ["newer>=1", "absent; python_version >= '3.13'", "extra; extra == 'test'", "old>1; python_version < '3.12'"]
@@ -58,21 +70,27 @@ def test_a_lock_that_does_not_resolve_is_exit_code_1_and_leaves_no_record(
 
     def answer(lock: str, python: str) -> list[str]:
         asked.append(python)
-        return ["ERROR: no wheel"] if lock == "a==1" and python == "3.14" else []
+        return ["ERROR: no wheel"] if "a==1" in lock.splitlines() and python == "3.14" else []
 
     monkeypatch.setattr(resolve, "LOCK", tmp_path / "requirements.lock")
+    monkeypatch.setattr(resolve, "RIVALS", tmp_path / "rivals.lock")
     monkeypatch.setattr(resolve, "RECORD", tmp_path / "resolved")
     monkeypatch.setattr(resolve, "resolve", answer)
+    resolve.RIVALS.write_text("b==1")
     resolve.LOCK.write_text("a==1")
     assert resolve.main() == 1
     assert "Python 3.14: ERROR: no wheel" in capsys.readouterr().out
     assert not resolve.RECORD.exists()
     resolve.LOCK.write_text("a==2")
     assert [resolve.main(), resolve.main()] == [0, 0]
-    assert len(asked) == 8  # the second time it was recorded
-    resolve.LOCK.write_text("a==3")
-    assert resolve.main() == 0
-    assert len(asked) == 12
+    assert len(asked) == 16  # the second time it was recorded; each Python alone and with rivals
+    for lock, pin in ((resolve.LOCK, "a==3"), (resolve.RIVALS, "b==2")):
+        lock.write_text(pin)
+        assert resolve.main() == 0
+    assert len(asked) == 32
+    resolve.RIVALS.write_text("a==1")
+    assert resolve.main() == 1
+    assert "rivals.lock: Python 3.14: ERROR: no wheel" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("version", [(3, 10), (3, 15)])
