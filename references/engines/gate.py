@@ -65,7 +65,7 @@ class Rule(NamedTuple):
 
     def __str__(self) -> str:
         bound = f"{self.kind.replace('_', ' ')} {self.bound:g}"
-        return f"{self.name} {self.value:.3g} {self.unit}".rstrip() + f" ({bound})"
+        return f"{self.name}: {self.value:.3g} {self.unit}".rstrip() + f" ({bound})"
 
 
 def examine(engine: StringEngine) -> list[Rule]:

@@ -120,8 +120,8 @@ def test_a_string_that_sleeps_is_found() -> None:
 
 def test_a_rule_that_is_broken_says_what_was_measured() -> None:
     rule = gate.Rule("lean", 19.8, "at_most", 15.0, "°", "Coulomb's law")
-    assert gate.verdict([rule]) == "failed: lean 19.8 ° (at most 15)"
-    assert gate.verdict([rule._replace(value=np.nan)]) == "failed: lean nan ° (at most 15)"
+    assert gate.verdict([rule]) == "failed: lean: 19.8 ° (at most 15)"
+    assert gate.verdict([rule._replace(value=np.nan)]) == "failed: lean: nan ° (at most 15)"
     assert gate.verdict([rule._replace(value=15.0)]) == gate.PASSED
     assert gate.verdict([rule._replace(at_wall=True)], touching=False) == gate.PASSED
     assert gate.verdict([rule], touching=False).startswith("failed")
