@@ -38,7 +38,7 @@ def test_engines_pass_or_fail_as_measured(name: str, options: dict[str, Any], fa
     rules = gate.examine(engines.build(name, **options))
     assert [rule.name for rule in rules if not rule.passed] == failed
     assert gate.verdict(rules).startswith("failed: " if failed else gate.PASSED)
-    assert len(rules) == (4 if name == "mujoco_chain" else 10)
+    assert len(rules) == (4 if name == "mujoco_chain" else 11)
 
 
 def test_a_sound_string_falls_and_stretches_exactly() -> None:
@@ -74,7 +74,8 @@ def dragged(run: Run) -> None:
         (Faulty(at_start=softer), {"error of the stretch at 0 m", "error of the stretch at 4000 m"}),
         (Faulty(through_the_wall), {"depth in the wall over the clearance"}),
         (factors(-1.0), {"power of the wall's friction"}),
-        (factors(1.1), {"friction over μN"}),
+        (factors(1.1), {"largest friction over μN"}),
+        (factors(0.0), {"least friction over μN"}),
         (Faulty(dragged), {LEAN}),
     ],
 )
@@ -115,13 +116,13 @@ def test_positions_in_single_precision_do_not_fall_at_depth() -> None:
 def test_a_string_that_sleeps_is_found() -> None:
     names = broken(Faulty(stepper=Asleep))
     assert {"speed of the timed string", "contact force of the timed string", "error of the fall at 0 m"} <= set(names)
-    assert "friction over μN" in names  # no number, since there is no contact force
+    assert "largest friction over μN" in names  # no number, since there is no contact force
 
 
 def test_a_rule_that_is_broken_says_what_was_measured() -> None:
     rule = gate.Rule("lean", 19.8, "at_most", 15.0, "°", "Coulomb's law")
-    assert gate.verdict([rule]) == "failed: lean 19.8 ° (at most 15)"
-    assert gate.verdict([rule._replace(value=np.nan)]) == "failed: lean nan ° (at most 15)"
+    assert gate.verdict([rule]) == "failed: lean: 19.8 ° (at most 15)"
+    assert gate.verdict([rule._replace(value=np.nan)]) == "failed: lean: nan ° (at most 15)"
     assert gate.verdict([rule._replace(value=15.0)]) == gate.PASSED
     assert gate.verdict([rule._replace(at_wall=True)], touching=False) == gate.PASSED
     assert gate.verdict([rule], touching=False).startswith("failed")
