@@ -9,6 +9,9 @@ joints do, is handed over as loads.
 
 Exudyn's velocity Verlet staggers velocities and positions as FCTD's step does: loads are asked for once a step, at the
 new positions and the velocities half a step before, so that friction may stop a point within the step.
+
+Traps of its contact with a mesh: a triangle is touched from one side only, that of its normal; where a sphere touches
+several triangles their forces are added up.
 """
 
 from collections.abc import Collection
@@ -47,7 +50,7 @@ MESH_SHARE, SLOWEST, STIFF, CELL, MOST_CELLS = 0.25, 0.02, 1e15, 4.0, 400
 
 
 @entry
-def _put(S, n, places, speeds):  # type: ignore[no-untyped-def]
+def _store(S, n, places, speeds):  # type: ignore[no-untyped-def]
     """Update the bodies from Exudyn's coordinates (n, 6): place [m] and rotation vector; velocity and own spin."""
     for j in range(1, n + 1):
         p, v = places[j - 1], speeds[j - 1]
@@ -236,7 +239,7 @@ class _Stepper:
         places, speeds = (
             np.asarray(read(copy=False)).reshape(n, 6) for read in (data.GetODE2Coordinates, data.GetODE2Coordinates_t)
         )
-        _put(self._run.S, n, places, speeds)
+        _store(self._run.S, n, places, speeds)
         return speeds
 
     def energy(self) -> Energy:
