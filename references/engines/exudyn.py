@@ -9,12 +9,15 @@ joints do, is handed over as loads.
 
 Exudyn's velocity Verlet staggers velocities and positions as FCTD's step does: loads are asked for once a step, at the
 new positions and the velocities half a step before, so that friction may stop a point within the step.
+
+Traps of its contact with a mesh: a triangle is touched from one side only, that of its normal; where a sphere touches
+several triangles their forces are added up.
 """
 
 from collections.abc import Collection
 from importlib import import_module
 from types import ModuleType
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -30,19 +33,24 @@ from fctd.mechanics.moving_string import STILL
 from fctd.mechanics.rotations import rotation_columns
 from fctd.mechanics.stored_walls import update_walls
 from fctd.mechanics.topdrive import Motion
-from fctd.simulation.features import OWN, UNKNOWN_KEYS
+from fctd.simulation.features import OWN, UNKNOWN_KEYS, refuse
 from fctd.simulation.run import Run
-from references.engines import StepOptions, need
-from references.engines.free_bodies import move_top, poses_of
+from references.contact.tube_mesh import Tube
+from references.engines import need
+from references.engines.free_bodies import HONOURS, FreeBodyOptions, move_top, poses_of, tube_of, wall_stiffness
 from references.engines.run import InWindows
 
 # What others feed or press (stands, bit, cake), what needs code of its own in the compiled step (orthotropic, bows,
 # other laws of the wall), and a rotation that is not planned, whose reading would be a step late.
 LEFT_OUT = {"stands", "bit_loads", "cake", "orthotropic", "bows", "wall_law", "given_loads", "drive", UNKNOWN_KEYS}
+# Of Exudyn's contact with a mesh: share of FCTD's step, with which the string leaves the hole, since forces of
+# neighbouring triangles are added up; sliding below which friction is less than μN [m/s]; stiffness of triangles in
+# series with that of the wall [N/m]; cells of its search: size [m] and most along an axis.
+MESH_SHARE, SLOWEST, STIFF, CELL, MOST_CELLS = 0.25, 0.02, 1e15, 4.0, 400
 
 
 @entry
-def _put(S, n, places, speeds):  # type: ignore[no-untyped-def]
+def _store(S, n, places, speeds):  # type: ignore[no-untyped-def]
     """Update the bodies from Exudyn's coordinates (n, 6): place [m] and rotation vector; velocity and own spin."""
     for j in range(1, n + 1):
         p, v = places[j - 1], speeds[j - 1]
@@ -91,10 +99,11 @@ def _hand_over(S, top, owner, n, C, laws, motion, pipe, dt, speeds, inertia, out
 
 
 class _Stepper:
-    """The bodies of a run in a system of Exudyn."""
+    """The bodies of a run in a system of Exudyn; tube : the mesh that they touch in place of FCTD's wall, or None."""
 
-    def __init__(self, exudyn: ModuleType, run: Run, step: float) -> None:
+    def __init__(self, exudyn: ModuleType, run: Run, tube: Tube | None, step: float) -> None:
         self._run, self.step = run, step
+        self._laws = run.laws if tube is None else run.laws._replace(geometry=state.OPEN)
         self._motion, self._dt, self._feed, self._rate = STILL, step, 0.0, 0.0
         n = run.segments
         rows = (state.MASS, state.MASS, state.MASS, state.J_TRANSVERSE, state.J_TRANSVERSE, state.J_AXIAL)
@@ -104,7 +113,8 @@ class _Stepper:
         # The container has to outlive its system.
         self._container = exudyn.SystemContainer()
         self._system = self._container.AddSystem()
-        self._assemble()
+        self._contact: Any = None if tube is None else self._system.AddGeneralContact()
+        self._assemble(tube)
         self._settings = exudyn.SimulationSettings()
         self._settings.timeIntegration.solverType = exudyn.DynamicSolverType.VelocityVerlet
         self._settings.timeIntegration.explicit.useLieGroupIntegration = True
@@ -121,8 +131,8 @@ class _Stepper:
         self._feed = float(axis @ run.S[[state.VX, state.VY, state.VZ]])
         self._rate = float(axis @ run.S[[state.GX, state.GY, state.GZ]])
 
-    def _assemble(self) -> None:
-        """Add bodies in the state of the run, the springs between them, and the function that gives the loads."""
+    def _assemble(self, tube: Tube | None) -> None:
+        """Add bodies in the state of the run, springs between them, contact, and the function that gives the loads."""
         items, system, S, n = import_module("exudyn.itemInterface"), self._system, self._run.S, self._run.segments
         poses = poses_of(self._run)
         turns = Rotation.from_quat(poses[:, 3:7], scalar_first=True).as_rotvec()
@@ -150,17 +160,61 @@ class _Stepper:
                 useIntrinsicFormulation=True,
             )  # fmt: skip
             system.AddObject(joint)
+        if tube is not None:
+            self._touch(items, bodies, tube)
         none = np.zeros((6 * n, 6 * n))
         system.AddObject(items.ObjectGenericODE2(nodeNumbers=nodes, massMatrix=none, forceUserFunction=self._given))
         system.Assemble()
+
+    def _touch(self, items: Any, bodies: list[Any], tube: Tube) -> None:
+        """Add the spheres of the contact points and the tube to Exudyn's contact; normals point into the hole."""
+        run, contact, system = self._run, self._contact, self._system
+        contact.SetFrictionPairings([[run.case.wellbore.intervals[0].friction]])
+        contact.SetFrictionProportionalZone(SLOWEST)
+        contact.computeContactForces = True
+        vertices = np.asarray(tube.mesh.vertices)
+        contact.SetSearchTreeBox(vertices.min(axis=0).tolist(), vertices.max(axis=0).tolist())
+        spans = np.ptp(vertices, axis=0) / CELL
+        contact.SetSearchTreeCellSize(np.clip(np.ceil(spans), 1, MOST_CELLS).astype(int).tolist())
+        ground = system.AddMarker(items.MarkerBodyRigid(bodyNumber=system.AddObject(items.ObjectGround())))
+        faces = np.asarray(tube.mesh.faces)[:, ::-1]
+        contact.AddTrianglesRigidBodyBased(ground, STIFF, 0.0, 0, vertices.tolist(), faces.tolist(), True)
+        for j, (body, stiffness) in enumerate(zip(bodies, wall_stiffness(run), strict=True), 1):
+            arm, radius = float(run.S[state.ARM_CONTACT + j]), float(run.S[state.RADIUS + j])
+            marker = system.AddMarker(items.MarkerBodyRigid(bodyNumber=body, localPosition=[0, 0, arm]))
+            contact.AddSphereWithMarker(marker, radius, float(stiffness), run.laws.contact_damping, 0)
+
+    def _sum_contact(self, speeds: Array) -> None:
+        """Add the loads of Exudyn's contact to the sums of the run, those of the last step."""
+        S, n, dt = self._run.S, self._run.segments, self._dt
+        loads = np.array(self._contact.GetSystemODE2RhsContactForces()).reshape(n, 6)
+        update_walls(S, self._run.owner, n, n, self._run.hole.pieces, self._run.laws.geometry)
+        update_axes(S, n)
+        outwards, axes, spins = (
+            np.stack([state.row(S, row, n) for row in rows], axis=1)
+            for rows in (
+                (state.PX, state.PY, state.PZ), (state.AX, state.AY, state.AZ), (state.GX, state.GY, state.GZ),
+            )
+        )  # fmt: skip
+        outwards /= np.linalg.norm(outwards, axis=1)[:, None]
+        normal = -(loads[:, :3] * outwards).sum(axis=1)
+        radius = state.row(S, state.RADIUS, n)
+        swing = state.row(S, state.ARM_CONTACT, n)[:, None] * np.cross(spins, axes)
+        approach = ((speeds[:, :3] + swing) * outwards).sum(axis=1)
+        state.row(S, state.SUM_NORMAL, n)[:] += dt * normal
+        state.row(S, state.SUM_R_MU_N, n)[:] += dt * radius * state.row(S, state.FRICTION, n) * normal
+        state.row(S, state.SUM_FRICTION_TORQUE, n)[:] -= dt * loads[:, 5]
+        state.row(S, state.LOST_FRICTION, n)[:] -= dt * ((loads * speeds).sum(axis=1) + normal * approach)
 
     def _given(self, system: Any, time: float, number: int, *coordinates: Any) -> Array:
         """Loads (6 n,) at the coordinates and the velocities half a step before, after the top drive has moved."""
         run, n, dt = self._run, self._run.segments, self._dt
         move_top(run.S, run.top, run.pipe, self._feed, self._rate, dt)
         speeds = self._put()
+        if self._contact is not None:
+            self._sum_contact(speeds)
         self._feed, self._rate = _hand_over(
-            run.S, run.top, run.owner, n, run.hole.pieces, run.laws, self._motion, run.pipe, dt, speeds,
+            run.S, run.top, run.owner, n, run.hole.pieces, self._laws, self._motion, run.pipe, dt, speeds,
             self._inertia, self._loads,
         )  # fmt: skip
         return self._loads.ravel()
@@ -185,7 +239,7 @@ class _Stepper:
         places, speeds = (
             np.asarray(read(copy=False)).reshape(n, 6) for read in (data.GetODE2Coordinates, data.GetODE2Coordinates_t)
         )
-        _put(self._run.S, n, places, speeds)
+        _store(self._run.S, n, places, speeds)
         return speeds
 
     def energy(self) -> Energy:
@@ -201,6 +255,15 @@ class _Stepper:
         self._container.Reset()
 
 
+class ExudynOptions(FreeBodyOptions):
+    """Options of Exudyn.
+
+    contact : FCTD's ``wall``, or Exudyn's own of spheres with a ``mesh``, whose depth sums over neighbouring triangles.
+    """
+
+    contact: Literal["wall", "mesh"] = "wall"
+
+
 class Exudyn(InWindows):
     """Rigid bodies on Exudyn's springs in FCTD's hole."""
 
@@ -208,12 +271,17 @@ class Exudyn(InWindows):
     distribution: ClassVar[str] = "exudyn"
     does: ClassVar[str] = "rigid bodies on Exudyn's springs, by its integrator; FCTD's wall, friction and top drive"
     honours: ClassVar[Collection[str]] = OWN - LEFT_OUT
-    Options: ClassVar[type[Table]] = StepOptions
+    Options: ClassVar[type[Table]] = ExudynOptions
 
-    def __init__(self, options: StepOptions) -> None:
+    def __init__(self, options: ExudynOptions) -> None:
         self._exudyn = need("exudyn", self.name)
         self.options = options
 
     def begin(self, run: Run) -> _Stepper:
         """See ``StringEngine.begin``."""
-        return _Stepper(self._exudyn, run, self.options.step or run.step)
+        tube, share = None, 1.0
+        if self.options.contact == "mesh":
+            share = MESH_SHARE
+            refuse(run, HONOURS - LEFT_OUT, f"{self.name} with contact = mesh")
+            tube = tube_of(run, self.options)
+        return _Stepper(self._exudyn, run, tube, self.options.step or share * run.step)

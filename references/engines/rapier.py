@@ -4,9 +4,9 @@ All six axes of a joint are Rapier's motors (implicit springs and dampers) with 
 on the tube of triangles with Coulomb friction at each point.  Positions are counted from the middle of the string: at
 1 km a number of single precision has steps of 0.06 mm, a pull of 2 kN in the joints of 25 m of pipe.
 
-Traps: the impulses of joints and contacts are those of the last of ``iterations`` substeps; builders return new
-builders; bodies damp their motion and fall asleep unless told otherwise; a contact may be 5 mm deep for each metre of
-``length_unit`` before it is pushed out.
+Traps: the impulses of joints are those of the last of ``iterations`` substeps, those of contacts of the whole step; its
+points tell none while contacts are clustered; builders return new builders; bodies fall asleep unless told otherwise; a
+contact may be 5 mm deep for each metre of ``length_unit`` before it is pushed out.
 """
 
 import itertools
@@ -39,7 +39,7 @@ AXES = {
 class RapierOptions(FreeBodyOptions):
     """Options of Rapier.
 
-    iterations : substeps of a step.  length_unit [m] : Rapier's depth of a contact that it leaves is 5 mm of a metre.
+    iterations : substeps of a step.  length_unit [m] : of Rapier's tolerances.
     """
 
     iterations: Annotated[int, units.Whole(at_least=1)] = 4
@@ -61,8 +61,8 @@ class _Stepper:
         setting.length_unit = options.length_unit
         setting.friction_model = rapier.FrictionModel.COULOMB
         setting.contact_clustering = False
-        self._top, self._bodies, self._colliders = self._add_bodies()
-        self._number = {collider: j for j, collider in enumerate(self._colliders)}
+        self._top, self._bodies, colliders = self._add_bodies()
+        self._number = {collider: j for j, collider in enumerate(colliders)}
         self._joints = self._add_joints()
         self._touches = tube is not None
         if tube is not None:
@@ -144,7 +144,7 @@ class _Stepper:
         """Add the loads of a step to the sums of the run, and what friction took."""
         run, S, n = self._run, self._run.S, self._run.segments
         axes = self._rapier.JointAxis
-        share = self._iterations / dt  # impulses are those of one substep
+        share = self._iterations / dt
         motors = [self._world.impulse_joints[joint].data for joint in self._joints]
         tension = share * np.array([joint.motor(axes.LIN_Z).impulse for joint in motors])
         torque = -share * np.array([joint.motor(axes.ANG_Z).impulse for joint in motors])

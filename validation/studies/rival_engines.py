@@ -1,8 +1,8 @@
 """The same string in the engines of rivals and plugins: loads, friction, cost, and each engine against itself."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -18,12 +18,14 @@ from validation.harness.study import Check, Context, Outcome, Rows, Study, table
 from validation.parts.engine_cases import LEAD, TURNING, chain, s_shape
 
 OWN = "fctd"
-NOT_INSTALLED, REFUSED = "not installed", "refused"
+MESH = "exudyn, mesh"
+NOT_INSTALLED, REFUSED, BROKEN = "not installed", "refused", "broken"
 # Error of the torque for which a rival is bounded, in percent: Exudyn has FCTD's wall, the others their own.
 TORQUE = {"exudyn": 2.0}
 OWN_WALL = 5.0
-# The step over that of the run with which an engine is compared with itself, and a shift of its start [m].
-FINER, SHIFT = 16, 1e-6
+# Steps of the runs with which an engine is compared with itself: its own over these; a shift of the start [m].
+PARTS, SHIFT = (4, 16), 1e-6
+SELF_WINDOW = 1.0  # [s]
 AZIMUTHS = (0.0, 30.0)
 
 
@@ -38,20 +40,40 @@ def holes(quick: bool) -> dict[str, tuple[Case, Window]]:
     return dict(list(found.items())[:1]) if quick else found
 
 
-def found_engines() -> list[str]:
-    """FCTD, all rivals, and the plugins that are registered here."""
-    return [OWN, *rivals.ENGINES, *engines.REGISTRY.plugins()]
+class Configuration(NamedTuple):
+    """An engine with options, and its label in tables."""
+
+    label: str
+    name: str
+    options: Mapping[str, Any] = {}
+
+    def build(self, **options: Any) -> StringEngine:
+        """The engine, with further options."""
+        return engines.build(self.name, **self.options, **options)
 
 
-def row_of(name: str, find: Callable[[StringEngine], dict[str, Any]]) -> dict[str, Any]:
-    """The row of an engine: what ``find`` gives of it, or why it has none."""
-    found: dict[str, Any]
+def configurations() -> list[Configuration]:
+    """FCTD, all rivals, Exudyn with its own contact, and the plugins that are registered here."""
+    names = [OWN, *rivals.ENGINES, *engines.REGISTRY.plugins()]
+    found = [Configuration(name, name) for name in names]
+    found.insert(names.index("exudyn") + 1, Configuration(MESH, "exudyn", {"contact": "mesh"}))
+    return found
+
+
+def rows_of(engine: Configuration, find: Callable[[Configuration], Rows]) -> Rows:
+    """The rows that ``find`` gives of an engine, or one that says why there are none."""
     try:
-        installed = engines.installed_version(name) is not None
-        found = find(engines.build(name)) if installed else {"status": NOT_INSTALLED, "failed": ""}
+        if engines.installed_version(engine.name) is None:
+            yield {"engine": engine.label, "status": NOT_INSTALLED, "failed": ""}
+        else:
+            for row in find(engine):
+                yield {"engine": engine.label, **row}
     except InputError as error:
-        found = {"status": REFUSED, "failed": str(error)}
-    return {"engine": name, **found}
+        yield {"engine": engine.label, "status": REFUSED, "failed": str(error)}
+    except Exception as error:
+        if engine.name not in engines.REGISTRY.plugins():
+            raise
+        yield {"engine": engine.label, "status": BROKEN, "failed": f"{type(error).__name__}: {error}"}
 
 
 @table_of_rows
@@ -59,13 +81,14 @@ def loads(quick: bool, context: Context) -> Rows:
     """Every engine over the same window of every hole, from the same state."""
     for hole, (case, window) in context.progress(holes(quick).items(), "holes"):
         own = engines.build(OWN).run(case, window)
-        for name in found_engines():
-            yield {"hole": hole, **row_of(name, partial(numbers, case=case, window=window, own=own))}
+        for engine in configurations():
+            found = rows_of(engine, partial(numbers, case=case, window=window, own=own))
+            yield from ({"hole": hole, **row} for row in found)
 
 
-def numbers(engine: StringEngine, case: Case, window: Window, own: EngineRun) -> dict[str, Any]:
+def numbers(engine: Configuration, case: Case, window: Window, own: EngineRun) -> Rows:
     """The loads of an engine's run, against those of FCTD's own, and its cost."""
-    run = engine.run(case, window)
+    run = engine.build().run(case, window)
     end, reference = late(run), late(own)
     segments = len(run.profile) // run.profile["bit_depth_m"].nunique() - 1
     simulated = run.history["time_s"].iloc[-1] - window.start
@@ -73,7 +96,7 @@ def numbers(engine: StringEngine, case: Case, window: Window, own: EngineRun) ->
     def off(column: str) -> float:
         return 100 * float(end[column] / reference[column] - 1)
 
-    return {
+    yield {
         "status": run.status,
         "failed": run.message,
         "note": run.note,
@@ -95,20 +118,21 @@ def numbers(engine: StringEngine, case: Case, window: Window, own: EngineRun) ->
 @table_of_rows
 def friction(azimuths: tuple[float, ...], duration: float) -> Rows:
     """Every engine by Coulomb's law alone: a pipe that turns in a straight hole, over azimuths of the hole [deg]."""
-    for name in found_engines():
-        for azimuth in azimuths:
-            yield {"azimuth_deg": azimuth, **row_of(name, partial(slid, azimuth=azimuth, duration=duration))}
+    for engine in configurations():
+        yield from rows_of(engine, partial(slid, azimuths=azimuths, duration=duration))
 
 
-def slid(engine: StringEngine, azimuth: float, duration: float) -> dict[str, Any]:
-    """Friction of an engine in a hole of this azimuth [deg] over a window [s]."""
-    found = sliding(engine.name, azimuth, duration)
-    return {
-        "status": found.status,
-        "failed": found.failed,
-        "share_of_mu_n": found.share,
-        "lean_deg": np.degrees(found.lean),
-    }
+def slid(engine: Configuration, azimuths: tuple[float, ...], duration: float) -> Rows:
+    """Friction of an engine over azimuths of the hole [deg], in windows of this duration [s]."""
+    for azimuth in azimuths:
+        found = sliding(engine.name, azimuth, duration, **engine.options)
+        yield {
+            "azimuth_deg": azimuth,
+            "status": found.status,
+            "failed": found.failed,
+            "share_of_mu_n": found.share,
+            "lean_deg": np.degrees(found.lean),
+        }
 
 
 class Shifted(InWindows):
@@ -127,34 +151,33 @@ class Shifted(InWindows):
 
 @table_of_rows
 def against_itself(context: Context) -> Rows:
-    """Each engine in the hole that turns, against itself with a sixteenth of the step, and from a shifted start."""
-    for name in context.progress(found_engines(), "steps"):
-        yield row_of(name, itself)
-
-
-def itself(engine: StringEngine) -> dict[str, Any]:
-    """An engine in the hole that turns over a second, with its step, a finer one, and from a shifted start."""
+    """Each engine over steps, and from a start shifted by a micrometre, in the hole that turns."""
     case, window = holes(quick=False)["turn"]
-    window = Window(window.start, 1.0)
-    run = engine.run(case, window)
-    finer = engines.build(engine.name, step=run.step / FINER).run(case, window)
-    shifted = Shifted(engine).run(case, window)
+    whole = [engine for engine in configurations() if engine.label != MESH]  # a minute for one engine twice
+    for engine in context.progress(whole, "steps"):
+        yield from rows_of(engine, partial(itself, case=case, window=Window(window.start, SELF_WINDOW)))
+
+
+def itself(engine: Configuration, case: Case, window: Window) -> Rows:
+    """An engine's loads against its own at the finest of PARTS of its step; those of a shifted start at its step."""
+    usual = engine.build().run(case, window)
+    runs = [usual, *(engine.build(step=usual.step / part).run(case, window) for part in PARTS)]
+    for run in runs:
+        yield {"start": "as handed over", **apart(run, runs[-1])}
+    yield {"start": "shifted by 1 µm", **apart(Shifted(engine.build()).run(case, window), usual)}
+
+
+def apart(run: EngineRun, other: EngineRun) -> dict[str, Any]:
+    """A run, and by how much its loads differ from those of another one."""
+    end, ratio = late(run), late(run) / late(other) - 1
     return {
-        "status": finer.status,
-        "failed": finer.message,
+        "status": run.status,
+        "failed": run.message,
         "step_ms": 1e3 * run.step,
-        "finer_step_ms": 1e3 * finer.step,
-        **apart(run, finer, "finer"),
-        **apart(shifted, run, "shifted"),
-    }
-
-
-def apart(run: EngineRun, other: EngineRun, label: str) -> dict[str, float]:
-    """By how much the loads of a run differ from those of another one, in percent."""
-    ratio = late(run) / late(other) - 1
-    return {
-        f"hookload_{label}_percent": 100 * float(ratio["hookload_N"]),
-        f"torque_{label}_percent": 100 * float(ratio["surface_torque_N_m"]),
+        "hookload_kN": end["hookload_N"] / 1e3,
+        "torque_kN_m": end["surface_torque_N_m"] / 1e3,
+        "hookload_apart_percent": 100 * float(ratio["hookload_N"]),
+        "torque_apart_percent": 100 * float(ratio["surface_torque_N_m"]),
     }
 
 
@@ -170,8 +193,8 @@ def run(context: Context) -> Outcome:
     display = {
         "loads": "A turning string in three holes: every engine over the same window from FCTD's state in motion",
         "friction": "Coulomb's law alone: friction of a pipe turning in a straight hole, over the azimuth of the hole",
-        "itself": "The hole that turns: each engine against itself at a sixteenth of the step, and from a start "
-        "shifted by a micrometre",
+        "itself": "The hole that turns: each engine against itself at a sixteenth of the step; a start that is "
+        "shifted by a micrometre, against the same step",
     }
     return Outcome(
         tables=tables,
@@ -219,7 +242,27 @@ def checks(tables: dict[str, pd.DataFrame]) -> list[Check]:
                 Check(f"{name}: angle between that friction and the sliding", float(own["lean_deg"].abs().max()), 0.5,
                       "at_most", "deg", "Coulomb's law: 0"),
             ]  # fmt: skip
+    if "itself" in tables:
+        made += [check for name in rivals.ENGINES for check in self_checks(name, tables["itself"])]
     return made
+
+
+def self_checks(name: str, table: pd.DataFrame) -> Iterator[Check]:
+    """An engine converges, stays valid on the way, and does not magnify a small shift."""
+    own = table[(table["engine"] == name) & (table["status"] != NOT_INSTALLED)]
+    if own.empty:
+        return
+    shifted = own["start"] != "as handed over"
+    yield Check(f"{name}: runs with finer steps that failed a check", float((own["status"] != "valid").sum()), 0,
+                "at_most", "", "in the hole, length, energy, finite, settled")  # fmt: skip
+    for load in ("hookload", "torque"):
+        off = own[f"{load}_apart_percent"].abs()
+        yield from [
+            Check(f"{name}: {load} against its own at a sixteenth of the step", float(off.iloc[0]), 1.0, "at_most", "%",
+                  "as for the best step of an engine"),
+            Check(f"{name}: change of the {load} by a start shifted by 1 µm", float(off[shifted].max()), 0.1, "at_most",
+                  "%", "a tenth of the target"),
+        ]  # fmt: skip
 
 
 STUDY = Study(
