@@ -56,36 +56,42 @@ def unmet(packages: list[dict[str, Any]], locked: list[Requirement], python: str
     return missing
 
 
-def resolve(lock: str, python: str) -> list[str]:
-    """What keeps a lock from being installed on a Python, in words."""
-    locked = wanted(lock, python)
+def lacking(packages: list[dict[str, Any]], suite: str, rivals: str, python: str) -> list[str]:
+    """What the lock of the suite lacks by itself, and what both locks lack together."""
+    alone, both = wanted(suite, python), wanted(f"{suite}\n{rivals}", python)
+    names = {canonicalize_name(each.name) for each in alone}
+    of_suite = [each for each in packages if canonicalize_name(each["metadata"]["name"]) in names]
+    return list(dict.fromkeys([*unmet(of_suite, alone, python), *unmet(packages, both, python)]))
+
+
+def resolve(suite: str, rivals: str, python: str) -> list[str]:
+    """What keeps the locks from being installed on a Python, in words."""
     with tempfile.TemporaryDirectory() as scratch:
         report = Path(scratch, "report.json")
         command = [
             sys.executable, "-m", "pip", "install", "--dry-run", "--quiet", "--disable-pip-version-check", "--no-deps",
             "--ignore-installed", "--only-binary=:all:", "--python-version", python, "--target", scratch,
-            "--report", str(report), *(f"{each.name}{each.specifier}" for each in locked),
+            "--report", str(report), *(f"{each.name}{each.specifier}" for each in wanted(f"{suite}\n{rivals}", python)),
         ]  # fmt: skip
         done = subprocess.run(command, capture_output=True, text=True)
         if done.returncode:
             return [line for line in done.stderr.splitlines() if line.startswith("ERROR")] or [done.stderr.strip()]
-        return unmet(json.loads(report.read_text())["install"], locked, python)
+        return lacking(json.loads(report.read_text())["install"], suite, rivals, python)
 
 
 def main() -> int:
-    """Exit code: 0 when the locks resolve, 1 when one does not."""
-    suite = LOCK.read_text()
-    locks = {LOCK.name: suite, f"{LOCK.name} with {RIVALS.name}": f"{suite}\n{RIVALS.read_text()}"}
-    now = hashlib.sha256("\n".join([*PYTHONS, *map(str, map(pins, locks.values()))]).encode()).hexdigest()
+    """Exit code: 0 when the locks resolve, 1 when they do not."""
+    suite, rivals = LOCK.read_text(), RIVALS.read_text()
+    names = f"{LOCK.name}, {RIVALS.name}"
+    now = hashlib.sha256("\n".join([*PYTHONS, *pins(suite), RIVALS.name, *pins(rivals)]).encode()).hexdigest()
     if RECORD.is_file() and RECORD.read_text().strip() == now:
-        print(f"{', '.join(locks)}: resolved before for Python {', '.join(PYTHONS)}")
+        print(f"{names}: resolved before for Python {', '.join(PYTHONS)}")
         return 0
     failures = []
-    for name, lock in locks.items():
-        for python in PYTHONS:
-            found = resolve(lock, python)
-            print(f"{name}: Python {python}: {'; '.join(found) or 'resolves'}", flush=True)
-            failures += found
+    for python in PYTHONS:
+        found = resolve(suite, rivals, python)
+        print(f"{names}: Python {python}: {'; '.join(found) or 'resolves'}", flush=True)
+        failures += found
     if failures:
         return 1
     RECORD.write_text(now + "\n")
