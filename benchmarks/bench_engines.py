@@ -6,6 +6,7 @@ from pytest_benchmark.fixture import BenchmarkFixture
 from benchmarks.records import COMPILED, describe, time_steps
 from benchmarks.strings import LEAD, chain, hanging
 from references import engines
+from references.engines import gate
 from references.engines.free_bodies import FreeBodies
 from references.registry import absent
 from references.timing.workloads import moving
@@ -25,7 +26,10 @@ ENTRIES = [
 
 @pytest.mark.parametrize(("name", "state"), ENTRIES)
 def bench_engine(benchmark: BenchmarkFixture, name: str, state: str) -> None:
-    """60 segments of the curved chain, turning in the hole or hanging freely; contacts are not read for checks."""
+    """60 segments of the curved chain, turning in the hole or hanging freely; contacts are not read for checks.
+
+    The record has the verdict of the gate before any speed.
+    """
     if engines.installed_version(name) is None:
         pytest.skip(absent(engines.engine_class(name).distribution))
     case = hanging() if state == "contact-free" else chain()
@@ -35,6 +39,7 @@ def bench_engine(benchmark: BenchmarkFixture, name: str, state: str) -> None:
         stepper.watch = False
     if name == "mujoco_chain":  # it starts at rest: let the first wave pass the string
         stepper.advance(motion, 1.0)
-    describe(benchmark, f"step of every engine, {state}", engine=name, does=engines.engine_class(name).does)
+    held = gate.verdict(gate.examine(engines.build(name)), touching=state == "contact")
+    describe(benchmark, f"step of every engine, {state}", engine=name, does=engines.engine_class(name).does, gate=held)
     time_steps(benchmark, lambda span: stepper.advance(motion, span), run, stepper.step, STEPS[name], rounds=9)
     stepper.close()

@@ -9,11 +9,13 @@ is held to the rules of the released string alone.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
+from itertools import chain
 from typing import Literal, NamedTuple
 
 import numpy as np
 import pandas as pd
 
+from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.mechanics import state
 from fctd.mechanics.moving_string import STILL
@@ -70,8 +72,20 @@ class Rule(NamedTuple):
 
 
 def examine(engine: StringEngine) -> list[Rule]:
-    """All rules that apply to an engine with its options, in seconds.  InputError where it cannot run these cases."""
-    return [*_released(engine), *(_sliding(engine) if "wall" in engine.honours else ())]
+    """All rules that apply to an engine with its options, in seconds.
+
+    An error that an engine raises is a broken rule, and the last one.  InputError where it cannot run these cases.
+    """
+    rules = []
+    try:
+        for rule in chain(_released(engine), _sliding(engine) if "wall" in engine.honours else ()):
+            rules.append(rule)
+    except InputError:
+        raise
+    except Exception as error:  # whatever it raises on a string that has come apart, the other engines go on
+        name = f"runs that {type(error).__name__} ended ({error})"
+        rules.append(Rule(name, 1, "at_most", 0, "", "an engine ends the runs that it begins"))
+    return rules
 
 
 def verdict(rules: list[Rule], *, touching: bool = True) -> str:
@@ -201,6 +215,7 @@ def _deepest(run: EngineRun) -> float:
 
 
 def _power(run: EngineRun) -> float:
-    """Largest power of friction on the string between two records [W]; below 0 it takes energy."""
-    lost, times = run.energy["lost_friction_J"].to_numpy(), run.energy["time_s"].to_numpy()
-    return float((-np.diff(lost) / np.diff(times)).max())
+    """Largest power of friction on the string between records [W], below 0 where it takes energy; nan without any."""
+    lost, times = np.append(0.0, run.energy["lost_friction_J"]), np.append(LEAD, run.energy["time_s"])
+    given = -np.diff(lost) / np.diff(times)
+    return float(given.max()) if len(given) else np.nan

@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from fctd.case.errors import InputError
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.topdrive import Motion
 from fctd.simulation.run import Run
@@ -24,10 +25,10 @@ def broken(engine: Any) -> list[str]:
     ("name", "options", "failed"),
     [
         ("fctd", {}, []),
-        ("mujoco", {}, []),
+        pytest.param("mujoco", {}, [], marks=pytest.mark.slow),
         pytest.param("elastica", {}, [], marks=pytest.mark.slow),
         # Friction along two fixed directions: right in a straight hole to which they are turned, not in a bend.
-        ("bullet", {}, [LEAN]),
+        pytest.param("bullet", {}, [LEAN], marks=pytest.mark.slow),
         # A pyramid of friction.
         pytest.param("mujoco", {"settings": "default"}, [LEAN], marks=pytest.mark.slow),
         # A ball joint does not stretch; the chain has no wall, so that nothing else is asked.
@@ -117,6 +118,26 @@ def test_a_string_that_sleeps_is_found() -> None:
     names = broken(Faulty(stepper=Asleep))
     assert {"speed of the timed string", "contact force of the timed string", "error of the fall at 0 m"} <= set(names)
     assert "largest friction over μN" in names  # no number, since there is no contact force
+
+
+def test_an_error_of_an_engine_breaks_a_rule_and_a_wrong_case_is_refused() -> None:
+    def gives_up(run: Run) -> None:
+        raise FloatingPointError("no more")
+
+    rules = gate.examine(Faulty(gives_up))
+    assert gate.verdict(rules) == "failed: runs that FloatingPointError ended (no more): 1 (at most 0)"
+    with_wall_alone = Faulty()
+    with_wall_alone.honours = {"wall", "incline"}  # type: ignore[misc]
+    with pytest.raises(InputError, match="without a wall"):
+        gate.examine(with_wall_alone)
+
+
+@pytest.mark.parametrize(("name", "step"), [("fctd", "10.8 ms"), ("bullet", "12 ms")])
+@pytest.mark.filterwarnings("ignore")  # of numbers that overflow
+def test_an_engine_that_is_unstable_fails(name: str, step: str) -> None:
+    rules = {rule.name: rule.passed for rule in gate.examine(engines.build(name, step=step))}
+    assert not rules["error of the stretch at 0 m"]
+    assert not rules["depth in the wall over the clearance"]
 
 
 def test_a_rule_that_is_broken_says_what_was_measured() -> None:
