@@ -52,7 +52,7 @@ TIMES = {
 }
 
 # Columns that say how fast an engine is; the pages strike them through where it failed the gate before any speed.
-SPEEDS = (*TIMES, "real_time_factor", "ratio_to_fctd", "ratio_low", "ratio_high", "value")
+SPEEDS = (*TIMES, "segment_step_us", "real_time_factor", "ratio_to_fctd", "ratio_low", "ratio_high", "value")
 
 # What the words of a column's name stand for: the engine's own quantities, names and abbreviations.
 SPELT = {

@@ -3,7 +3,6 @@
 from collections.abc import Iterable
 from typing import Any
 
-import numpy as np
 import pandas as pd
 
 from fctd import Case, equilibrium
@@ -11,7 +10,7 @@ from fctd.mechanics import state
 from fctd.simulation.run import Run
 from references import engines
 from references.engines import EngineRun, Stepper, StringEngine, Window
-from references.engines.run import late
+from references.engines.run import InWindows, late
 from validation.cases import load, rotation
 from validation.harness.study import Rows, table_of_rows
 
@@ -22,19 +21,18 @@ PERIODS = 3.8  # two periods of the chain's twist [s], over which a mean keeps n
 LOADS = {"hookload": "hookload_N", "torque": "surface_torque_N_m"}
 
 
-def shifted(name: str) -> StringEngine:
-    """An engine whose string starts a micrometre aside, every second segment the other way."""
-    engine = engines.engine_class(name)
+class Shifted(InWindows):
+    """An engine whose string starts with every second segment shifted north by SHIFT, a micrometre."""
 
-    class Shifted(engine):  # type: ignore[misc, valid-type]
-        def begin(self, run: Run) -> Stepper:
-            places = state.row(run.S, state.X, run.segments)
-            places += SHIFT * np.where(np.arange(run.segments) % 2, 1.0, -1.0)
-            begun: Stepper = super().begin(run)
-            return begun
+    def __init__(self, engine: StringEngine) -> None:
+        self._engine = engine
+        self.name, self.honours = engine.name, engine.honours  # type: ignore[misc]
 
-    made: StringEngine = Shifted(engines.REGISTRY.options(name, {}))
-    return made
+    def begin(self, run: Run) -> Stepper:
+        """See ``StringEngine.begin``."""
+        state.row(run.S, state.X, run.segments)[::2] += SHIFT
+        run.refresh()
+        return self._engine.begin(run)
 
 
 def the_case(window: Window) -> Case:
@@ -56,7 +54,7 @@ def engine_errors(names: Iterable[tuple[str, str]], window: Window) -> Rows:
     for label, name in names:
         own = engines.build(name).run(case, window)
         fine = engines.build(name, step=own.step / FINER).run(case, window)
-        loads, finer, aside = (_loads(run) for run in (own, fine, shifted(name).run(case, window)))
+        loads, finer, aside = (_loads(run) for run in (own, fine, Shifted(engines.build(name)).run(case, window)))
         row: dict[str, Any] = {
             "engine": label,
             "name": name,

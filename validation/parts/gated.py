@@ -39,7 +39,7 @@ def held(
     judged = {}
     for key in timed:
         verdicts = {name: gate.verdict(rules, touching=key not in free) for name, rules in gates.items()}
-        judged[key] = tables[key].assign(gate=tables[key]["engine"].map(verdicts))
+        judged[key] = tables[key].assign(gate=tables[key]["engine"].map(verdicts).fillna("not tried"))
     return tables | judged | {"gate": gate.table(gates)}, gates
 
 

@@ -8,14 +8,14 @@ import numpy as np
 import pandas as pd
 
 from fctd import Case, InputError
-from fctd.mechanics import state
-from fctd.simulation.run import Run
 from references import engines, rivals
 from references.engines import EngineRun, StringEngine, Window
 from references.engines.friction_law import sliding
-from references.engines.run import InWindows, late
+from references.engines.run import late
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
+from validation.parts import gated
 from validation.parts.engine_cases import LEAD, TURNING, chain, s_shape
+from validation.parts.engine_fronts import FINER, Shifted
 
 OWN = "fctd"
 MESH = "exudyn, mesh"
@@ -23,10 +23,11 @@ NOT_INSTALLED, REFUSED, BROKEN = "not installed", "refused", "broken"
 # Error of the torque for which a rival is bounded, in percent: Exudyn has FCTD's wall, the others their own.
 TORQUE = {"exudyn": 2.0}
 OWN_WALL = 5.0
-# Steps of the runs with which an engine is compared with itself: its own over these; a shift of the start [m].
-PARTS, SHIFT = (4, 16), 1e-6
+# Steps of the runs with which an engine is compared with itself: its own over these.
+PARTS = (4, FINER)
 SELF_WINDOW = 1.0  # [s]
 AZIMUTHS = (0.0, 30.0)
+SPEEDS = ["segment_step_us", "real_time_factor", "wall_s"]
 
 
 def holes(quick: bool) -> dict[str, tuple[Case, Window]]:
@@ -112,6 +113,7 @@ def numbers(engine: Configuration, case: Case, window: Window, own: EngineRun) -
         "step_ms": 1e3 * run.step,
         "segment_step_us": 1e6 * run.wall_s / run.steps / segments,
         "real_time_factor": simulated / run.wall_s,
+        "wall_s": run.wall_s,
     }
 
 
@@ -133,20 +135,6 @@ def slid(engine: Configuration, azimuths: tuple[float, ...], duration: float) ->
             "share_of_mu_n": found.share,
             "lean_deg": np.degrees(found.lean),
         }
-
-
-class Shifted(InWindows):
-    """An engine whose string starts with every second segment shifted sideways by SHIFT, a micrometre."""
-
-    def __init__(self, engine: StringEngine) -> None:
-        self._engine = engine
-        self.name, self.honours = engine.name, engine.honours  # type: ignore[misc]
-
-    def begin(self, run: Run) -> Any:
-        """See ``StringEngine.begin``."""
-        state.row(run.S, state.Y, run.segments)[::2] += SHIFT
-        run.refresh()
-        return self._engine.begin(run)
 
 
 @table_of_rows
@@ -188,18 +176,25 @@ def run(context: Context) -> Outcome:
         "loads": loads(quick, context),
         "friction": friction(AZIMUTHS[1:] if quick else AZIMUTHS, 0.5 if quick else 2.0),
     }
-    if not quick:
+    gates: gated.Gates = {}
+    if quick:  # the gate takes some ten seconds an engine, and no speed is printed without it
+        tables["loads"] = tables["loads"].drop(columns=SPEEDS, errors="ignore")
+    else:
+        ran = tables["loads"].loc[tables["loads"]["wall_s"].notna(), "engine"]
+        tried = {each.label: (each.name, dict(each.options)) for each in configurations() if each.label in set(ran)}
+        tables, gates = gated.held(tables, tried)
         tables["itself"] = against_itself(context)
     display = {
         "loads": "A turning string in three holes: every engine over the same window from FCTD's state in motion",
         "friction": "Coulomb's law alone: friction of a pipe turning in a straight hole, over the azimuth of the hole",
+        "gate": gated.CAPTION,
         "itself": "The hole that turns: each engine against itself at a sixteenth of the step; a start that is "
         "shifted by a micrometre, against the same step",
     }
     return Outcome(
         tables=tables,
-        checks=checks(tables),
-        notes=NOTES,
+        checks=[*checks(tables), *gated.checks(gates)],
+        notes=[*NOTES, gated.NOTE],
         display={name: caption for name, caption in display.items() if name in tables},
     )
 
