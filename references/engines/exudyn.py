@@ -8,7 +8,8 @@ velocities (wall, friction, mud, weight, top drive and its joint, bent housings)
 joints do, is handed over as loads.
 
 Exudyn's velocity Verlet staggers velocities and positions as FCTD's step does: loads are asked for once a step, at the
-new positions and the velocities half a step before, so that friction may stop a point within the step.
+new positions and the velocities half a step before, so that friction may stop a point within the step.  Readings are
+those at the end of a step, FCTD's at its start.
 
 Traps of its contact with a mesh: a triangle is touched from one side only, that of its normal; where a sphere touches
 several triangles their forces are added up.

@@ -11,15 +11,12 @@ from references import engines
 from references.engines import EngineRun, Window
 from references.engines.run import late
 from references.engines.scaling import SCALE, Factors, factors, scaled
-from validation.cases import load, rotation, trip
+from validation.cases import load, rotation
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts import engine_notes, engine_settings, gated
-from validation.parts.engine_cases import BIT, LEAD, S_BIT, SPEED, TURNING, chain, s_shape
+from validation.parts.engine_cases import BIT, LEAD, RAMP, S_BIT, TURNING, WELL_LEAD, chain, s_shape, well
 from validation.parts.windows import last_seconds
 
-# The 2250 m of string in the paper's well start to move over RAMP: friction that does not depend on speed does not damp
-# the axial ringing of a sliding string, so the start must not excite it.
-WELL_LEAD, RAMP = 44.0, 40.0
 # Engines and their configurations: the best fair one, and the engine's defaults.
 ENGINES: dict[str, tuple[str, dict[str, Any]]] = {
     "FCTD": ("fctd", {}),
@@ -38,19 +35,6 @@ SMALL_WINDOW = 0.1  # [s] of the model at a thousandth, down whose 1.5 m of stee
 WINDOWS = (
     ("planar", "rotate_off_bottom"), ("planar", "trip_out"), ("planar", "trip_in"), ("turning", "rotate_off_bottom"),
 )  # fmt: skip
-
-
-def well(segments: int, window: Window) -> Case:
-    """The paper's well tripped into to 2250 m, with 60 segments or with the 170 of its Adams model."""
-    counts = (20, 40) if segments == 60 else (50, 120)
-    travel = SPEED * (window.start - RAMP / 2 + window.duration / 2)
-    return load(
-        "paper_well",
-        operations=trip(2250.0 - travel, 2250.0 + SPEED * window.duration, SPEED, ramp=RAMP),
-        record__interval=0.25,
-        string__components__0__segments=counts[0],
-        string__components__1__segments=counts[1],
-    )
 
 
 def row(name: str, run: EngineRun, reference: EngineRun, steady: Any) -> dict[str, Any]:

@@ -22,7 +22,13 @@ def test_every_trap_has_its_number() -> None:
     assert [trap.tried for trap in rival_traps.TRAPS] == list(FAILS)
 
 
-@pytest.mark.parametrize("trap", rival_traps.TRAPS, ids=[trap.tried for trap in rival_traps.TRAPS])
+@pytest.mark.parametrize(
+    "trap",
+    [  # Newton compiles for a minute and a half in a new environment.
+        pytest.param(trap, id=trap.tried, marks=pytest.mark.slow if trap.distribution == "newton" else ())
+        for trap in rival_traps.TRAPS
+    ],
+)
 def test_the_obvious_way_fails_as_recorded(trap: traps.Trap) -> None:
     found = traps.measure(trap, traps.scene(40))
     assert found >= FAILS[trap.tried] * (1 - 1e-9)
