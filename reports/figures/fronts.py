@@ -14,12 +14,12 @@ COLOURS = 6
 
 @figure(
     "contact_fronts",
-    "rival_contact",
     name="fronts",
     caption=(
         "Every contact method over its settings: cost of a point in a call with 1000 of them against the root mean "
         "square error of its penetration (left), and against the change of a turning string's torque (right). The wide "
-        "grey line joins the settings that no other one beats in both; errors below a thousandth stand at the bottom."
+        "grey lines join the settings that no other one beats in both: of all methods, and of those that take any wall; "
+        "errors below a thousandth stand at the bottom."
     ),
 )
 @style.panels(5.2, 1, 2, sharex=True)
@@ -33,8 +33,9 @@ def fronts(tables: Tables, distance: Axes, torque: Axes) -> None:
         rows = table.dropna(subset=column)
         rows = rows.assign(error=rows[column].abs().clip(lower=least))
         if ax is distance:
-            best = rows[rows["pareto"]].sort_values("ns_1000")
-            ax.plot(best["ns_1000"], best["error"], color=style.QUIET, linewidth=4, alpha=0.5, label="front")
+            for column_of, width in (("pareto", 5), ("pareto_any_wall", 9)):
+                best = rows[rows[column_of]].sort_values("ns_1000")
+                ax.plot(best["ns_1000"], best["error"], color=style.QUIET, linewidth=width, alpha=0.35, label="front")
         for index, method in enumerate(table["method"].unique()):
             _series(ax, rows[rows["method"] == method], index, words.name(str(method)))
         ax.set(xscale="log", yscale="log", xlabel="time of a point, ns")
