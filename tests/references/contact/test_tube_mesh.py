@@ -76,6 +76,19 @@ def test_a_change_of_size_has_rings_of_its_own() -> None:
     np.testing.assert_allclose(radius[tube.md >= 100.2], 0.1, rtol=1e-9)
 
 
+def test_ring_axis_and_facet_beside_a_point() -> None:
+    """Of the middle of each face: its ring, a foot across the chord of the axis, and its facet, of two faces."""
+    tube = tube_of()
+    middles, faces = np.asarray(tube.mesh.triangles_center), np.arange(tube.triangles)
+    ring = tube.ring_above(middles)
+    np.testing.assert_array_equal(ring, faces // (2 * tube.facets))
+    span = tube.centres[ring + 1] - tube.centres[ring]
+    across = middles - tube.axis_beside(ring, middles)
+    np.testing.assert_allclose(np.sum(across * span, axis=1), 0, atol=1e-9)
+    for share in (0.5, 1.3):  # inside and beyond the wall
+        np.testing.assert_array_equal(tube.face_beside(ring, middles + (share - 1) * across) // 2, faces // 2)
+
+
 def test_a_missing_triangle_and_a_turned_one_are_found() -> None:
     tube = tube_of()
     check_tube(tube)
