@@ -18,8 +18,8 @@ COLOURS = 6
     caption=(
         "Every contact method over its settings: cost of a point in a call with 1000 of them against the root mean "
         "square error of its penetration (left), and against the change of a turning string's torque (right). The wide "
-        "grey lines join the settings that no other one beats in both: of all methods, and of those that take any wall; "
-        "errors below a thousandth stand at the bottom."
+        "grey lines join the settings that no other one beats in both: of all methods, and of those that take any "
+        "wall; errors below a thousandth stand at the bottom."
     ),
 )
 @style.panels(5.2, 1, 2, sharex=True)
