@@ -25,7 +25,9 @@ COLOURS = 6
 @style.panels(5.2, 1, 2, sharex=True)
 def fronts(tables: Tables, distance: Axes, torque: Axes) -> None:
     """Error of penetration and of torque against the cost of a point, a line for each method."""
-    table = tables["fronts"].dropna(subset="ns_1000").sort_values("ns_1000")
+    table = tables["fronts"].dropna(subset="ns_1000")
+    # A method's variants, a word at the end of a setting, are lines of their own.
+    table = table.assign(series=table["method"] + table["setting"].str.extract(r"(, [a-z]+)$", expand=False).fillna(""))
     for ax, column, least in (
         (distance, "rms_error_mm", LEAST_MM),
         (torque, "torque_off_percent", LEAST_PERCENT),
@@ -33,15 +35,15 @@ def fronts(tables: Tables, distance: Axes, torque: Axes) -> None:
         rows = table.dropna(subset=column)
         rows = rows.assign(error=rows[column].abs().clip(lower=least))
         if ax is distance:
-            for column_of, width in (("pareto", 5), ("pareto_any_wall", 9)):
-                best = rows[rows[column_of]].sort_values("ns_1000")
-                ax.plot(best["ns_1000"], best["error"], color=style.QUIET, linewidth=width, alpha=0.35, label="front")
-        for index, method in enumerate(table["method"].unique()):
-            _series(ax, rows[rows["method"] == method], index, words.name(str(method)))
+            for of, width, label in (("pareto", 4, "front"), ("pareto_any_wall", 9, "front, any wall")):
+                best = rows[rows[of]].sort_values("ns_1000")
+                ax.plot(best["ns_1000"], best["error"], color=style.QUIET, linewidth=width, alpha=0.35, label=label)
+        for index, series in enumerate(sorted(table["series"].unique())):
+            _series(ax, rows[rows["series"] == series].sort_values("error"), index, words.name(str(series)))
         ax.set(xscale="log", yscale="log", xlabel="time of a point, ns")
     distance.set_ylabel("error of penetration, mm (root mean square)")
     torque.set_ylabel("change of torque, %")
-    style.legend_outside(distance, columns=5)
+    style.legend_outside(distance, columns=4)
 
 
 def _series(ax: Axes, rows: pd.DataFrame, index: int, label: str) -> None:

@@ -8,7 +8,6 @@ from validation.harness.study import Context
 from validation.parts.single_precision import by_positions, by_velocities, spacing
 from validation.studies import rival_precision
 
-
 # Newton compiles for a minute and a half in a new environment.
 COMPILED = [
     pytest.param(name, marks=pytest.mark.slow) if sphere.distribution == "newton" else name
