@@ -106,9 +106,8 @@ class Results:
 
     def gate(self, engine: str) -> str:
         """How an engine failed the gate before any speed; empty where it passed, or where it was not tried."""
-        for of in self.tables.values():
-            rows = of.get("engines", pd.DataFrame(columns=["name", "gate"]))
-            named = rows[rows["name"] == engine]
+        for rows in (each for of in self.tables.values() for each in of.values() if "gate" in each):
+            named = rows[rows["name" if "name" in rows else "engine"] == engine]
             if len(named) and words.failed_gate(named).iloc[0]:
                 return str(named["gate"].iloc[0])
         return ""

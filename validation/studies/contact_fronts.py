@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from fctd import Case, simulate
-from references import contact, engines, packages
+from references import contact, engines
 from references.contact import ContactMethod
 from references.engines import Window
 from references.timing.footprint import footprint
@@ -15,6 +15,7 @@ from references.timing.stopwatch import machine_table
 from validation.cases import load, rotation, trip
 from validation.harness.study import Check, Context, Outcome, Rows, Study, left_out, log_slope, table_of_rows
 from validation.parts import contact_costs, engine_fronts, gated
+from validation.parts.brought import brought
 from validation.parts.contact_settings import CELLS, built, label, settings
 from validation.parts.methods import TOO_SLOW
 from validation.parts.wall_points import RADIUS, SLID, errors_of, points_in, the_case
@@ -81,16 +82,6 @@ def builds(asked: Iterable[tuple[str, dict[str, Any]]], case: Case) -> Rows:
         yield {"setting": label(name, options), "memory_MB": memory, "build_s": seconds}
 
 
-def brought() -> pd.DataFrame:
-    """What each method's package costs its user; a method that is not installed is a row."""
-    rows = []
-    for name in contact.METHODS:
-        package = packages.about(contact.method_class(name).distribution)
-        about = package._asdict() | {"pythons": ", ".join(package.pythons)}
-        rows.append({"method": name, "status": "installed" if package.version else "not installed"} | about)
-    return pd.DataFrame(rows)
-
-
 def run(context: Context) -> Outcome:
     """Errors, costs and loads of all settings on one hole; errors of engines on one window."""
     quick = context.quick
@@ -122,7 +113,7 @@ def run(context: Context) -> Outcome:
     tables = {
         "fronts": fronts,
         "refused": refused,
-        "packages": brought(),
+        "packages": brought(contact.REGISTRY, contact.METHODS),
         "engines": engine_fronts.engine_errors(context.progress(chosen, "engines"), window),
         "machine": machine_table(),
     }

@@ -19,6 +19,7 @@ from references.rivals import METHODS
 from references.timing.footprint import footprint
 from references.timing.stopwatch import Action, machine_table, race
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
+from validation.parts.brought import brought
 from validation.parts.contact_settings import built
 from validation.parts.wall_points import RADIUS, REGIONS, errors_of, points_in, the_case, tried
 
@@ -151,6 +152,7 @@ def run(context: Context) -> Outcome:
             "depth": with_missing(deep, "method", missing),
             "traps": wrong,
             "refused": refused,
+            "packages": brought(contact.REGISTRY, [*METHODS, *contact.REGISTRY.plugins()]),
             "machine": machine_table(RIVAL_PACKAGES),
         },
         checks=checks(near, cost, deep),
@@ -161,6 +163,7 @@ def run(context: Context) -> Outcome:
             "depth": "Largest distance from the mesh in double precision, with an origin for each 100 m of hole and "
             "with that of the well",
             "traps": "Usual calls of the packages that give wrong results",
+            "packages": "What the package of a method costs its user",
             "refused": "Settings that a library rejects, and plugins that cannot be used",
             "machine": "What the times depend on",
         },

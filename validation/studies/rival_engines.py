@@ -14,6 +14,7 @@ from references.engines.friction_law import sliding
 from references.engines.run import late
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts import gated
+from validation.parts.brought import brought
 from validation.parts.engine_cases import LEAD, TURNING, chain, s_shape
 from validation.parts.engine_fronts import FINER, Shifted
 
@@ -84,7 +85,7 @@ def loads(quick: bool, context: Context) -> Rows:
         own = engines.build(OWN).run(case, window)
         for engine in configurations():
             found = rows_of(engine, partial(numbers, case=case, window=window, own=own))
-            yield from ({"hole": hole, **row} for row in found)
+            yield from ({"engine": engine.label, "hole": hole, **row} for row in found)
 
 
 def numbers(engine: Configuration, case: Case, window: Window, own: EngineRun) -> Rows:
@@ -188,9 +189,11 @@ def run(context: Context) -> Outcome:
         "loads": "A turning string in three holes: every engine over the same window from FCTD's state in motion",
         "friction": "Coulomb's law alone: friction of a pipe turning in a straight hole, over the azimuth of the hole",
         "gate": gated.CAPTION,
+        "packages": "What the package of an engine costs its user",
         "itself": "The hole that turns: each engine against itself at a sixteenth of the step; a start that is "
         "shifted by a micrometre, against the same step",
     }
+    tables["packages"] = brought(engines.REGISTRY, [*rivals.ENGINES, *engines.REGISTRY.plugins()])
     return Outcome(
         tables=tables,
         checks=[*checks(tables), *gated.checks(gates)],
