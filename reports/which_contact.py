@@ -25,14 +25,26 @@ MARK = "<!-- written by `{command}`, digest {digest} -->"
 STUDIES = ("contact_fronts", "rival_contact", "rival_engines", "washed_out_hole", "sticking", "sweep")
 HEADINGS = ("need", "method", "setting", "cost", "error in torque", "precision", "licence, size", "Python", "trap")
 
-Source = tuple[str, str] | tuple[str, str, str, str, str]
+# Columns of the table of all settings, and their headings.
+MEASURED = {
+    "setting": "setting",
+    "single_us": "a call with one point [µs]",
+    "ns_1000": "a point of 1000 [ns]",
+    "max_error_mm": "largest error [mm]",
+    "max_angle_deg": "largest angle [°]",
+    "torque_off_percent": "torque [%]",
+    "memory_MB": "memory [MB]",
+}
+
+Source = tuple[str, str] | tuple[str, str, str, str, str] | tuple[str, str, str, str, str, dict[str, float]]
 
 
 class Need(Strict):
     """A need and what to take for it.
 
     costs, errors : for ``{0}`` and so on in the text before, a check (study, name) or a cell of a table (study, table,
-    name of the row, column, unit).  take : a name of the registry, or ``own``.
+    name of the row, column, unit; and values of other columns where a name has several rows).
+    take : a name of the registry, or ``own``.
     """
 
     need: str
@@ -85,10 +97,10 @@ class Results:
 
     def filled(self, text: str, sources: Iterable[Source]) -> str:
         """A text with its numbers; where one has not been measured, which studies would measure it."""
-        found = {source: self._quantity(source) for source in sources}
-        if missing := dict.fromkeys(source[0] for source, quantity in found.items() if quantity is None):
+        found = [(source[0], self._quantity(source)) for source in sources]
+        if missing := dict.fromkeys(study for study, quantity in found if quantity is None):
             return f"not measured yet: {', '.join(missing)}"
-        return text.format(*found.values())
+        return text.format(*(quantity for _, quantity in found))
 
     def _quantity(self, source: Source) -> str | None:
         """A number with its unit, None where no result has it."""
@@ -99,10 +111,13 @@ class Results:
             checks = {judged.check.name: judged.check for judged in self.records[study].checks}
             check = checks.get(source[1])
             return None if check is None else words.quantity(check.value, check.unit)
-        _, table, key, column, unit = source
-        rows = self.tables[study].get(table, pd.DataFrame(columns=["name", column]))
-        found = rows.loc[rows.iloc[:, 0] == key, column] if column in rows else pd.Series(dtype=float)
-        return None if not len(found) or pd.isna(found.iloc[0]) else words.quantity(float(found.iloc[0]), unit)
+        _, table, key, column, unit, *where = source
+        rows = self.tables[study].get(table, pd.DataFrame(columns=["name"]))
+        rows = rows[rows.iloc[:, 0] == key]
+        for name, value in where[0].items() if where else ():
+            rows = rows[rows[name] == value]
+        found = rows[column].dropna() if column in rows else pd.Series(dtype=float)
+        return words.quantity(float(found.iloc[0]), unit) if len(found) else None
 
     def gate(self, engine: str) -> str:
         """How an engine failed the gate before any speed; empty where it passed, or where it was not tried."""
@@ -137,13 +152,23 @@ def table(folder: Path) -> Table:
 def fronts(folder: Path) -> Table:
     """Every setting of every method that has been measured, in the order of the studies."""
     results = Results(folder)
-    columns = ["setting", "single_us", "ns_1000", "max_error_mm", "max_angle_deg", "torque_off_percent", "memory_MB"]
+    columns = list(MEASURED)
     found = [of["fronts"] for of in results.tables.values() if "fronts" in of]
+    if rivals := results.tables.get("rival_contact"):
+        found.append(_of_rivals(rivals["cost"], rivals["errors"]))
     rows = pd.concat(found, ignore_index=True).reindex(columns=columns) if found else pd.DataFrame(columns=columns)
-    headings = [
-        " ".join(filter(None, (label, f"[{unit}]" if unit else ""))) for label, unit in map(words.heading, columns)
-    ]
-    return Table(tuple(headings), list(zip(*(words.column(rows[name]) for name in columns), strict=True)), [])
+    return Table(tuple(MEASURED.values()), list(zip(*(words.column(rows[name]) for name in columns), strict=True)), [])
+
+
+def _of_rivals(cost: pd.DataFrame, errors: pd.DataFrame) -> pd.DataFrame:
+    """Settings of rivals and plugins with the columns of ``contact_fronts``."""
+    cost, errors = (rows[rows["status"] == "measured"] for rows in (cost, errors))
+    cost = cost[~cost["method"].isin(contact.METHODS)]
+    spent = cost.pivot_table(index="setting", columns="points", values="median_ns")
+    worst = errors.groupby("setting")[["max_penetration_error_mm", "max_angle_error_deg"]].max()
+    table = pd.DataFrame({"single_us": 1e-3 * spent[1], "ns_1000": spent[1000]} if len(spent) else {})
+    table["max_error_mm"], table["max_angle_deg"] = worst["max_penetration_error_mm"], worst["max_angle_error_deg"]
+    return table.loc[list(dict.fromkeys(cost["setting"]))].rename_axis("setting").reset_index()
 
 
 def write_guide(folder: Path) -> None:
