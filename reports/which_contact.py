@@ -184,10 +184,9 @@ def guide(chosen: Table, measured: Table) -> str:
         "# Which contact method?\n\n"
         f"`{COMMAND}` writes this page from stored results; no number of it is written by hand.\n\n"
         f"{_markdown(chosen)}\n"
-        "An error in torque is that of the curved chain turning, against the engine's own arcs over the same window.\n"
-        "Size is that of a package with what it needs beside FCTD's own packages. `make rivals` installs `embree`,\n"
-        "`warp`, `rapier` and `exudyn` in an environment of their own.\n\n"
+        f"{LEGEND}\n"
         "## Every setting\n\n"
+        f"{SETTINGS}\n"
         f"{_markdown(measured)}\n"
         "## Measured on\n\n"
         f"{origins}\n"
@@ -199,6 +198,22 @@ def mark(text: str) -> str:
     """The mark that belongs to the text of a guide."""
     return MARK.format(command=COMMAND, digest=hashlib.sha256(text.encode()).hexdigest()[:16])
 
+
+LEGEND = """An error of a contact method is the change of the torque of the curved chain that turns. It is against
+FCTD's own arcs over the same window. Below 0.01 % it is that of the start, which settles a little longer with a method
+from outside. An engine's own error is against what its cell names.
+
+A time is struck through where its engine failed [the gate before any speed](references.md); its error stands. Lean is
+the angle of friction from the direction against the sliding, 0 by Coulomb's law. A point is one test of contact. Size
+is that of a package with what it needs beside FCTD's own packages. `make rivals` installs `embree`, `warp`, `rapier`
+and `exudyn` in an environment of their own.
+"""
+
+SETTINGS = """Behind a method stand facets around the hole and metres between rings, the length of cylinders, the cell
+of a sampled distance, or the way of a node before it is found anew. FOR-loop is the paper's search; an axis frame keeps
+nodes at fixed depths. Errors are those of the penetration and of the direction of a contact. What has a dash was not
+measured. Caliper holes in FCTD itself have a study of their own, `washed_out_hole`.
+"""
 
 NOT_TAKEN = """## Tried, and not taken
 
