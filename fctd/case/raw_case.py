@@ -190,6 +190,7 @@ _EXPECTED: Final = {
     "model_type": "a table of keys and values",
     "model_attributes_type": "a table of keys and values",
     "bool_type": "true or false",
+    "bool_parsing": "true or false",
     "string_type": "a text in quotes",
     "path_type": "a file name in quotes",
 }

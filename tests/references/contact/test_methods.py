@@ -196,6 +196,7 @@ def test_every_class_has_the_name_of_its_registry_entry(name: str) -> None:
         ),
         ("bullet", {"facets": 400, "ring_spacing": 1.0}, "at most the 174762 triangles that bullet accepts"),
         ("fcl", {"query": "guess"}, "fcl.query"),
+        ("libigl", {"smooth_normals": "maybe"}, "expected true or false"),
         ("fcl", {"ring": 1}, "ring_spacing"),
         ("arcs", {"facets": 4}, "facets"),
         ("cylinders", {"cylinder_length": "0.1 m"}, "overlap"),
