@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fctd.model.wellbore import build_wellbore, find_contacts
+from fctd.model.wellbore import Wellbore, build_wellbore, find_contacts
 from references import contact
 from references.contact import frames
 
@@ -17,12 +17,17 @@ def stored(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def test_the_file_alone_gives_the_contacts_again(stored: Path) -> None:
-    points, cases = frames.read(stored)
-    assert len(cases) == 4
-    for name, case in cases.items():
+@pytest.fixture(scope="module")
+def built(stored: Path) -> dict[str, Wellbore]:
+    return {name: build_wellbore(case) for name, case in frames.read(stored)[1].items()}
+
+
+def test_the_file_alone_gives_the_contacts_again(stored: Path, built: dict[str, Wellbore]) -> None:
+    points, _ = frames.read(stored)
+    assert len(built) == 4
+    for name, hole in built.items():
         rows = points[points["hole"] == name]
-        hits = find_contacts(build_wellbore(case), rows[["x_m", "y_m", "z_m"]].to_numpy(), rows["radius_m"].to_numpy())
+        hits = find_contacts(hole, rows[["x_m", "y_m", "z_m"]].to_numpy(), rows["radius_m"].to_numpy())
         np.testing.assert_allclose(hits.penetration, rows["penetration_m"], atol=1e-12)
         np.testing.assert_allclose(hits.normal, rows[["normal_x", "normal_y", "normal_z"]], atol=1e-9)
         np.testing.assert_allclose(hits.md, rows["md_m"], atol=1e-9)
@@ -30,8 +35,7 @@ def test_the_file_alone_gives_the_contacts_again(stored: Path) -> None:
         assert np.abs(rows["penetration_m"]).max() < 0.04
 
 
-def test_one_hole_is_no_circle_and_one_passes_horizontal() -> None:
-    built = {name: build_wellbore(case) for name, case in frames.holes().items()}
+def test_one_hole_is_no_circle_and_one_passes_horizontal(built: dict[str, Wellbore]) -> None:
     assert [name for name, hole in built.items() if not hole.is_round] == ["washed out"]
     assert [name for name, hole in built.items() if (hole.directions[:, 2] < 0).any()] == ["past horizontal"]
 

@@ -18,7 +18,7 @@ CASE = bent_case()
 # Mesh methods are tested with two resolutions, to show an error that does not depend on it.
 MESHES = ("fcl", "coal", "bullet", "mujoco", "libigl", "trimesh")
 SETTINGS = [("cylinders", {}), ("cylinders", {"cylinder_length": "6 m"}), ("arcs", {}), ("for_loop", {})]
-SETTINGS += [("axis_frame", {}), ("sdf", {}), ("sdf", {"cell": "15 mm", "interpolation": "linear", "source": "mesh"})]
+SETTINGS += [("axis_frame", {}), ("sdf", {}), ("sdf", {"cell": "40 mm", "interpolation": "linear", "source": "mesh"})]
 SETTINGS += [
     (name, {"facets": facets, "ring_spacing": ring}) for name in MESHES for facets, ring in ((24, 3.0), (96, 1.0))
 ]

@@ -76,7 +76,8 @@ def test_a_washed_out_hole_is_sampled_from_its_mesh() -> None:
     )
     hole = build_wellbore(rough)
     assert not hole.is_round
-    mesh, sampled = (contact.build(name, rough, facets=96, ring_spacing=0.25) for name in ("libigl", "sdf"))
+    fine = {"facets": 96, "ring_spacing": 0.25}
+    mesh, sampled = contact.build("libigl", rough, **fine), contact.build("sdf", rough, cell="30 mm", **fine)
     points = hole.off_axis(np.linspace(12, 28, 200), np.linspace(0, 30, 200), np.full(200, HOLE - RADIUS))
     found, exact = (method.query(points, np.full(200, RADIUS)).penetration for method in (sampled, mesh))
     assert np.ptp(exact) > 0.01
