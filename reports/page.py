@@ -121,8 +121,9 @@ def _write_pages(out: Path, given: Mapping[str, Any]) -> None:
 
 
 def _struck(text: str) -> Markup:
-    """A text whose parts between ``~~`` are struck through, as in Markdown."""
-    return Markup(re.sub(r"~~(.*?)~~", r"<s>\1</s>", str(escape(text))))
+    """A cell of the guide: parts between ``~~`` are struck through, and of a link to another guide its text is left."""
+    plain = re.sub(r"\[(.*?)\]\(.*?\)", r"\1", text)
+    return Markup(re.sub(r"~~(.*?)~~", r"<s>\1</s>", str(escape(plain))))
 
 
 def _chapters(sections: Mapping[str, Section]) -> list[dict[str, Any]]:
