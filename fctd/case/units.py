@@ -348,6 +348,7 @@ Viscosity = Annotated[
 ]
 DampingPerLength = Annotated[float, Quantity(dimension=DAMPING_PER_LENGTH, at_least=0.0)]
 PositiveFlow = Annotated[float, Quantity(dimension=FLOW, above=0.0)]
+Flow = Annotated[float, Quantity(dimension=FLOW, at_least=0.0)]
 RotationalDamping = Annotated[float, Quantity(dimension=ROTATIONAL_DAMPING, at_least=0.0)]
 
 

@@ -161,7 +161,8 @@ class Problem:
         self, case: Case, hole: Wellbore, work: Workspace, laid: LaidString, operation: str, rates: SteadyRates,
         allowance: Allowance,
     ) -> None:  # fmt: skip
-        self.case, self.hole, self.work, self.laid, self.rates = case, hole, work, laid, rates
+        self.case, self.hole, self.work, self.rates = case, hole, work, rates
+        self.laid = laid = laid.in_flow(rates)
         self.operation = operation
         self.string = laid.string
         self.n = self.string.segments
