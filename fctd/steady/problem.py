@@ -213,7 +213,7 @@ class Problem:
     def laws(self, share: Share = FULL) -> Steady:
         """Motion, friction and bit loads at a share of the loads."""
         x, y, z = (-self.weight_on_bit * share.weight * self.laid.bit_axis).tolist()
-        hole, (speed, spin) = hole_of(self.case, [self.hole]), self.rates
+        hole, (speed, spin, _) = hole_of(self.case, [self.hole]), self.rates
         torque = self.bit_torque * share.weight
         return steady_laws(hole, share.friction, speed, spin, x, y, z, torque, self.at_axis)._replace(held=self.held)
 
