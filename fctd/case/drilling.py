@@ -1,11 +1,12 @@
 """The tables of drilling: the controller of the rig's drive, the bit, the rock under it, and the motor above it."""
 
-from typing import Literal
+import math
+from typing import Literal, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from fctd.case import units
-from fctd.case.errors import Table
+from fctd.case.errors import InputError, Table
 
 
 class DriveSpec(Table):
@@ -61,6 +62,10 @@ class BitSpec(Table):
     and one that slides also a `motor`.
 
     `overpull` [N] is the force with which a stuck bit holds a string that is pulled up, in steady strings alone.
+
+    Mud leaves through `nozzles`, a list of their diameters, or through a `flow_area` [m^2], with the coefficient
+    `discharge`. An `end` that is "open" lets mud in and out, one with a "float" out alone, and a "closed" one neither;
+    by default it is open, or has the float of [mud].
     """
 
     weight_on_bit: units.Force = 0.0
@@ -68,3 +73,20 @@ class BitSpec(Table):
     overpull: units.Force = 0.0
     rock: RockSpec | None = Field(default=None, description="a table [bit.rock]")
     motor: MotorSpec | None = Field(default=None, description="a table [bit.motor]")
+    nozzles: tuple[units.NozzleDiameter, ...] = Field(
+        default=(), description='a list of the nozzles\' diameters, such as ["12/32 in", "12/32 in"]'
+    )
+    flow_area: units.FlowArea | None = None
+    discharge: units.DischargeCoefficient = 0.95
+    end: Literal["open", "closed", "float"] | None = None
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.nozzles and self.flow_area is not None:
+            raise InputError("nozzles or flow_area, not both", key="flow_area")
+        return self
+
+    @property
+    def nozzle_area(self) -> float:
+        """Area of all nozzles [m^2]; 0 where the case gives none."""
+        return self.flow_area or 0.25 * math.pi * sum(diameter**2 for diameter in self.nozzles)

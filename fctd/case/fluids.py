@@ -8,12 +8,14 @@ from pydantic import Field, StrictBool, model_validator
 
 from fctd.case import units
 from fctd.case.errors import InputError, Table
+from fctd.case.rheology import FlowSpec
 
 
-class OutsideSpec(Table):
+class OutsideSpec(FlowSpec):
     """Fluid outside the string, from the end of the row above to `to_md` [m]; the first row begins at the surface.
 
-    Only the last row may omit `to_md`. Densities [kg/m^3], 0 for air.
+    Only the last row may omit `to_md`. Densities [kg/m^3], 0 for air. A row without `viscosity`, `rheology` or `fann`
+    flows as the mud does.
     """
 
     to_md: units.PositiveLength | None = None
@@ -39,7 +41,7 @@ class TemperatureSpec(Table):
     change: units.TemperatureChange
 
 
-class FluidsSpec(Table):
+class FluidsSpec(FlowSpec):
     """Fluids by depth; a side without rows has the density of the mud."""
 
     inside: tuple[InsideSpec, ...] = Field(default=(), description="tables [[mud.inside]]")

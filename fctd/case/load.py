@@ -106,6 +106,10 @@ class Case(Table):
                 of = f"string.components[{densities.index(lightest)}].density"
                 raise InputError(f"a density below the string's, {lightest:g} kg/m^3 ({of})", key=key)
         check_temperature(self.temperature)
+        if self.mud.float and self.bit.end not in (None, "float"):
+            raise InputError('"float", or mud.float = false', key="bit.end", value=self.bit.end)
+        if self.mud.packer_bore is not None and self.end != "open":
+            raise InputError('"open" beside mud.packer_bore', key="bit.end", value=self.end)
         self._check_fittings()
         check_friction(self.contact, self.wellbore.intervals, self.mud.cake)
         if self.contact.helical_force == "analytic" and self.solver.buckling in RESOLVING:
@@ -130,6 +134,11 @@ class Case(Table):
             for key, given in (("torque", self.bit.torque), ("rock", self.bit.rock)):
                 if given:
                     raise InputError("none below a swivel, which no torque passes", key=f"bit.{key}")
+
+    @property
+    def end(self) -> str:
+        """What the lower end lets through: it is "open", "closed", or has a "float"."""
+        return self.bit.end or ("float" if self.mud.float else "open")
 
     @property
     def depths(self) -> tuple[float, float]:

@@ -8,6 +8,7 @@ from fctd.case import units
 from fctd.case.drilling import DriveSpec
 from fctd.case.errors import InputError, Table
 from fctd.case.fluids import FluidsSpec
+from fctd.case.rheology import USUAL_RATE
 from fctd.case.wall import CakeSpec
 
 # Viscosity of mud whose case gives none [Pa s]; it acts on motion that changes alone: steady loads do not depend on it.
@@ -20,7 +21,8 @@ class MudSpec(FluidsSpec):
     A string that moves in time takes mud along, and the mud damps its waves along itself and its motion sideways, by
     default with a viscosity of 20 mPa*s. A `viscosity` that is given damps the string along and around itself too, in
     steady states as well; 0 turns all of it off. A damping that is given replaces the one that follows from the
-    viscosity.
+    viscosity. In place of `viscosity` stands a `rheology`, or `fann`, readings of a viscometer by speed such as
+    `{600 = 60, 300 = 40, 6 = 8, 3 = 6}`; the viscosity of motion that changes is then that at 100 1/s.
 
     Where fluids differ along the string or between its two sides, `[[mud.inside]]` and `[[mud.outside]]` say so, with
     `inside_pressure` and `outside_pressure` [Pa] at the surface; a side without rows has the `density`. A `float`
@@ -29,7 +31,6 @@ class MudSpec(FluidsSpec):
     """
 
     density: units.Density = 0.0
-    viscosity: units.Viscosity | None = None
     axial_damping: units.DampingPerLength | None = None
     lateral_damping: units.DampingPerLength | None = None
     rotational_damping: units.RotationalDamping | None = None
@@ -50,7 +51,9 @@ class MudSpec(FluidsSpec):
     @property
     def unsteady(self) -> float:
         """The viscosity of motion that changes in time [Pa s], 0 where the string takes no mud along."""
-        return (self.viscosity if self.viscosity is not None else UNSTEADY) if self.densest else 0.0
+        if not self.densest:
+            return 0.0
+        return UNSTEADY if self.curve is None else float(self.curve.stress(USUAL_RATE)) / USUAL_RATE
 
 
 class RigSpec(Table):
@@ -90,6 +93,8 @@ class RigSpec(Table):
     drive: Literal["stiff", "speed_control", "impedance"] = "stiff"
     control: DriveSpec = DriveSpec()
     autodriller: StrictBool = False
+    surface_length: units.Length = 0.0
+    surface_bore: units.Diameter = 0.0971804  # 3.826 in, of 4½ in pipe of 16.6 lb/ft
 
     @property
     def push(self) -> float:

@@ -36,6 +36,8 @@ _FRACTION = re.compile(
 )
 # Digits in groups, or with a decimal comma.
 _GROUPED = re.compile(rf"\s*(?P<number>[+-]?\d+(?:[ ,.']\d+)+)\s*{_UNIT}\s*")
+# Viscometers read in pounds on a hundred square feet.
+_HUNDREDS: Final = re.compile(r"/\s*\(?\s*100\s*(?:ft\s*\^?2|sq\.?\s*ft)\s*\)?", re.IGNORECASE)
 _BLANKS: Final = re.compile(r"\s")
 _SEPARATORS: Final = re.compile("[ ,']")
 _THOUSANDS: Final = re.compile(r"[+-]?\d{1,3}([ ,'])\d{3}(?:\1\d{3})*(?:\.\d+)?")
@@ -80,7 +82,7 @@ def split(text: str) -> Written | None:
     """
     if len(text) > _LONGEST:
         return None
-    plain = text.translate(_PLAIN)
+    plain = _HUNDREDS.sub("/hsqft", text.translate(_PLAIN))
     found = _DECIMAL.fullmatch(plain)
     if found is not None:
         return _without_doubt(Decimal(found["number"]), found["unit"])
@@ -170,6 +172,7 @@ def _registry() -> UnitRegistry[Any]:
 
     registry: UnitRegistry[Any] = UnitRegistry()
     registry.define("specific_gravity = 1000 kilogram / meter ** 3")
+    registry.define("hsqft = 100 foot ** 2")
     registry.define("tonne_force = 1000 kilogram_force")
     registry.define("kilodecanewton = 10 kilonewton")
     return registry

@@ -112,6 +112,9 @@ class ComponentSpec(Table):
     it towards `toolface` [rad], which counts from the high side clockwise looking downhole.
 
     `eccentricity` [m] is the distance of the centre of mass from the axis; it acts in time alone.
+
+    A tool has the `pressure_drop` [Pa] at a flow `at_flow` [m^3/s] of mud of the density `at_density`, by default
+    that of water; it grows with density and the square of the flow.
     """
 
     name: str = Field(description="a name in quotes")
@@ -151,6 +154,9 @@ class ComponentSpec(Table):
     bend: units.Bend = 0.0
     toolface: units.Angle = 0.0
     eccentricity: units.Length = 0.0
+    pressure_drop: units.Pressure | None = None
+    at_flow: units.PositiveFlow | None = None
+    at_density: units.PositiveDensity = 1000.0
 
     @model_validator(mode="before")
     @classmethod
@@ -166,6 +172,9 @@ class ComponentSpec(Table):
             exclusive(self, "segments", "joint_segments")
             exclusive(self, "segment_length", "joint_segments")
         self._check_fittings()
+        if (self.pressure_drop is None) != (self.at_flow is None):
+            missing = "at_flow" if self.at_flow is None else "pressure_drop"
+            raise InputError("pressure_drop and at_flow together", key=missing)
         if self.inner_diameter >= self.outer_diameter:
             raise InputError("a diameter below outer_diameter", key="inner_diameter")
         if self.eccentricity >= 0.5 * self.outer_diameter:

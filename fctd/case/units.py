@@ -101,6 +101,7 @@ EXPANSION: Final = Dimension(
     "a thermal expansion", "K^-1", "'12.4e-6 K^-1' or '6.9e-6 degF^-1'", ("K^-1", "degC^-1", "degF^-1"),
     {"k^-1": "K**-1", "degc^-1": "K**-1", "degf^-1": "degR**-1"}, listed=True,
 )  # fmt: skip
+AREA: Final = Dimension("an area", "m^2", "'0.33 in^2' or '213 mm^2'", ("m^2", "cm^2", "mm^2", "in^2"))
 DENSITY: Final = Dimension(
     "a density", "kg/m^3", "'1200 kg/m^3' or '10 ppg'", ("kg/m^3", "g/cm^3", "sg", "ppg", "lb/gal", "lb/ft^3")
 )
@@ -120,6 +121,9 @@ DAMPING_PER_LENGTH: Final = Dimension(
     "a damping coefficient per length", "N*s/m^2", "'5 N*s/m^2'", ("N*s/m^2", "lbf*s/ft^2")
 )
 VISCOSITY: Final = Dimension("a viscosity", "Pa*s", "'30 mPa*s' or '30 cP'", ("Pa*s", "mPa*s", "cP"))
+YIELD_STRESS: Final = Dimension(
+    "a yield stress", "Pa", "'3 Pa' or '6 lbf/(100 ft^2)'", ("Pa", "lbf/(100 ft^2)"), gravity=1
+)
 FLOW: Final = Dimension("a flow rate", "m^3/s", "'2000 L/min' or '500 gpm'", ("m^3/s", "L/s", "L/min", "gpm"),
                               {"gpm": "(gallon/minute)", "lpm": "(liter/minute)"})  # fmt: skip
 ANGULAR_DAMPING: Final = Dimension(
@@ -347,8 +351,21 @@ Viscosity = Annotated[
     float, Quantity(dimension=VISCOSITY, at_least=0.0, at_most=2.0, likely_units=(LikelyUnit(2, 2000, " mPa*s"),))
 ]
 DampingPerLength = Annotated[float, Quantity(dimension=DAMPING_PER_LENGTH, at_least=0.0)]
-PositiveFlow = Annotated[float, Quantity(dimension=FLOW, above=0.0)]
-Flow = Annotated[float, Quantity(dimension=FLOW, at_least=0.0)]
+# Three pumps deliver up to 0.1 m^3/s.
+FLOW_UNITS: Final = (LikelyUnit(1, 100, " L/s"), LikelyUnit(100, 2000, " gpm"), LikelyUnit(300, 8000, " L/min"))
+Flow = Annotated[float, Quantity(dimension=FLOW, at_least=0.0, at_most=1.0, likely_units=FLOW_UNITS)]
+PositiveFlow = Annotated[float, Quantity(dimension=FLOW, above=0.0, at_most=1.0, likely_units=FLOW_UNITS)]
+# Gels are below 50 Pa; a stiff cement has 30 Pa.
+YieldStress = Annotated[float, Quantity(dimension=YIELD_STRESS, at_least=0.0, at_most=200.0)]
+FlowIndex = Annotated[float, Number(noun="a flow index", at_least=0.1, at_most=1.0)]
+NozzleDiameter = Annotated[
+    float, Quantity(dimension=LENGTH, above=0.0, at_most=0.2,
+                    likely_units=(LikelyUnit(4, 48, "/32 in"), LikelyUnit(4, 48, " mm")))
+]  # fmt: skip
+FlowArea = Annotated[
+    float, Quantity(dimension=AREA, above=0.0, at_most=0.03, likely_units=(LikelyUnit(0.03, 10, " in^2"),))
+]
+DischargeCoefficient = Annotated[float, Number(noun="a discharge coefficient", at_least=0.5, at_most=1.2)]
 RotationalDamping = Annotated[float, Quantity(dimension=ROTATIONAL_DAMPING, at_least=0.0)]
 
 

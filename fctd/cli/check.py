@@ -9,8 +9,9 @@ from rich.table import Column, Table
 from fctd.case.calipers.caliper import Caliper
 from fctd.case.friction import factors_label
 from fctd.case.load import Case, naming_file
+from fctd.case.rig import MudSpec
 from fctd.case.text import counted, printable
-from fctd.case.units import DENSITY, Quantity
+from fctd.case.units import DENSITY, YIELD_STRESS, Quantity
 from fctd.cli.base_command import Silent
 from fctd.cli.options import (
     CaseFile,
@@ -62,6 +63,31 @@ def _print(summary: Summary, units: System) -> None:
     if rows := _fittings(summary.case, metre, across):
         screen.print(_facts(rows))
     screen.print(_facts(_loads(summary, units, force)))
+    if rows := flow_curves(summary.case.mud, units):
+        screen.print(_facts(rows))
+
+
+def flow_curves(mud: MudSpec, units: System) -> list[Row]:
+    """The flow curve of the mud and of each row of fluids that has its own, with what misses the readings most."""
+    named = [("flow curve of the mud", mud)]
+    named += [
+        (f"of mud.{side}[{k}]", row) for side in ("inside", "outside") for k, row in enumerate(getattr(mud, side))
+    ]
+    unit = "Pa" if units == "si" else "lbf/(100 ft²)"
+    stress = 1 / YIELD_STRESS.factor("Pa" if units == "si" else "lbf/hsqft")
+    rows = []
+    for name, flow in named:
+        if flow.curve is None:
+            continue
+        least, consistency, index = (float(value) for value in flow.curve)
+        said = f"yield stress, consistency {consistency * stress:.3g} {unit}·sⁿ, index {index:.3f}"
+        rows.append((name, f"{least * stress:.3g}", f"{unit} {said}"))
+        if flow.fit is not None and flow.fann is not None:
+            worst = int(np.argmax(np.abs(flow.fit.misfit)))
+            speed, read = list(flow.fann.items())[worst]
+            miss = f"degrees off at most, at {speed} rev/min, where {read:g} was read"
+            rows.append((f"by {flow.fit.rule}", f"{flow.fit.misfit[worst]:+.1f}", miss))
+    return rows
 
 
 def _path(summary: Summary, units: System, metre: Shown) -> list[Row]:

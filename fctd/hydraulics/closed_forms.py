@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from fctd.arrays import Array
-from fctd.hydraulics.rheology import Rheology
+from fctd.case.rheology import Rheology
 from fctd.model.mud import FULL, filled
 
 LAMINAR: Final = 0

@@ -1,37 +1,35 @@
-"""The flow curve of a mud: shear stress over shear rate, with a yield stress (Herschel & Bulkley 1926)."""
+"""The flow curves of a case's muds along its string."""
 
-from typing import Final, NamedTuple, Self
+from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from fctd.arrays import Array
+from fctd.case.errors import InputError
+from fctd.case.fluids import OutsideSpec
+from fctd.case.rheology import Rheology as Rheology
+from fctd.case.rig import MudSpec
+from fctd.model.fluids import Column
 
-# Shear rates of the oilfield viscometer (bob 1, rotor 1) at 300 and 600 rev/min [1/s]; API RP 13B-1.
-RATE_300, RATE_600 = 511.0, 1022.0
-# Least index of a curve's upper end: a mud that is nearly all yield stress has none.
-FLATTEST: Final = 0.1
+INVISCID = Rheology.newtonian(0.0)
 
 
-class Rheology(NamedTuple):
-    """τ = τ_y + K γⁿ: yield stress [Pa], consistency K [Pa sⁿ] and index n [-], scalars or arrays (n,)."""
+def along(mud: MudSpec, rows: Sequence[OutsideSpec], column: Column, above: Array) -> Rheology:
+    """Flow curves (n,) of one side at distances from the bit (n,) [m].
 
-    yield_stress: float | Array
-    consistency: float | Array
-    index: float | Array  # type: ignore[assignment]  # of the curve; nobody searches this tuple
+    rows : of that side in the case, whose fluids are the column; a row that says nothing of its flow has the curve of
+    the mud, and a mud that says nothing flows without friction.
+    """
+    own = [row.curve or mud.curve or INVISCID for row in rows] or [mud.curve or INVISCID]
+    return Rheology(*np.array(own, float)[column.row_of(above)].T)
 
-    @classmethod
-    def newtonian(cls, viscosity: float | Array) -> Self:
-        """A fluid of one viscosity [Pa s]."""
-        return cls(0.0, viscosity, 1.0)
 
-    def stress(self, rate: ArrayLike) -> Array:
-        """Shear stress [Pa] at shear rates of at least 0 [1/s]."""
-        return np.asarray(self.yield_stress + self.consistency * np.asarray(rate, float) ** self.index)
-
-    @property
-    def upper_index(self) -> Array:
-        """Slope of the curve between 300 and 600 rev/min of the viscometer, RP 13D's n_p; 1 without viscosity."""
-        low, high = self.stress(RATE_300), self.stress(RATE_600)
-        rise = np.divide(high, low, out=np.full_like(low, RATE_600 / RATE_300), where=low > 0)
-        return np.maximum(np.log2(rise), FLATTEST)
+def check_flows(mud: MudSpec) -> None:
+    """Raise InputError for a mud of whose flow the case says nothing."""
+    silent = [side for side in ("inside", "outside") if any(row.curve is None for row in getattr(mud, side))]
+    if mud.curve is None and (silent or not (mud.inside and mud.outside)):
+        raise InputError(
+            "readings of a viscometer such as {600 = 60, 300 = 40}, a table [mud.rheology], or mud.viscosity: the mud "
+            "has no friction without them",
+            key="mud.fann",
+        )

@@ -125,7 +125,7 @@ def fluids_of(case: Case, bit_depth: float) -> Fluids | None:
     none = [math.nan] * max(len(mud.outside), 1)
     outside = _column("outside", mud.outside, none, mud.density, mud.outside_pressure, bit_depth)
     plugged = any(row.plug and row.to_md is not None and abs(row.to_md - bit_depth) < SAME_PLACE for row in mud.inside)
-    return Fluids(inside, outside, not mud.float and not plugged and mud.packer_bore is None)
+    return Fluids(inside, outside, case.end == "open" and not plugged and mud.packer_bore is None)
 
 
 def _column(

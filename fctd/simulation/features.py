@@ -11,6 +11,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from fctd.case.errors import InputError, Table
+from fctd.case.rheology import RheologySpec
 from fctd.case.solver import SolverSpec
 from fctd.mechanics.law_names import STICKING
 from fctd.mechanics.rock import NO_ROCK
@@ -257,7 +258,10 @@ FEATURES: dict[str, Feature] = {
     "incline": Feature(
         "inclined holes", "a vertical hole", ("wellbore.survey", "wellbore.stations"), _incline,
     ),
-    "mud_moves": Feature("mud that moves with the string", "0", ("mud.viscosity",), _mud_moves),
+    "mud_moves": Feature(
+        "mud that moves with the string", "0",
+        ("mud.viscosity", "mud.fann", *(f"mud.rheology.{key}" for key in RheologySpec.model_fields)), _mud_moves,
+    ),
     "mud_axial": Feature("damping by mud", "0", ("mud.axial_damping",), _key("mud.axial_damping", 0.0)),
     "mud_lateral": Feature("damping by mud", "0", ("mud.lateral_damping",), _key("mud.lateral_damping", 0.0)),
     "mud_spin": Feature("damping by mud", "0", ("mud.rotational_damping",), _key("mud.rotational_damping", 0.0)),
@@ -269,7 +273,7 @@ FEATURES: dict[str, Feature] = {
     "fluids": Feature(
         "fluids by depth", "one density of the mud",
         ("mud.inside.to_md", "mud.inside.density", "mud.inside.plug", "mud.inside.pressure", "mud.outside.to_md",
-         "mud.outside.density", "mud.inside_pressure", "mud.outside_pressure", "mud.float"),
+         "mud.outside.density", "mud.inside_pressure", "mud.outside_pressure", "mud.float", "bit.end"),
         lambda run: ("mud", "fluids by depth") if run.case.mud.given else None,
     ),
     "packer": Feature(
@@ -307,6 +311,13 @@ EVERYWHERE: Final = frozenset({
             *(f"{fittings}.{key}" for fittings in ("centralisers", "friction_reducers")
               for key in ("every", "diameter", "length", "segments")),
         )
+    ),
+    # Of flow alone.
+    "rig.surface_length", "rig.surface_bore", "bit.nozzles", "bit.flow_area", "bit.discharge",
+    *(f"string.components.{key}" for key in ("pressure_drop", "at_flow", "at_density")),
+    *(
+        f"mud.{side}.{key}" for side in ("inside", "outside")
+        for key in ("viscosity", "fann", *(f"rheology.{key}" for key in RheologySpec.model_fields))
     ),
     "limits.design_factor", "limits.torque_share", "limits.overpull_margin",
     "mud.density", "rig.hoist_capacity", "rig.largest_torque", "rig.slip_length", "rig.block_weight",

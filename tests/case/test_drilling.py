@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
-from fctd.case.drilling import DriveSpec, MotorSpec, RockSpec
+from fctd.case.drilling import BitSpec, DriveSpec, MotorSpec, RockSpec
 from fctd.case.errors import InputError, Table
 
 
@@ -34,8 +34,33 @@ def test_quantities_with_their_units() -> None:
         (DriveSpec, {"torque_limit": 0}),
         (MotorSpec, {"flow": 0, "revolutions_per_liter": 0.06}),
         (MotorSpec, {"revolutions_per_liter": 0.06}),
+        (BitSpec, {"nozzles": "12/32 in"}),
+        (BitSpec, {"nozzles": ["12/32 in"], "flow_area": "0.33 in^2"}),
+        (BitSpec, {"end": "shut"}),
     ],
 )
 def test_what_is_refused(table: type[Table], given: dict[str, Any]) -> None:
     with pytest.raises((ValidationError, InputError)):
+        table(**given)
+
+
+def test_nozzles_have_their_area() -> None:
+    """Three of 12/32 in have 0.3313 in²."""
+    bit = BitSpec(nozzles=["12/32 in"] * 3)  # type: ignore[arg-type]
+    assert bit.nozzle_area == pytest.approx(0.33134 * 0.0254**2, rel=1e-4)
+    assert BitSpec(flow_area="0.33134 in^2").nozzle_area == pytest.approx(bit.nozzle_area, rel=1e-4)  # type: ignore[arg-type]
+    assert BitSpec().nozzle_area == 0
+
+
+@pytest.mark.parametrize(
+    ("table", "given", "hint"),
+    [
+        (BitSpec, {"nozzles": [12, 12, 12]}, "12 looks like '12/32 in' or '12 mm'"),
+        (BitSpec, {"flow_area": 0.33}, "0.33 looks like '0.33 in\\^2'"),
+        (MotorSpec, {"flow": 600, "revolutions_per_liter": 0.06}, "600 looks like '600 gpm' or '600 L/min'"),
+        (MotorSpec, {"flow": 30, "revolutions_per_liter": 0.06}, "30 looks like '30 L/s'"),
+    ],
+)
+def test_numbers_in_another_unit_are_told(table: type[Table], given: dict[str, Any], hint: str) -> None:
+    with pytest.raises((ValidationError, InputError), match=hint):
         table(**given)

@@ -169,3 +169,14 @@ def test_fittings_and_swivels_are_listed(cli: Command, case_file: Path) -> None:
     assert "swivel above collars" in lines
     lines = [" ".join(line.split()) for line in cli("check", case_file, "--units", "field").out.splitlines()]
     assert "friction reducers 7 in, every 40 ft of collars, friction 0.1" in lines
+
+
+def test_the_flow_curve_and_its_misfit(case_file: Path, cli: Command) -> None:
+    """Readings 60, 40, 8, 6 by RP 13D: yield stress 4 degrees of 0.511 Pa, index log2(56/36), 6 rev/min read 6.97."""
+    more = ["--set", "mud.fann={600 = 60, 300 = 40, 6 = 8, 3 = 6}"]
+    text = printed(cli, case_file, *more)
+    assert "flow curve of the mud 2.04 Pa yield stress, consistency 0.345 Pa·sⁿ, index 0.637" in text
+    assert "by RP 13D's rule -1.0 degrees off at most, at 6 rev/min, where 8 was read" in text
+    field = printed(cli, case_file, *more, "--units", "field")
+    assert "flow curve of the mud 4.27 lbf/(100 ft²) yield stress, consistency 0.721 lbf/(100 ft²)·sⁿ" in field
+    assert "flow curve" not in printed(cli, case_file)
