@@ -23,7 +23,7 @@ class Mud(NamedTuple):
 
     yield_stress: float
     consistency: float
-    index: float
+    index: float  # type: ignore[assignment]  # of the curve; nobody searches this tuple
 
     def shear_rate(self, stress: Array) -> Array:
         """γ [1/s] with the sign of the stress [Pa]; zero up to the yield stress."""

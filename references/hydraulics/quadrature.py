@@ -38,20 +38,19 @@ def solve(annulus: Annulus, mud: Mud, flow: float, speed: float = 0.0) -> Answer
     inner = annulus.pipe / annulus.hole
     wanted = np.array([speed, (flow / np.pi - annulus.pipe**2 * speed) / annulus.hole**2]) / (rate * annulus.hole)
     newtonian = _newtonian(inner)
-    x = np.linalg.solve(newtonian, wanted)  # of a mud with the stress ``unit`` at the rate ``rate``
+    x = np.asarray(np.linalg.solve(newtonian, wanted), float)  # of a mud with the stress ``unit`` at the rate ``rate``
     for _ in range(ITERATIONS):
-        got, slope = _integrals(inner, scaled, x)
-        step = np.linalg.solve(slope + PLUGGED * newtonian, wanted - got)
+        got, derivatives = _integrals(inner, scaled, x)
+        step = np.asarray(np.linalg.solve(derivatives + PLUGGED * newtonian, wanted - got), float)
         if np.abs(step).max() <= TOLERANCE * np.abs(x).max():
             x = x + step
             return read(annulus, mud, 2 * x[1] * unit / annulus.hole, x[0] * unit * annulus.hole)
-        x = (
-            x
-            + step_share(
-                lambda share, x=x, step=step: float((_integrals(inner, scaled, x + share * step)[0] - wanted) @ step)
-            )
-            * step
-        )
+
+        def slope(share: float, x: Array = x, step: Array = step) -> float:
+            """Of the convex function along the step."""
+            return float((_integrals(inner, scaled, x + share * step)[0] - wanted) @ step)
+
+        x = x + step_share(slope) * step
     raise RuntimeError(f"no flow found for {annulus}, {mud}, flow {flow:g}, speed {speed:g}")
 
 

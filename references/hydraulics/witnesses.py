@@ -27,7 +27,7 @@ def yield_power_law(fann: Mapping[int, float]) -> Mud:
 def turbulent_bore(density: float, flow: float, bore: float, viscosity: float, length: float) -> float:
     """Loss [psi] of a Bingham mud in turbulent flow, ρ^¾ v^1.75 μ^¼/(1800 d^1.25) (Guo & Liu, chapter 2)."""
     velocity = flow / (2.448 * bore**2)  # [ft/s]
-    return density**0.75 * velocity**1.75 * viscosity**0.25 / (1800 * bore**1.25) * length
+    return float(density**0.75 * velocity**1.75 * viscosity**0.25 / (1800 * bore**1.25) * length)
 
 
 def laminar_annulus(
