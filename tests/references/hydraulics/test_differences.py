@@ -6,7 +6,7 @@ import pytest
 from references.hydraulics import differences, quadrature
 from references.hydraulics.random_cases import KINDS, draw
 
-FEW = list(draw(4 * len(KINDS), seed=5))
+FEW = list(draw(2 * len(KINDS), seed=5))
 
 
 @pytest.mark.parametrize("case", FEW, ids=[case.kind for case in FEW])

@@ -1,0 +1,1 @@
+"""Mud that flows: pressures along a string, and the pull of the mud on it."""
