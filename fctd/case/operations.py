@@ -17,7 +17,7 @@ class _Operation(Table):
     start_key, end_key : names of the first and the last depth in the file.  label : the kind in the driller's words.
     direction : of the string along the hole, 1 down, −1 up, 0 at rest.  on_bottom : whether the bit carries weight
     and torque.  default_speed [m/s], default_rpm : rates of a steady string where neither call nor case gives any.
-    turns : whether the string must rotate; may_turn : whether it may rotate.
+    turns : whether the string must rotate; may_turn : whether it may rotate.  flow : of mud that is pumped [m³/s].
     """
 
     start_key: ClassVar[str]
@@ -30,6 +30,7 @@ class _Operation(Table):
     turns: ClassVar[bool] = False
     may_turn: ClassVar[bool] = True
     ramp_time: units.PositiveTime = 10.0
+    flow: units.Flow = 0.0
 
     @property
     def start_md(self) -> float:

@@ -317,8 +317,6 @@ def update_velocities(S, n, laws, dt):
         push_freely(S, n, laws, dt)
     else:
         push_by_law(laws.friction, S, n, laws, dt)
-    if laws.given:
-        count_given(S, n, dt)
 
 
 @inlined
@@ -353,6 +351,8 @@ def move(S, top, n, laws, pipe, feed, rate, dt):
     packed = padded_columns(n)
     # 4: impulses of the wall, normal and friction, and those of springs, weight and mud.
     update_velocities(S, packed, laws, dt)
+    if laws.given:
+        count_given(S, top, packed, dt)
     # 5: motion of the bodies, of the bit in the rock, and of the top drive.
     if laws.rock.law != NO_ROCK:
         drill(S, top, n, laws.rock, dt)

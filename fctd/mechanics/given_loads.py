@@ -1,7 +1,7 @@
 """Loads that are given to the bodies: a force along the axis of a body, and a torque about it.
 
-They turn with the body, and depend neither on its motion nor on the wall.  What gives them while a string moves is the
-mud that flows past it: the ledger counts their work as a negative loss to the mud.
+They turn with the body, and depend neither on its motion nor on the wall.  What gives them is the mud that flows past
+the string; their work is an entry of the ledger.
 """
 
 from fctd.mechanics.jit import inlined
@@ -13,12 +13,12 @@ from fctd.mechanics.state import (
     GIVEN_TORQUE,
     INVERSE_JA,
     INVERSE_MASS,
-    LOST_MUD,
     VX,
     VY,
     VZ,
     WZ,
 )
+from fctd.mechanics.topdrive import GIVEN_WORK
 
 
 @inlined
@@ -33,8 +33,10 @@ def push_given(S, n, dt):
 
 
 @inlined
-def count_given(S, n, dt):
-    """Take the work of the given loads off the loss to the mud, with the velocities after the step."""
+def count_given(S, top, n, dt):
+    """Add the work of the given loads, with the velocities after the step."""
+    work = 0.0
     for j in range(1, n + 1):
         along = S[VX + j] * S[AX + j] + S[VY + j] * S[AY + j] + S[VZ + j] * S[AZ + j]
-        S[LOST_MUD + j] -= dt * (S[GIVEN_FORCE + j] * along + S[GIVEN_TORQUE + j] * S[WZ + j])
+        work += S[GIVEN_FORCE + j] * along + S[GIVEN_TORQUE + j] * S[WZ + j]
+    top[GIVEN_WORK] += dt * work

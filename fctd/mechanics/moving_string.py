@@ -131,7 +131,9 @@ class MovingString:
         """Set sums, losses, the top drive's work, the energy of fed pipe and the count of steps to zero."""
         self.S[state.SUM_NORMAL : state.LOST_JOINT + state.STRIDE] = 0.0
         top = topdrive
-        self.top[[*SUMS_AT_THE_ENDS, top.TOP_WORK, top.FED_ENERGY, top.LOST_BIT, top.TOP_PENETRATION]] = 0.0
+        self.top[
+            [*SUMS_AT_THE_ENDS, top.TOP_WORK, top.FED_ENERGY, top.GIVEN_WORK, top.LOST_BIT, top.TOP_PENETRATION]
+        ] = 0.0
         readings.clear(self.top)
         readings.forget_swing(self.top)
         self.steps = 0

@@ -13,6 +13,7 @@ from fctd.mechanics.rotations import half_twist, turned
 from fctd.mechanics.state import (
     ADDED_MASS,
     ARM_TOP,
+    GIVEN_FORCE,
     GX,
     GY,
     GZ,
@@ -71,7 +72,7 @@ class Motion(NamedTuple):
 
     start, duration [s]; feed speed downwards [m/s] and rotation speed [rad/s] at both ends; drive : how the top follows
     the rotation; bit_from, bit_to : share of the weight and torque on the bit at both ends; driller : how the
-    block follows them.
+    block follows them; flow_from, flow_to : of the mud that is pumped, at both ends [m³/s].
     """
 
     start: float
@@ -84,6 +85,8 @@ class Motion(NamedTuple):
     bit_from: float = 0.0
     bit_to: float = 0.0
     driller: Driller = BY_SPEED
+    flow_from: float = 0.0
+    flow_to: float = 0.0
 
 
 class PerMetre(NamedTuple):
@@ -92,7 +95,7 @@ class PerMetre(NamedTuple):
     mass [kg/m], weight (buoyed) [N/m], axial_inertia [kg m], EA [N], GJ, EI [N m^2], shear (κGA) [N],
     mud damping axial, lateral [N s/m^2], rotational [N s]; added_mass of the mud that moves sideways with it [kg/m];
     squeeze : by which share the pressure of the mud shortens it; beside : length of the longest segment below the long
-    one [m], which tells what waves it may have; 0 : none.
+    one [m], which tells what waves it may have; 0 : none; given : load along it, towards the bit (given_loads.py) [N/m].
     """
 
     mass: float
@@ -108,6 +111,7 @@ class PerMetre(NamedTuple):
     added_mass: float = 0.0
     squeeze: float = 0.0
     beside: float = 0.0
+    given: float = 0.0
 
 
 # Top drive's own numbers, shape (TOP_SIZE,): length of the long segment [m] (0: none), simulated time [s];
@@ -131,14 +135,18 @@ TARE, TOP_FEED, FED = range(27, 30)
 # Of the hook load from step to step (readings.py): in the last step [N], its change in that step [N]; number and time
 # [s] of the steps that were read, integrals over this time of the squares of the changes and of their changes [N^2 s].
 PULL, PULL_CHANGE, PULL_STEPS, PULL_TIME, CHANGES, BENDS = range(30, 36)
-TOP_SIZE = 36
+# Work of the given loads since the start [J].
+GIVEN_WORK = 36
+TOP_SIZE = 37
 
 
-@inlined
-def ramp(at, start, duration, first, last):
+def smooth_step(at, start, duration, first, last):
     """Smooth step from ``first`` to ``last``: no jump of acceleration, which would set the string ringing."""
     u = min(max((at - start) / duration, 0.0), 1.0)
     return first + (last - first) * u * u * (3 - 2 * u)
+
+
+ramp = inlined(smooth_step)
 
 
 @inlined
@@ -166,6 +174,7 @@ def set_long_segment(S, length, pipe):
     S[MUD_AXIAL + 1] = pipe.mud_axial * half
     S[MUD_LATERAL + 1] = pipe.mud_lateral * half
     S[MUD_SPIN + 1] = pipe.mud_spin * half
+    S[GIVEN_FORCE + 1] = pipe.given * half
     S[K_AXIAL + 1] = pipe.EA / length
     S[K_SHEAR + 1] = pipe.shear / length
     S[K_BEND + 1] = pipe.EI / length
@@ -229,7 +238,7 @@ def joint_pull(S):
 @inlined
 def hanging_load(S, top, pipe):
     """Pull of the string on the top drive [N], with the half of a long segment that hangs on it."""
-    return 0.5 * pipe.weight * top[TOP_LENGTH] + joint_pull(S) + loads_of_waves(S, 0)[0]
+    return 0.5 * (pipe.weight + pipe.given) * top[TOP_LENGTH] + joint_pull(S) + loads_of_waves(S, 0)[0]
 
 
 @entry
@@ -240,9 +249,10 @@ def load_on_top(S, top, pipe):
 
 @inlined
 def feed_by_weight(S, top, motion, pipe, dt):
-    """Speed of the block downwards [m/s] by an autodriller.  The tare grows by the weight of the pipe that is fed."""
+    """Speed of the block downwards [m/s] by an autodriller.  The tare grows by the load of the pipe that is fed."""
     share = ramp(top[TOP_TIME] + 0.5 * dt, motion.start, motion.duration, motion.bit_from, motion.bit_to)
-    missing = share * motion.driller.weight - (top[TARE] + pipe.weight * top[FED] - hanging_load(S, top, pipe))
+    tare = top[TARE] + (pipe.weight + pipe.given) * top[FED]
+    missing = share * motion.driller.weight - (tare - hanging_load(S, top, pipe))
     top[TOP_FEED] += dt * motion.driller.integral * missing
     return top[TOP_FEED] + motion.driller.gain * missing
 
@@ -276,18 +286,20 @@ def read_top_drive(S, top, pipe, fed, turned_by, dt):
     fed [m], turned_by [rad] : feed and rotation of the top drive in this step.
     """
     # Half of the long segment's weight is lumped at its lower end.  The other half hangs on the top drive and moves
-    # with it; it contributes impulses of the mud's drag [N s] and torque [N m s].
+    # with it; it contributes impulses of the mud's drag and of given loads [N s] and the mud's torque [N m s].
     tension, waves = joint_pull(S), loads_of_waves(S, 0)[0]
     half = 0.5 * top[TOP_LENGTH]
     hanging = tension + waves + pipe.weight * half
     drag, mud_torque = pipe.mud_axial * half * fed, pipe.mud_spin * half * turned_by
+    given = pipe.given * half
     torque = top_torque(S)
-    top[SUM_HOOKLOAD] += dt * hanging - drag
+    top[SUM_HOOKLOAD] += dt * (hanging + given) - drag
+    top[GIVEN_WORK] += given * fed
     top[SUM_TOP_TORQUE] += dt * torque + mud_torque
     S[SUM_MUD_TORQUE + 1] += mud_torque
     lost = (drag * fed + mud_torque * turned_by) / dt
     S[LOST_MUD + 1] += lost
-    top[TOP_WORK] += torque * turned_by + lost
+    top[TOP_WORK] += torque * turned_by + lost - given * fed
     if top[IN_DERRICK] > 0:
         top[TOP_WORK] -= tension * fed
     elif fed != 0:

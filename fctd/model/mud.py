@@ -1,14 +1,13 @@
-"""Viscous mud around a string: damping along, around and sideways, and the mud that moves with it.
+"""Viscous mud around a string: damping around and sideways, and the mud that moves with it.
 
 Flow is laminar, the annulus concentric and at rest but for the string; eccentricity, tool joints and flow would add to
-the coefficients.
+the coefficients.  What mud does to motion along the hole, which displaces it, is in ``fctd.hydraulics``.
 """
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from fctd.arrays import Array
-from fctd.case.load import Case
 from fctd.model.pieces import RADIUS, TO_MD
 from fctd.model.sampled_hole import mean_radii
 from fctd.model.wellbore import Wellbore
@@ -49,11 +48,10 @@ def added_mass(
     return np.asarray(alike if inside is None else alike + (np.asarray(inside) - outside) * np.pi * inner**2)
 
 
-def resistance(radius: ArrayLike, hole: ArrayLike, viscosity: float) -> tuple[Array, Array]:
-    """Damping per metre of steady motion: axial [N s/m²] and rotational [N s] (Couette flow)."""
+def resistance(radius: ArrayLike, hole: ArrayLike, viscosity: float) -> Array:
+    """Damping per metre of steady rotation [N s] (Couette flow)."""
     k = filled(radius, hole, FULL)
-    outside = np.asarray(radius, float) ** 2
-    return np.asarray(-2 * np.pi * viscosity / np.log(k)), np.asarray(4 * np.pi * viscosity * outside / (1 - k**2))
+    return np.asarray(4 * np.pi * viscosity * np.asarray(radius, float) ** 2 / (1 - k**2))
 
 
 def layer_drag(
@@ -91,20 +89,3 @@ def hole_radius(hole: Wellbore, top_md: float, length: Array) -> Array:
         return mean_radii(hole.wall_along(), bottom - length, bottom)
     index = np.searchsorted(hole.intervals[:, TO_MD], bottom - 0.5 * length)
     return np.asarray(hole.intervals[np.minimum(index, len(hole.intervals) - 1), RADIUS])
-
-
-def steady_resistance(case: Case, radius: Array, hole: Array) -> tuple[Array, Array]:
-    """Axial [N s/m²] and rotational [N s] damping per metre of pipes (n,) of ``radius`` in holes [m].
-
-    Each is the case's own, else by the viscosity that the case gives, else 0.
-    """
-    mud = case.mud
-    axial, rotational = (
-        np.full(len(radius), mud.axial_damping or 0.0),
-        np.full(len(radius), mud.rotational_damping or 0.0),
-    )
-    if mud.viscosity:
-        along, around = resistance(radius, hole, mud.viscosity)
-        axial = along if mud.axial_damping is None else axial
-        rotational = around if mud.rotational_damping is None else rotational
-    return axial, rotational

@@ -1,5 +1,6 @@
 """The schedule of the rig: the operations of a case as phases of constant or ramped feed and rotation."""
 
+import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
@@ -9,7 +10,7 @@ from fctd.case.errors import InputError, nearest
 from fctd.case.load import Case
 from fctd.case.operations import KINDS, Operation, Stay
 from fctd.case.rig import RigSpec
-from fctd.case.units import FASTEST, MOST_RPM, ROTATION, SPEED, argument
+from fctd.case.units import FASTEST, FLOW, MOST_RPM, ROTATION, SPEED, argument
 from fctd.mechanics.topdrive import Motion
 
 # Shortest operation [s]; a shorter one would end before the first step, with no load to record.
@@ -35,12 +36,12 @@ def rad_per_s(rpm: float) -> float:
 def schedule(operations: Sequence[Operation]) -> list[Phase]:
     """Phases of the operations in order, starting from rest.
 
-    Each operation ramps speed and rotation within its ramp time.  It comes to rest at its end depth, except the
+    Each operation ramps speed, rotation and flow within its ramp time.  It comes to rest at its end depth, except the
     last one, which ends in motion so that its end is a steady state.  Raises InputError for an operation shorter
     than ``SHORTEST``.
     """
     phases: list[Phase] = []
-    clock, turning, loaded = 0.0, 0.0, False
+    clock, turning, loaded, pumped = 0.0, 0.0, False, 0.0
     for k, operation in enumerate(operations):
         rate = rad_per_s(operation.rpm)
         stops = k + 1 < len(operations)
@@ -50,11 +51,12 @@ def schedule(operations: Sequence[Operation]) -> list[Phase]:
         for duration, feed_from, feed_to in parts:
             load = operation.on_bottom and not (unloads and feed_to == 0)
             motion = Motion(
-                clock, duration, feed_from, feed_to, turning, rate, bit_from=float(loaded), bit_to=float(load)
-            )
+                clock, duration, feed_from, feed_to, turning, rate, bit_from=float(loaded), bit_to=float(load),
+                flow_from=pumped, flow_to=operation.flow,
+            )  # fmt: skip
             phases.append(Phase(motion, k))
             clock += duration
-            turning, loaded = rate, load
+            turning, loaded, pumped = rate, load, operation.flow
     return phases
 
 
@@ -121,10 +123,11 @@ def drive_torque(rig: RigSpec, spin: float, torque: float) -> float:
 
 
 class SteadyRates(NamedTuple):
-    """A steady operation: speed along the hole, downwards [m/s], and rotation [rad/s]."""
+    """A steady operation: speed along the hole, downwards [m/s], rotation [rad/s], and flow of the pumps [m³/s]."""
 
     speed: float
     spin: float
+    flow: float = 0.0
 
 
 # Kinds that have a speed, and those that can have a rotation.
@@ -148,18 +151,24 @@ def bit_loads(case: Case, kind: str) -> BitLoads:
 
 
 def steady_rates(
-    case: Case, kind: str, speed: float | str | None = None, rpm: float | str | None = None
+    case: Case,
+    kind: str,
+    speed: float | str | None = None,
+    rpm: float | str | None = None,
+    flow: float | str | None = None,
 ) -> SteadyRates:
     """Rates of an operation: as given, else those of the case's first operation of that kind, else the kind's defaults.
 
-    speed [m/s] and rpm, or texts with units, are not negative; the kind sets the direction.  Raises InputError for an
-    unknown kind, for rates that are not of its kind and for rates beyond ``units.FASTEST`` and ``units.MOST_RPM``.
+    speed [m/s], rpm and flow [m³/s], or texts with units, are not negative; the kind sets the direction.  Raises
+    InputError for an unknown kind, for rates that are not of its kind and for rates beyond ``units.FASTEST`` and
+    ``units.MOST_RPM``.
     """
     if kind not in KINDS:
         raise InputError(nearest(kind, KINDS, "kind"), key="operation", value=kind)
     of = KINDS[kind]
     own = next((o for o in case.operations if o.kind == kind), None)
     own_speed, own_rpm = (of.default_speed, of.default_rpm) if own is None else (own.speed, own.rpm)
+    pumped = (0.0 if own is None else own.flow) if flow is None else argument(flow, FLOW, "flow")
     speed, rpm = own_speed if speed is None else speed, own_rpm if rpm is None else rpm
     feed, turns = argument(speed, SPEED, "speed"), argument(rpm, ROTATION, "rpm")
     if not (0 < feed <= FASTEST if of.direction else feed == 0):
@@ -169,13 +178,20 @@ def steady_rates(
         wanted = "above 0" if of.turns else "at least 0" if of.may_turn else "of 0"
         wanted += f" and at most {MOST_RPM:g}" if of.may_turn else ""
         raise InputError(f"rev/min {wanted} for {kind}", key="rpm", value=rpm)
-    return SteadyRates(of.direction * feed, rad_per_s(turns))
+    if not 0 <= pumped < math.inf:
+        raise InputError("a flow of at least 0", key="flow", value=flow)
+    return SteadyRates(of.direction * feed, rad_per_s(turns), pumped)
 
 
 def rates_of_all(
-    case: Case, kinds: Sequence[str], speed: float | str | None = None, rpm: float | str | None = None
+    case: Case,
+    kinds: Sequence[str],
+    speed: float | str | None = None,
+    rpm: float | str | None = None,
+    flow: float | str | None = None,
 ) -> dict[str, SteadyRates]:
-    """Rates of several operations: a given speed applies to the kinds that move, a given rpm to those that may rotate.
+    """Rates of several operations: a given speed applies to the kinds that move, a given rpm to those that may rotate,
+    a flow to all.
 
     Raises InputError as ``steady_rates`` does, also for a rate that applies to none of the kinds.
     """
@@ -188,6 +204,7 @@ def rates_of_all(
             kind,
             speed if kind in moving or not moving else None,
             rpm if kind in turning or not turning else None,
+            flow,
         )
 
     return {kind: rates(kind) for kind in kinds}

@@ -8,7 +8,7 @@ from fctd.case.load import Case
 from fctd.mechanics.topdrive import GRAVITY, PerMetre
 from fctd.model.drillstring import LongSegmentError, String
 from fctd.model.fluids import depth_at
-from fctd.model.mud import hole_radius, steady_resistance
+from fctd.model.mud import hole_radius, resistance
 from fctd.model.pieces import RADIUS, TO_MD
 from fctd.model.sampled_hole import narrow_cells
 from fctd.model.string_rows import COMPRESSIBILITY, fill_rows
@@ -89,15 +89,19 @@ def check_clearance(string: String, hole: Wellbore, top: Array, bottom: Array) -
             )
 
 
-def fill(S: Array, string: String, case: Case, hole: Wellbore) -> PerMetre:
+def fill(
+    S: Array, string: String, case: Case, hole: Wellbore, given: Array | None = None, squeeze: Array | None = None
+) -> PerMetre:
     """Write the string into a fresh buffer; returns the pipe fed at the top.
 
-    Mud that moves sideways with the string is left out; ``fctd.simulation.carried_mud.take_along`` adds it.
+    given (n,) : load along each segment, towards the bit [N]; squeeze (n,) : of ``squeeze_of``, by default without
+    friction of the mud.  Mud that moves sideways with the string is left out; ``fctd.simulation.carried_mud.take_along`` adds it.
     """
     # Absurd masses and stiffnesses overflow; ``_step_limit`` refuses them, and ``not_finite`` is their steady status.
     pipe: PerMetre = fill_rows(
         S, string.length, string.component, string.table, string.weight, string.long_segment,
-        damping_of(case, string, hole), squeeze_of(case, string, hole), case.wellbore.stiffness_per_length is not None,
+        damping_of(case, string, hole), squeeze_of(case, string, hole) if squeeze is None else squeeze,
+        np.zeros(string.segments) if given is None else given, case.wellbore.stiffness_per_length is not None,
     )  # fmt: skip
     return pipe
 
@@ -110,20 +114,27 @@ def squeeze_of(case: Case, string: String, hole: Wellbore) -> Array:
     """
     depth = depth_at(hole, string.top_md + string.length.cumsum() - 0.5 * string.length)
     if string.fluids is None:
-        pressure = case.mud.density * GRAVITY * depth
+        squeeze = string.table[string.component, COMPRESSIBILITY] * (case.mud.density * GRAVITY * depth)
     else:
         top, bottom = string.above_bit[:-1], string.above_bit[1:]
-        inside, outside = (
-            side.mean_pressure(top, bottom, depth, hole, string.bit_depth)
-            for side in (string.fluids.inside, string.fluids.outside)
+        squeeze = squeeze_by(
+            string,
+            *(
+                side.mean_pressure(top, bottom, depth, hole, string.bit_depth)
+                for side in (string.fluids.inside, string.fluids.outside)
+            ),
         )
-        bore, body = string.of("inner") ** 2, string.of("outer") ** 2
-        pressure = outside - (inside - outside) * bore / (body - bore)
-    squeeze = string.table[string.component, COMPRESSIBILITY] * pressure
     if case.temperature:
         rows = np.array([(row.tvd, row.change) for row in case.temperature])
         squeeze -= string.of("expansion") * np.interp(depth, rows[:, 0], rows[:, 1])
     return np.asarray(squeeze)
+
+
+def squeeze_by(string: String, inside: Array, outside: Array) -> Array:
+    """By which share pressures inside and outside every segment (n,) [Pa] shorten it."""
+    bore, body = string.of("inner") ** 2, string.of("outer") ** 2
+    pressure = outside - (inside - outside) * bore / (body - bore)
+    return np.asarray(string.table[string.component, COMPRESSIBILITY] * pressure)
 
 
 def excess_pressure(string: String, hole: Wellbore) -> Array:
@@ -140,7 +151,7 @@ def damping_of(case: Case, string: String, hole: Wellbore) -> Array:
     """Damping by the mud per metre of every segment (n, 3): along, across [N s/m²] and about the axis [N s]."""
     mud, damping = case.mud, np.empty((string.segments, 3))
     damping[:] = mud.axial_damping or 0.0, mud.lateral_damping or 0.0, mud.rotational_damping or 0.0
-    if mud.viscosity:
+    if mud.viscosity and mud.rotational_damping is None:
         around = hole_radius(hole, string.top_md, string.length)
-        damping[:, 0], damping[:, 2] = steady_resistance(case, string.of("outer"), around)
+        damping[:, 2] = resistance(string.of("outer"), around, mud.viscosity)
     return damping

@@ -100,7 +100,7 @@ def find_stiffness(length, component, sections, long_segment, column, stiffness)
 
 
 @rounded
-def fill_segment(S, length, component, sections, weight, long_segment, damping, squeeze, per_metre, j):
+def fill_segment(S, length, component, sections, weight, long_segment, damping, squeeze, given, per_metre, j):
     """Write segment j, counted from 0, into the buffer.
 
     Its springs carry the effective tension T.  The pressures inside and outside, and the temperature, shorten the
@@ -120,7 +120,8 @@ def fill_segment(S, length, component, sections, weight, long_segment, damping, 
     S[state.MUD_AXIAL + at] = damping[j, 0] * h
     S[state.MUD_LATERAL + at] = damping[j, 1] * h
     S[state.MUD_SPIN + at] = damping[j, 2] * h
-    S[state.GIVEN_FORCE + at] = S[state.GIVEN_TORQUE + at] = S[state.GIVEN_FRICTION + at] = 0.0
+    S[state.GIVEN_FORCE + at] = given[j]
+    S[state.GIVEN_TORQUE + at] = S[state.GIVEN_FRICTION + at] = 0.0
     S[state.K_AXIAL + at] = joint_stiffness(length, component, sections, long_segment, EA, j)
     S[state.K_SHEAR + at] = joint_stiffness(length, component, sections, long_segment, SHEAR, j)
     S[state.K_BEND + at] = joint_stiffness(length, component, sections, long_segment, EI, j)
@@ -131,16 +132,16 @@ def fill_segment(S, length, component, sections, weight, long_segment, damping, 
 
 
 @entry
-def fill_rows(S, length, component, sections, weight, long_segment, damping, squeeze, per_metre):
+def fill_rows(S, length, component, sections, weight, long_segment, damping, squeeze, given, per_metre):
     """Write a string into a fresh buffer; returns the pipe fed at the top, ``topdrive.PerMetre``.
 
     weight (n,) : buoyed [N/m]; damping (n, 3) : by mud along, across and about the axis, per metre; squeeze (n,) : by
-    which share pressures and temperature shorten the segments; per_metre : whether the wall's stiffness is one per
-    length.
+    which share pressures and temperature shorten the segments; given (n,) : load along each, towards the bit [N];
+    per_metre : whether the wall's stiffness is one per length.
     """
     still = 0.0
     for j in range(len(length)):
-        fill_segment(S, length, component, sections, weight, long_segment, damping, squeeze, per_metre, j)
+        fill_segment(S, length, component, sections, weight, long_segment, damping, squeeze, given, per_metre, j)
         if is_swivel(component, sections, j):
             S[state.K_TWIST + j + 1] = RELEASED
             still = 1.0
@@ -151,6 +152,7 @@ def fill_rows(S, length, component, sections, weight, long_segment, damping, squ
         sections[k, GJ], sections[k, EI], sections[k, SHEAR], damping[0, 0], damping[0, 1], damping[0, 2], 0.0,
         squeeze[0],
         length[1:].max() if long_segment and len(length) > 1 else 0.0,
+        given[0] / length[0] if long_segment else 0.0,
     )  # fmt: skip
     if long_segment:
         S[state.ARM_BOTTOM + 1] = S[state.ARM_CONTACT + 1] = 0.0

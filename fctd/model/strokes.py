@@ -53,28 +53,34 @@ class _Plan:
         self.tally, self.rig, self.depth, self.expected = tally, rig, depth, expected
         self.lifted = False
         self.stands = tally.stands_for(depth)
-        self.clock, self.turning, self.loaded = 0.0, 0.0, 0.0
+        self.clock, self.turning, self.loaded, self.pumped = 0.0, 0.0, 0.0, 0.0
+        self.flow = 0.0  # of the present operation
         self.phases: list[Phase] = []
         self.strokes: list[Stroke] = []
         self.change = 0
 
     def add(
-        self, k: int, parts: list[Part], spins: list[float], loads: list[float], driller: Driller = BY_SPEED
-    ) -> None:
-        """Phases of operation k: duration [s] and feed at both ends [m/s] of each; rotation [rad/s] and share of the
-        loads on the bit at its end."""
-        for (duration, feed_from, feed_to), spin, load in zip(parts, spins, loads, strict=True):
-            motion = Motion(self.clock, duration, feed_from, feed_to, self.turning, spin)
-            self.phases.append(Phase(motion._replace(bit_from=self.loaded, bit_to=load, driller=driller), k))
+        self, k: int, parts: list[Part], spins: list[float], loads: list[float], driller: Driller = BY_SPEED,
+        flows: list[float] | None = None,
+    ) -> None:  # fmt: skip
+        """Phases of operation k: duration [s] and feed at both ends [m/s] of each; rotation [rad/s], share of the
+        loads on the bit and flow [m³/s] at its end, by default that of the operation."""
+        flows = [self.flow] * len(parts) if flows is None else flows
+        for (duration, feed_from, feed_to), spin, load, flow in zip(parts, spins, loads, flows, strict=True):
+            motion = Motion(
+                self.clock, duration, feed_from, feed_to, self.turning, spin, bit_from=self.loaded, bit_to=load,
+                driller=driller, flow_from=self.pumped, flow_to=flow,
+            )  # fmt: skip
+            self.phases.append(Phase(motion, k))
             self.clock += duration
-            self.turning, self.loaded = spin, load
+            self.turning, self.loaded, self.pumped = spin, load, flow
 
     def connect(self, k: int, operation: Operation, change: int) -> None:
-        """Hang the string in the slips and add a stand afterwards, or rack one back before."""
-        if self.turning:
-            self.add(k, [(operation.ramp_time, 0.0, 0.0)], [0.0], [0.0])
+        """Hang the string in the slips, pumps off, and add a stand afterwards, or rack one back before."""
+        if self.turning or self.pumped:
+            self.add(k, [(operation.ramp_time, 0.0, 0.0)], [0.0], [0.0], flows=[0.0])
         self.strokes.append(Stroke(self.clock, min(change, 0), 0.0, 0.0))
-        self.add(k, [(self.rig.connection_time, 0.0, 0.0)], [0.0], [0.0])
+        self.add(k, [(self.rig.connection_time, 0.0, 0.0)], [0.0], [0.0], flows=[0.0])
         self.stands += change
         self.change = max(change, 0)
 
@@ -104,11 +110,12 @@ class _Plan:
             self.strokes.append(Stroke(self.clock, self.change, goal - self.depth, target))
             self.change = 0
             spins, loads = [rate] * len(parts), [float(operation.on_bottom)] * len(parts)
+            flows = [self.flow] * len(parts)
             if not ends_here:
-                spins[-1] = loads[-1] = 0.0
+                spins[-1] = loads[-1] = flows[-1] = 0.0
             elif unloads:
                 loads[-1] = 0.0
-            self.add(k, parts, spins, loads)
+            self.add(k, parts, spins, loads, flows=flows)
             self.depth = goal
 
     def drill(
@@ -147,12 +154,13 @@ def stand_schedule(
 ) -> tuple[list[Phase], list[Stroke]]:
     """Phases and strokes of the operations in order, starting from rest; expected : of an autodriller.
 
-    Every stroke ramps speed and rotation within the ramp time of its operation, and comes to rest before a connection.
+    Every stroke ramps speed, rotation and flow within the ramp time of its operation, and comes to rest before a
+    connection, pumps off.
     Raises InputError for an operation shorter than ``operations.SHORTEST``.
     """
     plan = _Plan(tally, rig, operations[0].start_md, expected)
     for k, operation in enumerate(operations):
-        began = plan.clock
+        began, plan.flow = plan.clock, operation.flow
         if isinstance(operation, Stay):
             parts = staying(operation)
             plan.add(k, parts, [rad_per_s(operation.rpm)] * len(parts), [0.0] * len(parts))

@@ -31,6 +31,7 @@ def entry(
     """
     stored = {f"{name}_J": b - a for name, a, b in zip(Energy._fields, start, now, strict=True)}
     gains = {"top_drive_work_J": float(top[topdrive.TOP_WORK]), "fed_pipe_J": float(top[topdrive.FED_ENERGY])}
+    gains["flow_work_J"] = float(top[topdrive.GIVEN_WORK])
     losses = {name: float(state.row(S, offset, segments).sum()) for name, offset in LOSSES.items()}
     losses["lost_bit_J"] = float(top[topdrive.LOST_BIT])
     residual = sum(stored.values()) + sum(losses.values()) - sum(gains.values())

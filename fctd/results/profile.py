@@ -116,11 +116,12 @@ def stress_along(string: String, tension: Array, torque: Array, bending: Array, 
 
 def profile_table(
     hole: Wellbore, string: String, mud_density: float, top: Array, points: Array, walls: Walls, loads: Loads,
-    in_hole: bool,
+    in_hole: bool, friction: tuple[Array, Array] | None = None,
 ) -> pd.DataFrame:  # fmt: skip
     """A row for the top and one per contact point.
 
-    top (3,), points (n, 3) : upper end and contact points [m]; walls : beside them; in_hole : whether they touch.
+    top (3,), points (n, 3) : upper end and contact points [m]; walls : beside them; in_hole : whether they touch;
+    friction : what flow adds to the pressures inside and outside there (n + 1,) [Pa].
     """
     import pandas as pd  # slow to import, and a chart as CSV needs none
 
@@ -137,8 +138,12 @@ def profile_table(
     depth, steel, given = np.append(top[2], points[:, 2]), np.pi * (outer**2 - inner**2), {}
     outside, excess = mud_density * GRAVITY * depth, np.zeros(len(depth))
     true_tension = tension - outside * steel
-    if string.fluids is not None:
-        inside, outside = string.fluids.pressures(string.contacts_above, depth, hole, string.bit_depth)
+    if string.fluids is not None or friction is not None:
+        inside = outside
+        if string.fluids is not None:
+            inside, outside = string.fluids.pressures(string.contacts_above, depth, hole, string.bit_depth)
+        if friction is not None:
+            inside, outside = inside + friction[0], outside + friction[1]
         excess, given = inside - outside, {"inside_pressure_Pa": inside, "outside_pressure_Pa": outside}
         true_tension = tension - outside * steel + excess * np.pi * inner**2
     clearance = walls.radius - string.contact_radius()

@@ -157,6 +157,11 @@ def _mud_moves(run: Run) -> Use:
     return ("mud.viscosity", f"{run.case.mud.unsteady:g} Pa s") if run.case.mud.unsteady else None
 
 
+def _flow(run: Run) -> Use:
+    flows = enumerate(operation.flow for operation in run.case.operations)
+    return next(((f"operations[{k}].flow", f"{flow:g} m^3/s") for k, flow in flows if flow), None)
+
+
 def _joint_damping(run: Run) -> Use:
     damping = run.case.solver.joint_damping
     usual = SolverSpec.model_fields["joint_damping"].default
@@ -260,10 +265,7 @@ FEATURES: dict[str, Feature] = {
     "mud_axial": Feature("damping by mud", "0", ("mud.axial_damping",), _key("mud.axial_damping", 0.0)),
     "mud_lateral": Feature("damping by mud", "0", ("mud.lateral_damping",), _key("mud.lateral_damping", 0.0)),
     "mud_spin": Feature("damping by mud", "0", ("mud.rotational_damping",), _key("mud.rotational_damping", 0.0)),
-    # No key of a case gives them yet.
-    "given_loads": Feature(
-        "loads given to the string", "none", (), lambda run: ("mud", "a force or a torque") if run.laws.given else None
-    ),
+    "flow": Feature("mud that is pumped", "0", ("operations.flow",), _flow),
     "joint_damping": Feature(
         "damping of the joints", "at most the default", ("solver.joint_damping",), _joint_damping,
     ),

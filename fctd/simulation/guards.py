@@ -22,7 +22,6 @@ from numpy.typing import NDArray
 from fctd.arrays import Array
 from fctd.mechanics import state
 from fctd.mechanics.query import WALL_COLUMNS, Walls, walls_in
-from fctd.model.string_in_hole import excess_pressure
 from fctd.model.torsion import axial_period_of
 from fctd.results.buckling import Buckling
 from fctd.results.ledger import LOSSES
@@ -61,7 +60,7 @@ class Guards(Restorable):
         self.notes: dict[str, Note] = {}
         self.seconds = self.residual = self.work = 0.0
         self.swing = 0.0, 0.0
-        self._worst, self._judged = np.empty((len(LIMITS), WORST)), (run.string, *self._constants())
+        self._worst, self._judged = np.empty((len(LIMITS), WORST)), (run.string, run.circuit, *self._constants())
         # Reading the compiled code from disk, or compiling it, is no part of the checks' time.
         n = run.segments
         is_sound(run.S, n)
@@ -135,19 +134,20 @@ class Guards(Restorable):
     def _of_limits(self, loads: Loads, walls: Walls, hookload: float) -> tuple[Note, ...]:
         """The notes on the string's limits."""
         run, string = self.run, self.run.string
-        if string is not self._judged[0]:  # another one at each record where it hangs from a block, else never
-            self._judged = string, *self._constants()
+        # Another string at each record where it hangs from a block, and another flow where mud flows; else never.
+        if string is not self._judged[0] or run.circuit is not self._judged[1]:
+            self._judged = string, run.circuit, *self._constants()
         hanging = hanging_along(run.hole, string, loads, walls.md, run.case.contact.enabled)
         beyond = find_shares(
             loads.tension, loads.torque, hanging, loads.bit_tension, loads.bit_torque, hookload, walls.offset,
-            walls.radius, state.row(run.S, state.RADIUS, run.segments), *self._judged[1:], self._worst,
+            walls.radius, state.row(run.S, state.RADIUS, run.segments), *self._judged[2:], self._worst,
         )  # fmt: skip
         asked = run.case.limits
         return limit_notes(self._worst, string, walls, asked) if beyond or not asked.all_used else ()
 
     def _constants(self) -> tuple[bool, NDArray[np.bool_], NDArray[np.int64], Array, Array]:
         run, string = self.run, self.run.string
-        excess = excess_pressure(string, run.hole)
+        excess = run.excess_pressure()
         return run.case.contact.enabled, string.mid_contact(), string.component, string.table, excess
 
     def of_the_ledger(self) -> Note | None:

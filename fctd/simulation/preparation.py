@@ -28,6 +28,7 @@ from fctd.model.torsion import axial_period_of, period_of
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.simulation.external_contact import QueriedWall, WallQuery
 from fctd.simulation.features import ASKED, OWN, refuse
+from fctd.simulation.flowing_mud import pumps
 from fctd.simulation.hung import Hung
 from fctd.simulation.run import Run
 from fctd.simulation.upper_end import Fed, UpperEnd
@@ -163,7 +164,7 @@ def _run(
         layer_rate=layer_rate,
         unbalanced=any(component.eccentricity for component in case.string.components),
         bent=any(component.bend for component in case.string.components),
-        given=False,
+        given=pumps(case),
         orthotropic=hole.orthotropic if case.contact.enabled else None,
         bows=True if case.contact.enabled and any(part.has_bows for part in case.string.components) else None,
     )

@@ -16,7 +16,7 @@ from fctd.mechanics.query import Walls
 from fctd.mechanics.readings import Readings
 from fctd.mechanics.rock import NO_ROCK
 from fctd.model.operations import drive_torque, weight_indicator
-from fctd.model.string_in_hole import excess_pressure, squeeze_of
+from fctd.model.string_in_hole import squeeze_of
 from fctd.results import ledger
 from fctd.results.buckling import (
     HELICAL_LIMIT,
@@ -210,7 +210,7 @@ class Recorder(Restorable):
         string, n = self.run.string, self.run.segments
         tension, twist = at_contacts(string, loads)
         hanging = hanging_along(self.run.hole, string, loads, walls.md, self.run.case.contact.enabled)
-        excess = excess_pressure(string, self.run.hole)
+        excess = self.run.excess_pressure()
         stress = stress_along(string, tension, twist, hanging[:, MOMENT], excess)
         rows = np.full((n + 1, ROW_COLUMNS), np.nan) if limits is None else limits
         mode = np.zeros(n) if limits is None else limits[1:, MODE]
@@ -245,8 +245,9 @@ class Recorder(Restorable):
         points, walls = self._walls()
         top = run.S[[state.X, state.Y, state.Z]]
         table = profile_table(
-            run.hole, run.string, run.case.mud.density, top, points, walls, self._loads(), run.case.contact.enabled
-        )
+            run.hole, run.string, run.case.mud.density, top, points, walls, self._loads(), run.case.contact.enabled,
+            run.friction,
+        )  # fmt: skip
         table.insert(0, "operation", self.history[-1]["operation"])
         table.insert(0, "bit_depth_m", self.run.bit_depth)
         return table

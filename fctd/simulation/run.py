@@ -4,14 +4,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.case.operations import Operation
+from fctd.hydraulics.circuit import Circuit
 from fctd.mechanics import state
 from fctd.mechanics.moving_string import STILL, MovingString
 from fctd.mechanics.topdrive import Motion
 from fctd.model.drillstring import String
+from fctd.model.string_in_hole import excess_pressure
 from fctd.model.wellbore import Wellbore
 from fctd.simulation.carried_mud import take_along
+from fctd.simulation.flowing_mud import is_driven, let_flow
 from fctd.simulation.upper_end import UpperEnd
 from fctd.store.facts import Facts, Restorable
 
@@ -21,7 +25,7 @@ class Run(MovingString, Restorable):
     """The string of a case in motion, with the case, the hole and the string it was built from.
 
     upper_end : what feeds or holds it.  mud_at : bit depth [m], segments and rotation [rev/min] to which the mud that
-    moves along belongs.
+    moves along belongs.  circuit : of the mud that flows past the string, None where none does.
     """
 
     FACTS = ("top", "owner", "steps", "segments", "pipe", "mud_at", "upper_end")
@@ -30,6 +34,7 @@ class Run(MovingString, Restorable):
     string: String
     upper_end: UpperEnd
     mud_at: tuple[float, int, float] | None = None
+    circuit: Circuit | None = None
 
     @property
     def bit_depth(self) -> float:
@@ -57,6 +62,21 @@ class Run(MovingString, Restorable):
                 in_derrick=self.upper_end.in_derrick,
             )  # fmt: skip
             self.mud_at = now
+
+    def let_mud_flow(self, motion: Motion, until: float) -> None:
+        """Update what mud that is pumped, and mud that the string displaces, do to it until a time [s]."""
+        if is_driven(self.case):
+            self.circuit = let_flow(self, motion, 0.5 * (self.time + until))
+
+    def excess_pressure(self) -> Array:
+        """Pressure inside less that outside (n + 1,) [Pa], at the top of the string and at its contact points."""
+        excess, friction = excess_pressure(self.string, self.hole), self.friction
+        return excess if friction is None else excess + (friction[0] - friction[1])
+
+    @property
+    def friction(self) -> tuple[Array, Array] | None:
+        """What flow adds to the pressures inside and outside there (n + 1,) [Pa]; None where no mud flows."""
+        return None if self.circuit is None else self.circuit.pressures(self.string.contacts_above)
 
     def facts(self) -> Facts:
         """See ``Restorable.facts``: what does not follow from the case, which is prepared anew.

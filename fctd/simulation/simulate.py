@@ -21,6 +21,7 @@ from fctd.results.tables import SimulationResult
 from fctd.simulation.ending import end_notes, spans_of
 from fctd.simulation.external_contact import WallQuery
 from fctd.simulation.features import refuse
+from fctd.simulation.flowing_mud import is_driven
 from fctd.simulation.intervals import Interval, Window, prolonged, whole_schedule, within
 from fctd.simulation.preparation import prepare
 from fctd.simulation.recorder import Recorder
@@ -155,6 +156,11 @@ class Simulation(Iterator[Record], Restorable):
         self._recorder.restore(facts["recorder"])
 
     @property
+    def _longest(self) -> float:
+        """For how long the mud's flow may be taken as steady [s]."""
+        return self.case.record.interval if is_driven(self.case) else float("inf")
+
+    @property
     def end(self) -> float:
         """Simulated time at which the last record is due [s]."""
         return self.intervals[-1].end
@@ -174,8 +180,9 @@ class Simulation(Iterator[Record], Restorable):
         start_from_rest(self.run)
         start = 0.0 if self.window is None else self.window.start
         if start > 0:
-            for motion, operation, end in within(self.phases, Window(0.0, start), float("inf")):
+            for motion, operation, end in within(self.phases, Window(0.0, start), self._longest):
                 self.run.take_mud_along(self.case.operations[operation])
+                self.run.let_mud_flow(motion, end)
                 self.run.advance(motion, end - self.run.time)
             self.run.refresh()
             self.run.clear()
@@ -205,6 +212,7 @@ class Simulation(Iterator[Record], Restorable):
         began = time.perf_counter()
         try:
             self.run.take_mud_along(self.case.operations[operation])
+            self.run.let_mud_flow(motion, end)
             self.stepper.advance(motion, end - self.run.time)
             self.stepper.refresh()
             self.recorder.guards.timed(self.recorder.guards.check_state, self.run.bit_depth)

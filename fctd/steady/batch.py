@@ -20,7 +20,7 @@ from fctd.case.load import Case
 from fctd.mechanics import state
 from fctd.mechanics.jit import entry, inlined, kernel
 from fctd.model.operations import SteadyRates
-from fctd.model.string_in_hole import damping_of, squeeze_of
+from fctd.model.string_in_hole import damping_of
 from fctd.model.string_rows import WAVE_RADIUS, WAVE_STIFFNESS, fill_rows, find_contacts
 from fctd.model.wellbore import Wellbore
 from fctd.results.buckling import Pipe
@@ -72,8 +72,8 @@ class Strings(NamedTuple):
     """Strings of a case, one after the other.
 
     first (m + 1,) : of their segments in length [m] and component (N,); long_segment (m,); bit_depth (m,) [m];
-    sections : a row for each component; weights (3, N) : of ``String.weights``; damping (N, 3), squeeze (N,),
-    per_metre : see ``fill_rows``; excess (N + m,) : pressure inside less that outside [Pa], at the top and the contact
+    sections : a row for each component; weights (3, N) : of ``String.weights``; damping (N, 3), squeeze (N,), given
+    (N,), per_metre : see ``fill_rows``; excess (N + m,) : pressure inside less that outside [Pa], at the top and the contact
     points of each string.
     """
 
@@ -87,6 +87,7 @@ class Strings(NamedTuple):
     weights: Array
     damping: Array
     squeeze: Array
+    given: Array
     excess: Array
     per_metre: bool
 
@@ -155,10 +156,13 @@ def solve_batch(case: Case, hole: Hole, rows: Sequence[Row], work: Workspace) ->
         return [UNSOLVED if row.laid.is_bent else next(found) for row in rows]
     if not rows:
         return []
+    rows = [row._replace(laid=row.laid.in_flow(row.rates)) for row in rows]
     laid = {id(row.laid): row.laid for row in rows}
     places = {key: k for k, key in enumerate(laid)}
     which = np.array([(places[id(row.laid)], row.friction) for row in rows])
-    loads = np.array([(*row.rates, *row.laid.bit_loads(case, row.operation)) for row in rows], float)
+    loads = np.array(
+        [(row.rates.speed, row.rates.spin, *row.laid.bit_loads(case, row.operation)) for row in rows], float
+    )
     packed = _pack(case, list(laid.values()))
     answers = np.zeros((len(rows), ANSWER))
     most = max(of.string.segments for of in laid.values()) + 1
@@ -176,7 +180,7 @@ def _joined(arrays: Sequence[NDArray[Scalar]], axis: int = 0) -> NDArray[Scalar]
 def _pack(case: Case, laid: Sequence[LaidString]) -> Strings:
     strings = [of.string for of in laid]
     first = np.array([0, *accumulate(string.segments for string in strings)])
-    plain, total = not case.mud.given, int(first[-1])
+    plain, total = not case.mud.given and all(of.circuit is None for of in laid), int(first[-1])
     return Strings(
         first,
         _joined([string.length for string in strings]),
@@ -187,7 +191,8 @@ def _pack(case: Case, laid: Sequence[LaidString]) -> Strings:
         max((string.table for string in strings), key=len),
         _joined([string.weights for string in strings], axis=1),
         _joined([damping_of(case, of.string, of.hole) for of in laid]),
-        _joined([squeeze_of(case, of.string, of.hole) for of in laid]),
+        _joined([of.squeeze for of in laid]),
+        _joined([of.given for of in laid]),
         np.zeros(total + len(strings)) if plain else _joined([of.excess for of in laid]),
         case.wellbore.stiffness_per_length is not None,
     )
@@ -212,7 +217,7 @@ def solve_rows(hole, strings, which, loads, w, answers, joints, contacts, walls)
         weight, body_weight = strings.weights[0][first:last], strings.weights[1][first:last]
         fed = fill_rows(
             w.S, length, component, strings.sections, weight, long_segment, strings.damping[first:last],
-            strings.squeeze[first:last], strings.per_metre,
+            strings.squeeze[first:last], strings.given[first:last], strings.per_metre,
         )  # fmt: skip
         find_contacts(length, component, strings.sections, long_segment, middle, radius, tributary)
         for j in range(n):

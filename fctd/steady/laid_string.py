@@ -1,36 +1,76 @@
 """A string laid out at one bit depth: what its steady strings of all operations and friction factors have in common."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
 from fctd.arrays import Array
 from fctd.case.load import Case
+from fctd.hydraulics.circuit import Channel, Circuit, channel_of, circulate, flows
 from fctd.mechanics.topdrive import PerMetre
 from fctd.model.drillstring import String
-from fctd.model.operations import BitLoads, bit_loads
-from fctd.model.string_in_hole import excess_pressure, fill
+from fctd.model.operations import BitLoads, SteadyRates, bit_loads
+from fctd.model.string_in_hole import excess_pressure, fill, squeeze_by, squeeze_of
 from fctd.model.wellbore import Wellbore
 from fctd.results.buckling import Pipe, pipe_of
 
 
 @dataclass(frozen=True)
 class LaidString:
-    """A string in its hole, whose friction factors do not matter."""
+    """A string in its hole, whose friction factors do not matter.
+
+    circuit : of the mud that flows past it, None where none does.
+    """
 
     case: Case
     hole: Wellbore
     string: String
+    circuit: Circuit | None = None
+    _in_flow: dict[tuple[float, float], "LaidString"] = field(default_factory=dict, repr=False, compare=False)
+
+    def in_flow(self, rates: SteadyRates) -> "LaidString":
+        """The string in the mud that an operation pumps and displaces; itself where mud rests or has no viscosity."""
+        if self.circuit is not None or not flows(self.case, rates.flow, rates.speed):
+            return self
+        # A damping along the string that the case gives replaces the drag of the mud that the string displaces.
+        at = rates.flow, rates.speed if self.case.mud.axial_damping is None else 0.0
+        if at not in self._in_flow:
+            self._in_flow[at] = replace(self, circuit=circulate(self._channel, *at))
+        return self._in_flow[at]
+
+    @cached_property
+    def _channel(self) -> Channel:
+        return channel_of(self.case, self.string, self.hole)
 
     def put(self, S: Array) -> PerMetre:
         """Write the string into a buffer of the engine; returns the pipe at the top."""
-        return fill(S, self.string, self.case, self.hole)
+        return fill(S, self.string, self.case, self.hole, self.given, self.squeeze)
+
+    @cached_property
+    def given(self) -> Array:
+        """Load of the flow on each segment along it, towards the bit (n,) [N]."""
+        return np.zeros(self.string.segments) if self.circuit is None else self.circuit.given
+
+    @cached_property
+    def squeeze(self) -> Array:
+        """See ``squeeze_of``; with the friction of the flow."""
+        squeeze = squeeze_of(self.case, self.string, self.hole)
+        if self.circuit is None:
+            return squeeze
+        inside, outside = (0.5 * (side[:-1] + side[1:]) for side in (self.circuit.inside, self.circuit.outside))
+        return squeeze + squeeze_by(self.string, inside, outside)
 
     @cached_property
     def excess(self) -> Array:
-        """See ``excess_pressure``."""
-        return excess_pressure(self.string, self.hole)
+        """See ``excess_pressure``; with the friction of the flow."""
+        excess, friction = excess_pressure(self.string, self.hole), self.friction
+        return excess if friction is None else excess + (friction[0] - friction[1])
+
+    @property
+    def friction(self) -> tuple[Array, Array] | None:
+        """What flow adds to the pressures inside and outside there (n + 1,) [Pa]; None where no mud flows."""
+        return None if self.circuit is None else self.circuit.pressures(self.string.contacts_above)
 
     @cached_property
     def _packed(self) -> float:

@@ -161,7 +161,8 @@ class Problem:
         self, case: Case, hole: Wellbore, work: Workspace, laid: LaidString, operation: str, rates: SteadyRates,
         allowance: Allowance,
     ) -> None:  # fmt: skip
-        self.case, self.hole, self.work, self.laid, self.rates = case, hole, work, laid, rates
+        self.case, self.hole, self.work, self.rates = case, hole, work, rates
+        self.laid = laid = laid.in_flow(rates)
         self.operation = operation
         self.string = laid.string
         self.n = self.string.segments
@@ -212,7 +213,7 @@ class Problem:
     def laws(self, share: Share = FULL) -> Steady:
         """Motion, friction and bit loads at a share of the loads."""
         x, y, z = (-self.weight_on_bit * share.weight * self.laid.bit_axis).tolist()
-        hole, (speed, spin) = hole_of(self.case, [self.hole]), self.rates
+        hole, (speed, spin, _) = hole_of(self.case, [self.hole]), self.rates
         torque = self.bit_torque * share.weight
         return steady_laws(hole, share.friction, speed, spin, x, y, z, torque, self.at_axis)._replace(held=self.held)
 

@@ -57,9 +57,10 @@ def read_top(S, n, P, kinks, C, owner, laws, R, pipe, top_length, axis, joints, 
     the string's top.
     """
     read_loads(S, n, P, kinks, C, owner, laws, joints, contacts)
-    # Half of a long segment is lumped at the top: the top drive carries its weight and mud load.
+    # Half of a long segment is lumped at the top: the top drive carries its weight, mud load and given load.
     half = 0.5 * top_length
-    hung, resisted = half * (pipe.weight - pipe.mud_axial * laws.speed), half * pipe.mud_spin * laws.spin
+    hung = half * (pipe.weight - pipe.mud_axial * laws.speed + laws.given * pipe.given)
+    resisted = half * pipe.mud_spin * laws.spin
     joints[1, JOINT_TENSION] += hung
     joints[1, JOINT_TORQUE] += resisted
     hookload = R[0, 0] * axis[0] + R[0, 1] * axis[1] + R[0, 2] * axis[2] + hung

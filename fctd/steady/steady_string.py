@@ -110,7 +110,10 @@ class Equilibrium:
         """The string from the top to the bit, a row per contact point; columns of ``profile_table``."""
         shape, mud, points = self._shape, self.case.mud.density, self._shape.contacts[:, PLACE]
         in_hole = self.case.contact.enabled
-        return profile_table(shape.hole, shape.laid.string, mud, shape.top, points, shape.walls, shape.loads, in_hole)
+        return profile_table(
+            shape.hole, shape.laid.string, mud, shape.top, points, shape.walls, shape.loads, in_hole,
+            shape.laid.friction,
+        )  # fmt: skip
 
     @property
     def feeding(self) -> pd.DataFrame:
@@ -131,6 +134,12 @@ class Equilibrium:
         profile = self.profile
         md, high, right = (profile[name].to_numpy(float) for name in ("md_m", "offset_high_m", "offset_right_m"))
         return steady_offsets(md, self._shape.hole.at(md)[1], high, right)
+
+    @property
+    def lift(self) -> float:
+        """What mud that flows takes off the load of the string along the hole [N], below 0 where it pulls it down."""
+        circuit = self._shape.laid.circuit
+        return 0.0 if circuit is None else circuit.lift
 
     @property
     def buckling(self) -> Buckling:
@@ -177,7 +186,7 @@ def steady_string(
 
     code : of the iteration; negative : number of unstable modes; method : name of the rung that found it (ladder.py).
     """
-    kind, numbers = KINDS[operation], answer.numbers
+    kind, numbers, laid = KINDS[operation], answer.numbers, laid.in_flow(rates)
     at_bit = laid.bit_loads(case, operation)
     shape = Shape(
         hole, laid, numbers[TOP:SHAPE], answer.joints, answer.contacts, answer.walls, numbers[SHAPE:],

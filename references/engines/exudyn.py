@@ -43,7 +43,7 @@ from references.engines.run import InWindows
 
 # What others feed or press (stands, bit, cake), what needs code of its own in the compiled step (orthotropic, bows,
 # other laws of the wall), and a rotation that is not planned, whose reading would be a step late.
-LEFT_OUT = {"stands", "bit_loads", "cake", "orthotropic", "bows", "wall_law", "given_loads", "drive", UNKNOWN_KEYS}
+LEFT_OUT = {"stands", "bit_loads", "cake", "orthotropic", "bows", "wall_law", "flow", "drive", UNKNOWN_KEYS}
 # Of Exudyn's contact with a mesh: share of FCTD's step, with which the string leaves the hole, since forces of
 # neighbouring triangles are added up; sliding below which friction is less than μN [m/s]; stiffness of triangles in
 # series with that of the wall [N/m]; cells of its search: size [m] and most along an axis.

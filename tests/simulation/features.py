@@ -158,6 +158,14 @@ CROSSED: dict[str, Crossed] = {
         ),
         "hookload_max_N",
     ),
+    "flow": Crossed(
+        lambda on: case(
+            UPRIGHT,
+            mud={"density": 1200.0, "viscosity": 0.02},
+            operations=[rotation(300, 1.5, ramp=0.5) | {"flow": 0.03 if on else 0.0}],
+        ),
+        "hookload_N",
+    ),
     "mud_axial": Crossed(
         lambda on: case(mud={"axial_damping": 20.0 if on else 0.0}, operations=[trip(302, 300, 0.5, 1.0)], **LONG),
         "hookload_N",

@@ -12,22 +12,26 @@ from fctd.mechanics.energy import energy_of
 from fctd.mechanics.moving_string import STILL
 from fctd.mechanics.topdrive import put_long_segment
 from fctd.model.drillstring import String, lay_out
-from fctd.model.mud import added_mass, hole_radius, lateral_damping, steady_resistance
+from fctd.model.mud import added_mass, lateral_damping
+from fctd.model.operations import SteadyRates
+from fctd.model.string_in_hole import damping_of
 from fctd.model.torsion import axial_period_of
 from fctd.simulation.carried_mud import layers, sideways, take_along
 from fctd.simulation.preparation import prepare
 from fctd.simulation.settling import start_from_rest
+from fctd.steady.laid_string import LaidString
 from tests.cases import make_case, pipe, rotation, trip
 
 STATIONS = [[0, 0, 0], [400, 0, 0], [850, 60, 0], [1200, 60, 0]]
 SIZES = {"intervals": [
     {"to_md": 500, "diameter": 0.311, "friction": 0.2}, {"to_md": 1200, "diameter": 0.2159, "friction": 0.2},
 ]}  # fmt: skip
+PIPE = [pipe(None, None, inner=0.1086, segment_length=25.0)]
 
 
 def well(mud: dict[str, Any], operation: dict[str, Any] | None = None) -> Case:
-    components = [pipe(None, None, inner=0.1086, segment_length=25.0)]
-    return make_case(STATIONS, components, [operation or rotation(1000, 12, rpm=120, ramp=4)], wellbore=SIZES, mud=mud)
+
+    return make_case(STATIONS, PIPE, [operation or rotation(1000, 12, rpm=120, ramp=4)], wellbore=SIZES, mud=mud)
 
 
 def test_coefficients_follow_the_size_of_the_hole() -> None:
@@ -45,7 +49,11 @@ def test_coefficients_follow_the_size_of_the_hole() -> None:
 
 
 def steady(case: Case, string: String) -> tuple[np.ndarray, np.ndarray]:
-    return steady_resistance(case, string.of("outer"), hole_radius(build_wellbore(case), string.top_md, string.length))
+    """Damping along and around the hole: with the mud that is displaced at 0.5 m/s, and at 1 rad/s."""
+    hole = build_wellbore(case)
+    displaced = LaidString(case, hole, string).in_flow(SteadyRates(0.5, 0.0)).given / string.length
+    damping = damping_of(case, string, hole)
+    return damping[:, 0] - displaced / 0.5, damping[:, 2]
 
 
 @pytest.mark.parametrize(
@@ -85,7 +93,7 @@ def test_a_damping_that_is_given_wins() -> None:
 
 
 def test_steady_loads_depend_on_a_given_viscosity_alone() -> None:
-    """What a given one adds is c Ω and c v along the string; without friction, which the added tension would raise.
+    """What a given one adds is c Ω, and c v in laminar flow; without friction, which the added tension would raise.
 
     Nor with a joint in the shoe at 500 m, whose ledge bears a part of the tension.
     """
@@ -93,7 +101,7 @@ def test_steady_loads_depend_on_a_given_viscosity_alone() -> None:
     frictionless = {"intervals": [{**interval, "friction": 0.0} for interval in SIZES["intervals"]]}
 
     def loads(**mud: Any) -> tuple[float, float]:
-        case = make_case(STATIONS, [pipe(None, None, segment_length=25.0)], wellbore=frictionless, mud=mud)
+        case = make_case(STATIONS, PIPE, wellbore=frictionless, mud=mud)
         return (
             equilibrium(case, "rotate_off_bottom", depth, rpm=120).surface_torque,
             equilibrium(case, "trip_out", depth, speed=0.5).hookload,

@@ -13,8 +13,6 @@ from references import contact
 from tests.cases import make_case, pipe, rotation
 from tests.simulation.features import CROSSED, shown
 
-# No key of a case gives loads yet; tests/mechanics/test_given_loads.py has their effect with another contact method.
-GIVEN = {"given_loads"}
 # Cylinders are round, and refuse a case whose hole is not.
 MESHED = {"caliper": "fcl"}
 
@@ -45,7 +43,7 @@ def test_every_key_belongs_to_a_feature_or_works_everywhere() -> None:
 
 
 def test_every_feature_has_a_case() -> None:
-    assert set(CROSSED) | GIVEN == set(FEATURES)
+    assert set(CROSSED) == set(FEATURES)
 
 
 def test_a_simulation_refuses_what_only_the_steady_solver_has() -> None:
