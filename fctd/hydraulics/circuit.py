@@ -18,7 +18,7 @@ from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.hydraulics.closed_forms import Loss, annulus, bore
-from fctd.hydraulics.rheology import Rheology
+from fctd.hydraulics.rheology import Rheology, along
 from fctd.model.drillstring import String
 from fctd.model.mud import hole_radius
 from fctd.model.wellbore import Wellbore
@@ -202,22 +202,38 @@ def _find_bore(rows: bytes, through: float) -> Array:
 _annulus_of, _bore_of = lru_cache(maxsize=1024)(_find_annulus), lru_cache(maxsize=1024)(_find_bore)
 
 
-def has_flow_curve(case):
-    return bool(case.mud.viscosity)
+def has_flow_curve(case: Case) -> bool:
+    """Whether any mud of the case has friction."""
+    muds = (case.mud, *case.mud.inside, *case.mud.outside)
+    return any(curve.yield_stress or curve.consistency for mud in muds if (curve := mud.curve) is not None)
 
 
-def flow_curves(case, string):
-    one = Rheology.newtonian(case.mud.viscosity or 0.0)
-    return one, one
+def flow_curves(case: Case, string: String) -> tuple[Rheology, Rheology]:
+    """Flow curves inside and outside every segment (n,)."""
+    middle = 0.5 * (string.above_bit[:-1] + string.above_bit[1:])
+    fluids = string.fluids
+    inside = along(case.mud, case.mud.inside, None if fluids is None else fluids.inside, middle)
+    outside = along(case.mud, case.mud.outside, None if fluids is None else fluids.outside, middle)
+    return inside, outside
 
 
-def tool_drops(case, string):
-    return np.zeros(string.segments)
+def tool_drops(case: Case, string: String) -> Array:
+    """Pressure drop of tools over the square of the flow (n,) [Pa s²/m⁶], each spread over its segments."""
+    drops = np.zeros(string.segments)
+    inside = case.mud.density if string.densities is None else string.densities[0]
+    for k, part in enumerate(case.string.components):
+        of = string.origin == k
+        if part.pressure_drop and part.at_flow and of.any():
+            share = np.where(of, string.length, 0.0) / string.length[of].sum()
+            drops += share * part.pressure_drop * inside / (part.at_density * part.at_flow**2)
+    return drops
 
 
-def nozzles_of(case):
-    return np.inf, 1.0
+def nozzles_of(case: Case) -> tuple[float, float]:
+    """Area of the nozzles, infinite where the case gives none [m²], and their drop over that of an ideal flow."""
+    return case.bit.nozzle_area or np.inf, 1 / case.bit.discharge**2
 
 
-def end_of(case):
-    return getattr(case.bit, "end", "open")
+def end_of(case: Case) -> str:
+    """The end of the string: "open", "closed", or with a "float"."""
+    return case.end
