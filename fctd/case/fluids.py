@@ -41,6 +41,21 @@ class TemperatureSpec(Table):
     change: units.TemperatureChange
 
 
+class WindowSpec(Table):
+    """Densities of mud whose pressure is that of the `pore` and that which opens a `fracture` [kg/m^3], at a true
+    vertical depth `tvd` [m]; linear between the rows, the same above the first and below the last."""
+
+    tvd: units.Length
+    pore: units.Density
+    fracture: units.PositiveDensity
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.fracture <= self.pore:
+            raise InputError(f"more than pore, {self.pore:g} kg/m^3", key="fracture")
+        return self
+
+
 class FluidsSpec(FlowSpec):
     """Fluids by depth; a side without rows has the density of the mud."""
 
@@ -80,8 +95,8 @@ def _check_order(rows: Sequence[OutsideSpec], name: str) -> None:
             raise InputError(f"more than {above.to_md:g} m, where the row above ends", key=f"{name}[{i}].to_md")
 
 
-def check_temperature(rows: Sequence[TemperatureSpec]) -> None:
+def check_downwards(rows: Sequence[TemperatureSpec] | Sequence[WindowSpec], name: str) -> None:
     """Raise InputError for rows that do not run downwards."""
     for i, (above, row) in enumerate(pairwise(rows), start=1):
         if row.tvd <= above.tvd:
-            raise InputError(f"more than {above.tvd:g} m, the depth of the row above", key=f"temperature[{i}].tvd")
+            raise InputError(f"more than {above.tvd:g} m, the depth of the row above", key=f"{name}[{i}].tvd")

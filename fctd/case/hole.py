@@ -19,6 +19,7 @@ from fctd.case import units
 from fctd.case.calipers.caliper import Caliper, CaliperSpec
 from fctd.case.errors import MISSING, InputError, Table, exclusive, known_keys
 from fctd.case.file_names import FileName, beside_case
+from fctd.case.fluids import WindowSpec
 from fctd.case.input_warnings import InputWarning
 from fctd.case.surveys import doubts
 from fctd.case.surveys.form import SURVEY, ColumnKey, ColumnSpec, check_units
@@ -91,6 +92,7 @@ class WellboreSpec(Table):
         default_factory=lambda given: 1e7 if given["stiffness_per_length"] is None else None
     )
     intervals: tuple[IntervalSpec, ...] = Field(description="tables [[wellbore.intervals]]")
+    window: tuple[WindowSpec, ...] = Field(default=(), description="tables [[wellbore.window]]")
     _trajectory: _Trajectory = PrivateAttr(default_factory=_Trajectory)
     _measured: _Measured = PrivateAttr(default_factory=_Measured)
 

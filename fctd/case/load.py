@@ -14,7 +14,7 @@ from fctd.case.doubts import warnings_of
 from fctd.case.drilling import BitSpec
 from fctd.case.errors import MISSING, InputError, Table, naming, nearest
 from fctd.case.file_names import FileName
-from fctd.case.fluids import TemperatureSpec, check_temperature
+from fctd.case.fluids import TemperatureSpec, check_downwards
 from fctd.case.hole import WellboreSpec
 from fctd.case.input_file import read_toml
 from fctd.case.input_warnings import InputWarning
@@ -105,7 +105,8 @@ class Case(Table):
             if density >= lightest:
                 of = f"string.components[{densities.index(lightest)}].density"
                 raise InputError(f"a density below the string's, {lightest:g} kg/m^3 ({of})", key=key)
-        check_temperature(self.temperature)
+        check_downwards(self.temperature, "temperature")
+        check_downwards(self.wellbore.window, "wellbore.window")
         if self.mud.float and self.bit.end not in (None, "float"):
             raise InputError('"float", or mud.float = false', key="bit.end", value=self.bit.end)
         if self.mud.packer_bore is not None and self.end != "open":

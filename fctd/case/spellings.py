@@ -173,6 +173,7 @@ def _registry() -> UnitRegistry[Any]:
     registry: UnitRegistry[Any] = UnitRegistry()
     registry.define("specific_gravity = 1000 kilogram / meter ** 3")
     registry.define("hsqft = 100 foot ** 2")
+    registry.define("gpm = gallon / minute")
     registry.define("tonne_force = 1000 kilogram_force")
     registry.define("kilodecanewton = 10 kilonewton")
     return registry

@@ -15,11 +15,10 @@ from scipy.optimize import brentq
 from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.load import Case
-from fctd.case.rheology import FlowSpec, Rheology
-from fctd.case.rig import MudSpec
+from fctd.case.rheology import Rheology
 from fctd.hydraulics.closed_forms import Loss, annulus, bore
+from fctd.hydraulics.rheology import along
 from fctd.model.drillstring import String
-from fctd.model.fluids import Column
 from fctd.model.mud import hole_radius
 from fctd.model.wellbore import Wellbore
 
@@ -112,14 +111,22 @@ class Channel:
 
 def has_flow_curve(case: Case) -> bool:
     """Whether a case says how its mud flows, in or around the string."""
-    mud = case.mud
-    return any(curve is not None and max(curve[:2]) > 0 for curve in _curves(mud, (mud, *mud.inside, *mud.outside)))
+    muds = (case.mud, *case.mud.inside, *case.mud.outside)
+    return any(curve.yield_stress or curve.consistency for mud in muds if (curve := mud.curve) is not None)
+
+
+def flow_curves(case: Case, string: String) -> tuple[Rheology, Rheology]:
+    """Flow curves inside and outside every segment (n,), those halfway along it."""
+    middle, fluids = 0.5 * (string.above_bit[:-1] + string.above_bit[1:]), string.fluids
+    inside = along(case.mud, case.mud.inside, None if fluids is None else fluids.inside, middle)
+    outside = along(case.mud, case.mud.outside, None if fluids is None else fluids.outside, middle)
+    return inside, outside
 
 
 def channel_of(case: Case, string: String, hole: Wellbore, eccentricity: float | Array = 0.0) -> Channel:
     """The channel of a laid-out string; eccentricity (n,) : offset of the pipe over its clearance, 0 to 1."""
     n, length = string.segments, string.length
-    inside, outside = (_flow_curves(case, string, side) for side in ("inside", "outside"))
+    inside, outside = flow_curves(case, string)
     densities = string.densities or (case.mud.density, case.mud.density)
     bottom = string.top_md + np.cumsum(length)
     around = (string.of("outer"), hole_radius(hole, string.top_md, length), eccentricity, *outside, densities[1])
@@ -129,23 +136,6 @@ def channel_of(case: Case, string: String, hole: Wellbore, eccentricity: float |
         _tools(string, densities[0]), (case.bit.nozzle_area or np.inf, case.bit.discharge**-2),
         "closed" if any(row.plug for row in case.mud.inside) else case.end,
     )  # fmt: skip
-
-
-def _curves(mud: MudSpec, rows: Sequence[FlowSpec]) -> list[Rheology | None]:
-    """The flow curves of rows of a mud, by default its own."""
-    return [mud.curve if row.curve is None else row.curve for row in rows]
-
-
-def _flow_curves(case: Case, string: String, side: str) -> Rheology:
-    """The flow curve on a side of each segment, halfway along it; without one mud flows without friction."""
-    mud, frictionless = case.mud, Rheology.newtonian(0.0)
-    rows: Sequence[FlowSpec] = getattr(mud, side)
-    if not rows or string.fluids is None:
-        return frictionless if mud.curve is None else mud.curve
-    column: Column = getattr(string.fluids, side)
-    row = column.row_of(0.5 * (string.above_bit[:-1] + string.above_bit[1:]))
-    curves = [frictionless if curve is None else curve for curve in _curves(mud, rows)]
-    return Rheology(*np.array(curves)[row].T)
 
 
 def _tools(string: String, density: Array | float) -> Array:

@@ -14,14 +14,15 @@ from fctd.model.fluids import Column
 INVISCID = Rheology.newtonian(0.0)
 
 
-def along(mud: MudSpec, rows: Sequence[OutsideSpec], column: Column, above: Array) -> Rheology:
+def along(mud: MudSpec, rows: Sequence[OutsideSpec], column: Column | None, above: Array) -> Rheology:
     """Flow curves (n,) of one side at distances from the bit (n,) [m].
 
-    rows : of that side in the case, whose fluids are the column; a row that says nothing of its flow has the curve of
-    the mud, and a mud that says nothing flows without friction.
+    rows : of that side in the case, whose fluids are the column, None where all is one mud; a row that says nothing of
+    its flow has the curve of the mud, and a mud that says nothing flows without friction.
     """
     own = [row.curve or mud.curve or INVISCID for row in rows] or [mud.curve or INVISCID]
-    return Rheology(*np.array(own, float)[column.row_of(above)].T)
+    index = np.zeros(len(above), int) if column is None else column.row_of(above)
+    return Rheology(*np.array(own, float)[index].T)
 
 
 def check_flows(mud: MudSpec) -> None:

@@ -33,7 +33,14 @@ MEASURES: Final = (
     Measure("Pa", "MPa", "ksi"),
     Measure("N", "kN", "klbf"),
     Measure("m", "m", "ft"),
+    Measure("kg/m^3", "kg/m^3", "ppg"),
+    Measure("m^3/s", "L/min", "gpm"),
+    Measure("m/s", "m/s", "ft/min"),
+    Measure("W", "kW", "hp"),
 )
+# Pressures of mud, for which MPa and ksi are too coarse: columns with these ends.
+OF_MUD: Final = Measure("Pa", "bar", "psi")
+_ENDS_OF_MUD: Final = ("drop_Pa", "standpipe_Pa", "surge_Pa")
 # Lengths across the hole, for which metres and feet are too coarse.
 ACROSS: Final = Measure("m", "mm", "in")
 
@@ -49,6 +56,8 @@ def measure_of(column: str) -> Measure | None:
     """Units of a column of an SI table; None for names, counts, angles and plain numbers."""
     if column in COLUMNS and COLUMNS[column].across:
         return ACROSS
+    if column.endswith(_ENDS_OF_MUD):
+        return OF_MUD
     return next((measure for measure in MEASURES if column.endswith(_ending(measure.table))), None)
 
 
@@ -60,7 +69,7 @@ def shown(column: str, system: System) -> Shown:
     if measure is None:
         raise ValueError(f"column {column} has no unit to show")
     unit = measure.field if system == "field" else measure.si
-    return Shown(conversion(measure.table, unit), unit.replace("*", "·"))
+    return Shown(_factor(measure.table, unit), unit.replace("*", "·"))
 
 
 def shown_unit(unit: str, system: System) -> Shown:
@@ -95,7 +104,7 @@ def in_field_units(table: pd.DataFrame) -> pd.DataFrame:
             columns[name] = table[name].map(_reworded) if name in _SENTENCES else table[name]
         else:
             # Division by 0.3048, which is exact, and rounding to 15 digits give 100 ft for 30.48 m.
-            values = table[name] / conversion(measure.field, measure.table)
+            values = table[name] / _factor(measure.field, measure.table)
             columns[_in_field(name, measure)] = values.map("{:.15g}".format).astype(float)
     return pd.DataFrame(columns)
 
@@ -111,7 +120,7 @@ def long_in_field_units(table: pd.DataFrame, numbers: Sequence[str], scaled: pd.
         if measure is not None:
             here = table["column"] == name
             converted.loc[here, "column"] = _in_field(name, measure)
-            converted.loc[here & scaled, list(numbers)] /= conversion(measure.field, measure.table)
+            converted.loc[here & scaled, list(numbers)] /= _factor(measure.field, measure.table)
     return converted
 
 
@@ -150,10 +159,15 @@ def reworded(text: str, system: System) -> str:
 _PINTS: Final = {"kft·lbf": "kft*lbf", "ppg": "lb/gal"}
 
 
+def _factor(unit: str, target: str) -> float:
+    """How many target units a unit is, both of a measure."""
+    return conversion(_PINTS.get(unit, unit), _PINTS.get(target, target))
+
+
 def _short(value: float) -> str:
     return f"{value:.0f}" if abs(value) >= 1000 else f"{value:.4g}"
 
 
 def _ending(unit: str) -> str:
-    """The unit as the end of a column's name."""
-    return "_" + unit.replace("*", "_")
+    """The unit as the end of a column's name: "_N_m", "_m3_s"."""
+    return "_" + unit.replace("*", "_").replace("/", "_").replace("^", "")

@@ -1,0 +1,284 @@
+"""Pressures of mud that is pumped: where they are lost, what the pumps need, and the density that the hole feels."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from fctd.arrays import Array
+from fctd.case.errors import InputError
+from fctd.case.load import Case, check_bit_depth, naming_file
+from fctd.case.units import FLOW, LENGTH, argument, bare
+from fctd.hydraulics.channel import Channel, channel_of, flow_curves
+from fctd.hydraulics.circuit import Circuit, circulate
+from fctd.hydraulics.closed_forms import REGIMES, bore
+from fctd.hydraulics.cuttings import Cuttings, share_of_cuttings, transport_ratio
+from fctd.hydraulics.rheology import check_flows
+from fctd.mechanics.topdrive import GRAVITY
+from fctd.model.drillstring import String, lay_out
+from fctd.model.fluids import depth_at
+from fctd.model.pieces import TO_MD
+from fctd.model.string_in_hole import check_fit
+from fctd.model.wellbore import Wellbore, build_wellbore
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+SHORTEST: Final = 1e-6  # [m]: two ends in one place
+Row = dict[str, Any]
+Progress = Callable[[int, int], None]
+
+
+@dataclass(frozen=True)
+class Laid:
+    """A string in its hole for the flow of mud: its segments are cut where the hole changes.
+
+    ends, depth (n + 1,) : measured and true vertical depths of its top and of the lower ends of its segments [m].
+    """
+
+    case: Case
+    hole: Wellbore
+    string: String
+    channel: Channel
+
+    @cached_property
+    def ends(self) -> Array:
+        return self.string.bit_depth - self.string.above_bit
+
+    @cached_property
+    def depth(self) -> Array:
+        return depth_at(self.hole, self.ends)
+
+    @cached_property
+    def interval(self) -> Array:
+        """Index (n,) of the interval of the hole beside each segment."""
+        middle = 0.5 * (self.ends[1:] + self.ends[:-1])
+        return np.minimum(np.searchsorted(self.hole.intervals[:, TO_MD], middle), len(self.hole.intervals) - 1)
+
+    def at_rest(self, md: Array) -> Array:
+        """Pressures (k,) outside at measured depths [Pa], of mud at rest."""
+        depth, fluids = depth_at(self.hole, md), self.string.fluids
+        if fluids is None:
+            return self.case.mud.density * GRAVITY * depth
+        return fluids.outside.pressure(self.string.bit_depth - md, depth, self.hole, self.string.bit_depth)
+
+    def unlike(self) -> float:
+        """Pressure that the pumps need since the mud outside is denser than that inside [Pa]."""
+        if (fluids := self.string.fluids) is None:
+            return 0.0
+        if any(row.plug for row in self.case.mud.inside):
+            raise InputError("false with a flow, which a plug lets not pass", key="mud.inside[0].plug", value=True)
+        bit = np.zeros(1), self.depth[-1:], self.hole, self.string.bit_depth
+        return float(fluids.outside.pressure(*bit)[0] - fluids.inside.pressure(*bit)[0] + fluids.inside.surface)
+
+
+def lay(case: Case, bit_depth: float, eccentricity: float = 0.0) -> Laid:
+    """A case's string with the bit at a depth [m]; eccentricity : offset of the pipe over its clearance, 0 to 1.
+
+    Raises InputError where string and hole do not fit.
+    """
+    hole, string = build_wellbore(case), lay_out(case, bit_depth)
+    check_fit(string, hole, bit_depth)
+    ends = string.top_md + np.cumsum(string.length)
+    changes = hole.intervals[:-1, TO_MD]
+    changes = changes[(changes > string.top_md + SHORTEST) & (changes < bit_depth - SHORTEST)]
+    new = changes[(np.abs(changes[:, None] - ends) > SHORTEST).all(axis=1)]
+    cut = np.sort(np.append(ends, new))
+    cut[-1] = bit_depth
+    owner = string.component[np.searchsorted(ends, cut - SHORTEST)]
+    string = replace(string, length=np.diff(cut, prepend=string.top_md), component=owner)
+    return Laid(case, hole, string, channel_of(case, string, hole, eccentricity))
+
+
+@dataclass(frozen=True)
+class Circulation:
+    """Mud that is pumped through a laid string: flow [m³/s], its circuit, and cuttings where any are asked for."""
+
+    laid: Laid
+    flow: float
+    circuit: Circuit
+    cuttings: Cuttings | None = None
+
+    @property
+    def surface(self) -> float:
+        """Pressure lost in the surface lines [Pa]."""
+        case = self.laid.case
+        inside, density = flow_curves(case, self.laid.string)[0], self.laid.channel.bore[0, -1]
+        first = type(inside)(*(float(np.ravel(value)[0]) for value in inside))
+        lost = bore(0.5 * case.rig.surface_bore, first, density, self.flow).gradient
+        return float(lost) * case.rig.surface_length
+
+    @cached_property
+    def tools(self) -> Array:
+        """Pressure drops (n,) of tools [Pa]."""
+        return np.asarray(self.laid.channel.tools * self.flow**2)
+
+    @cached_property
+    def bores(self) -> Array:
+        """Pressures (n,) lost in the bores of the segments [Pa]."""
+        return self.laid.channel.inside(self.flow) - self.tools
+
+    @property
+    def standpipe(self) -> float:
+        """Pressure of the pumps [Pa]: all that is lost, and what columns of unlike muds add or take."""
+        return self.surface + float(self.circuit.inside[0]) + self.laid.unlike()
+
+    @cached_property
+    def speeds(self) -> Array:
+        """Mean speeds (n,) of the mud upwards in the annuli [m/s]."""
+        outer, wall = self.laid.channel.annulus[:, :2].T
+        return np.asarray(self.flow / (np.pi * (wall**2 - outer**2)))
+
+    @cached_property
+    def ratios(self) -> Array:
+        """Transport ratios (n,) of the cuttings; NaN without any, and in steep hole."""
+        if self.cuttings is None or self.flow <= 0:
+            return np.full(self.laid.string.segments, np.nan)
+        outer, wall = self.laid.channel.annulus[:, :2].T
+        middle = 0.5 * (self.laid.ends[1:] + self.laid.ends[:-1])
+        return transport_ratio(
+            self.cuttings, flow_curves(self.laid.case, self.laid.string)[1], self.laid.channel.annulus[:, -1],
+            self.speeds, wall - outer, self.laid.hole.inclination(middle),
+        )  # fmt: skip
+
+    @cached_property
+    def equivalent(self) -> Array:
+        """Equivalent circulating densities (n + 1,) at the ends of the segments [kg/m³]; NaN at the surface."""
+        laid, pressure = self.laid, self.laid.at_rest(self.laid.ends) + self.circuit.outside
+        if self.cuttings is not None:
+            area = np.pi * float(laid.channel.annulus[-1, 1]) ** 2
+            share = share_of_cuttings(self.cuttings, self.ratios, area, self.flow)
+            heavier = share * (self.cuttings.density - laid.channel.annulus[:, -1]) * GRAVITY * np.diff(laid.depth)
+            pressure[1:] += np.cumsum(heavier)
+        deep = laid.depth > SHORTEST
+        return np.where(deep, pressure / (GRAVITY * np.where(deep, laid.depth, 1.0)), np.nan)
+
+    def summary(self) -> Row:
+        """The row of ``pressure_losses``."""
+        area = self.laid.case.bit.nozzle_area
+        jets = self.flow / area if area else np.nan
+        drop, standpipe = self.circuit.bit_drop, self.standpipe
+        shoes = [k for k in range(1, len(self.laid.ends)) if self.laid.ends[k] in self.laid.hole.intervals[:-1, TO_MD]]
+        return {
+            "flow_m3_s": self.flow, "bit_depth_m": self.laid.string.bit_depth, "standpipe_Pa": standpipe,
+            "surface_drop_Pa": self.surface, "bore_drop_Pa": float(self.bores.sum()),
+            "tool_drop_Pa": float(self.tools.sum()), "bit_drop_Pa": drop,
+            "annulus_drop_Pa": float(self.circuit.outside[-1]),
+            "ecd_shoe_kg_m3": float(self.equivalent[shoes[-1]]) if shoes else np.nan,
+            "ecd_bit_kg_m3": float(self.equivalent[-1]),
+            "bit_power_W": drop * self.flow, "pump_power_W": standpipe * self.flow,
+            "impact_force_N": float(self.laid.channel.bore[-1, -1]) * self.flow * jets, "jet_speed_m_s": jets,
+            "lift_N": self.circuit.lift, "reason": "none",
+        }  # fmt: skip
+
+    def parts(self) -> list[Row]:
+        """The rows of ``pressure_parts``: surface lines, bores and tools down to the bit, annuli up from it."""
+        laid, components = self.laid, self.laid.case.string.components
+        rows = [self._row("surface", "", 0.0, laid.string.top_md, self.surface)]
+        inside = _runs(laid.string.origin)
+        for first, last in inside:
+            name = components[laid.string.origin[first]].name
+            ends = float(laid.ends[first]), float(laid.ends[last + 1])
+            rows.append(self._row("bore", name, *ends, float(self.bores[first : last + 1].sum())))
+            if (tool := float(self.tools[first : last + 1].sum())) > 0:
+                rows.append(self._row("tool", name, *ends, tool))
+        rows.append(self._row("bit", "", laid.string.bit_depth, laid.string.bit_depth, self.circuit.bit_drop))
+        for first, last in reversed(_runs(laid.string.origin * len(laid.hole.intervals) + laid.interval)):
+            of, lost = slice(first, last + 1), np.diff(self.circuit.outside)
+            rows.append(
+                self._row(
+                    "annulus", components[laid.string.origin[first]].name, float(laid.ends[first]),
+                    float(laid.ends[last + 1]), float(lost[of].sum()),
+                )
+                | {
+                    "interval": int(laid.interval[first]) + 1,
+                    "speed_m_s": float(np.average(self.speeds[of], weights=laid.string.length[of])),
+                    "regime": REGIMES[int(self.circuit.annulus.regime[of].max())],
+                    "ecd_kg_m3": float(self.equivalent[last + 1]),
+                    "transport_ratio": float(np.min(self.ratios[of])),
+                }
+            )  # fmt: skip
+        return rows
+
+    def _row(self, part: str, name: str, top: float, bottom: float, drop: float) -> Row:
+        return {
+            "flow_m3_s": self.flow, "bit_depth_m": self.laid.string.bit_depth, "part": part, "name": name,
+            "interval": 0, "from_md_m": top, "to_md_m": bottom, "pressure_drop_Pa": drop, "speed_m_s": np.nan,
+            "regime": "", "ecd_kg_m3": np.nan, "transport_ratio": np.nan,
+        }  # fmt: skip
+
+
+def _runs(values: Array) -> list[tuple[int, int]]:
+    """First and last index of every run of equal values."""
+    starts = np.flatnonzero(np.diff(values, prepend=values[0] - 1))
+    return list(zip(starts.tolist(), [*(starts[1:] - 1).tolist(), len(values) - 1], strict=True))
+
+
+def circulation(
+    case: Case, flow: float, bit_depth: float, eccentricity: float = 0.0, cuttings: Cuttings | None = None
+) -> Circulation:
+    """Mud that is pumped [m³/s] with the bit at a depth [m].  Raises InputError where string and hole do not fit."""
+    laid = lay(case, bit_depth, eccentricity)
+    solid = np.flatnonzero(laid.channel.bore[:, 0] <= 0)
+    if flow > 0 and len(solid):
+        key = f"{laid.string.key_of(int(solid[0]))}.inner_diameter"
+        raise InputError("a bore above 0 with a flow through it", key=key, value=0.0)
+    return Circulation(laid, flow, circulate(laid.channel, flow), cuttings)
+
+
+def circulations(
+    case: Case, flows: Sequence[float], bit_depths: Sequence[float], eccentricity: float = 0.0,
+    cuttings: Cuttings | None = None, progress: Progress | None = None,
+) -> list[Circulation | Row]:  # fmt: skip
+    """The circulation of every flow and bit depth, or a row with the reason where string and hole do not fit.
+
+    Raises InputError where they fit at none of the depths.
+    """
+    check_flows(case.mud)
+    found: list[Circulation | Row] = []
+    unfit: list[InputError] = []
+    for flow in flows:
+        for depth in bit_depths:
+            try:
+                check_bit_depth(depth, *case.depths, "bit_depths", f"{depth:g} m")
+                found.append(circulation(case, flow, depth, eccentricity, cuttings))
+            except InputError as error:
+                unfit.append(error)
+                found.append({"flow_m3_s": flow, "bit_depth_m": depth, "reason": f"not_possible: {error}"})
+            if progress is not None:
+                progress(len(found), len(flows) * len(bit_depths))
+    if len(unfit) == len(found):
+        raise unfit[0]
+    return found
+
+
+def pressure_losses(
+    case: Case,
+    flow: float | str | Sequence[float | str],
+    bit_depths: Sequence[float | str] = (),
+    eccentricity: float = 0.0,
+    cuttings: Cuttings | None = None,
+) -> pd.DataFrame:
+    """A row for every flow and bit depth, SI: what the pumps need, and where it is lost.
+
+    flow [m³/s], or texts with units.  bit_depths [m], or texts; without any the depth of the hole.  eccentricity :
+    offset of the pipe over its clearance, 0 to 1, all along the string.  cuttings : whose weight counts in the density.
+
+    Columns: flow_m3_s, bit_depth_m, standpipe_Pa, surface_drop_Pa, bore_drop_Pa, tool_drop_Pa, bit_drop_Pa,
+    annulus_drop_Pa, ecd_shoe_kg_m3 (at the last end of an interval above the bit), ecd_bit_kg_m3, bit_power_W,
+    pump_power_W, impact_force_N, jet_speed_m_s, lift_N (that the flow takes off a vertical string), and reason.
+
+    Raises InputError for unusable input, and where string and hole fit at none of the depths.
+    """
+    import pandas as pd  # slow to import
+
+    with naming_file(case):
+        given = [flow] if isinstance(flow, str | float | int) else list(flow)
+        flows = [argument(one, FLOW, "flow") for one in given]
+        depths = [argument(depth, LENGTH, "bit_depths") for depth in bit_depths] or [case.deepest]
+        found = circulations(case, flows, depths, bare(eccentricity, "eccentricity", "a share"), cuttings)
+        return pd.DataFrame([of.summary() if isinstance(of, Circulation) else of for of in found])

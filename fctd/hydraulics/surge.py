@@ -1,0 +1,223 @@
+"""Pressures of mud that a moving string displaces: surge and swab, and the fastest trip that the hole bears."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from fctd.arrays import Array
+from fctd.case.errors import InputError
+from fctd.case.load import Case, check_bit_depth, naming_file
+from fctd.case.operations import KINDS
+from fctd.case.units import LENGTH, SPEED, argument, bare
+from fctd.hydraulics.circuit import Circuit, circulate
+from fctd.hydraulics.closed_forms import REGIMES
+from fctd.hydraulics.pressures import Laid, Progress, Row, lay
+from fctd.hydraulics.rheology import check_flows
+from fctd.mechanics.topdrive import GRAVITY
+from fctd.model.fluids import depth_at
+from fctd.model.pieces import TO_MD
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+TRIPS: Final = ("trip_in", "trip_out")
+ENDS: Final = ("open", "closed", "float")
+FASTEST: Final = 2.0  # [m/s]: trips are not faster than the hoist
+SLOWEST: Final = 1e-3  # [m/s]: what is slower is no trip
+PLACES: Final = 60  # along the open hole, at which the window is looked at
+HALVINGS: Final = 20  # of the range of speeds
+
+
+@dataclass(frozen=True)
+class Trip:
+    """A string that moves without pumps: its direction, 1 down and −1 up, and its end."""
+
+    laid: Laid
+    direction: int
+    end: str
+
+    def moved(self, speed: float) -> Circuit:
+        """The flow that the string displaces at a speed [m/s]."""
+        return circulate(self.laid.channel, 0.0, self.direction * speed, self.end)
+
+    @cached_property
+    def window(self) -> tuple[Array, Array, Array, Array]:
+        """Depths (k,) of the open hole [m], pressures of mud at rest, of pores and of fractures there [Pa]."""
+        case, hole = self.laid.case, self.laid.hole
+        bottom = min(case.depths[1], hole.total_depth)
+        md = np.linspace(max((shoe for shoe in case.shoes if shoe < bottom), default=0.0), bottom, PLACES)
+        depth, rows = depth_at(hole, md), case.wellbore.window
+        tvd = [row.tvd for row in rows]
+        pore, fracture = (
+            GRAVITY * depth * np.interp(depth, tvd, [getattr(row, side) for row in rows])
+            for side in ("pore", "fracture")
+        )
+        return md, self.laid.at_rest(md), pore, fracture
+
+    def left(self, speed: float) -> tuple[float, float]:
+        """The least that is left of the window at a speed [m/s], negative beyond it [Pa], and its depth [m]."""
+        md, rest, pore, fracture = self.window
+        change = np.zeros(len(md))
+        if speed > 0:
+            change = self.moved(speed).pressures(np.maximum(self.laid.string.bit_depth - md, 0.0))[1]
+        left = np.minimum(rest + change - pore, fracture - rest - change)
+        k = int(np.argmin(left))
+        return float(left[k]), float(md[k])
+
+    def fastest(self, most: float) -> tuple[float, float, str]:
+        """The fastest speed within the window up to a limit [m/s], the depth that sets it [m], and a reason for 0."""
+        for speed, reason in ((0.0, "mud at rest is outside the window"), (SLOWEST, "yield stress of the mud alone")):
+            left, md = self.left(speed)
+            if left < 0:
+                return 0.0, md, reason
+        if self.left(most)[0] >= 0:
+            return most, np.nan, "none"
+        low, high = SLOWEST, most
+        for _ in range(HALVINGS):
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if self.left(middle)[0] >= 0 else (low, middle)
+        return low, self.left(high)[1], "none"
+
+
+def trips_at(
+    case: Case, bit_depth: float, operation: Sequence[str], end: Sequence[str], eccentricity: float
+) -> list[Trip]:
+    """The trips of kinds and ends with the bit at a depth [m]."""
+    laid = lay(case, bit_depth, eccentricity)
+    return [Trip(laid, KINDS[kind].direction, one) for kind in operation for one in end]
+
+
+def surge_pressures(
+    case: Case,
+    speeds: Sequence[float | str],
+    bit_depths: Sequence[float | str] = (),
+    operation: str | Sequence[str] = TRIPS,
+    end: str | Sequence[str] = (),
+    eccentricity: float = 0.0,
+    progress: Progress | None = None,
+) -> pd.DataFrame:
+    """A row for every operation, end, speed and bit depth, SI: what a trip at constant speed adds to the pressure.
+
+    speeds [m/s], bit_depths [m], or texts with units; without depths that of the hole.  operation : trip_in or
+    trip_out; end : "open", "closed" or "float", by default that of the case.  eccentricity : see ``pressure_losses``.
+
+    Columns: operation, end, speed_m_s, bit_depth_m, surge_Pa at the bit (negative for a swab), shoe_surge_Pa at the
+    last end of an interval above the bit, density_bit_kg_m3 (equivalent, of mud at rest and surge), out_of_bit_m3_s
+    (from the bore into the annulus), regime (the most turbulent along the annulus), lift_N (of a vertical string), and
+    reason.  Raises InputError for unusable input, and where string and hole fit at none of the depths.
+    """
+    import pandas as pd  # slow to import
+
+    with naming_file(case):
+        rates = [argument(speed, SPEED, "speeds") for speed in speeds]
+        asked = _asked(case, bit_depths, operation, end, eccentricity)
+        rows: list[Row] = []
+        for trips, depth, reason in _laid(case, *asked, progress):
+            named = [(kind, one) for kind in asked[1] for one in asked[2]]
+            for k, (kind, one) in enumerate(named):
+                for speed in rates:
+                    row = {"operation": kind, "end": one, "speed_m_s": speed, "bit_depth_m": depth}
+                    rows.append(row | (_moved(trips[k], speed) if trips else {}) | {"reason": reason})
+    return pd.DataFrame(rows)
+
+
+def fastest_trips(
+    case: Case,
+    bit_depths: Sequence[float | str] = (),
+    operation: str | Sequence[str] = TRIPS,
+    end: str | Sequence[str] = (),
+    eccentricity: float = 0.0,
+    most: float | str = FASTEST,
+    progress: Progress | None = None,
+) -> pd.DataFrame:
+    """A row for every operation, end and bit depth, SI: the fastest trip within the window of the hole.
+
+    The arguments are those of ``surge_pressures``; most : speed of the hoist [m/s].  The open hole, from the last shoe
+    to its end, is looked at, also below the bit, where pressure changes as at the bit.
+
+    Columns: operation, end, bit_depth_m, fastest_m_s (0 where none is possible), md_m (where the window ends, NaN where
+    the hoist sets the speed), time_s (of the trip between the first depth and this one, with the connections of
+    [rig]), and reason.  Raises InputError, also for a case without a window.
+    """
+    import pandas as pd  # slow to import
+
+    with naming_file(case):
+        if not case.wellbore.window:
+            raise InputError("rows of tvd, pore and fracture, within which a trip stays", key="wellbore.window")
+        hoist = argument(most, SPEED, "most")
+        asked = _asked(case, bit_depths, operation, end, eccentricity)
+        rows: list[Row] = []
+        for trips, depth, reason in _laid(case, *asked, progress):
+            named = [(kind, one) for kind in asked[1] for one in asked[2]]
+            for k, (kind, one) in enumerate(named):
+                speed, md, why = trips[k].fastest(hoist) if trips else (np.nan, np.nan, reason)
+                row = {"operation": kind, "end": one, "bit_depth_m": depth, "fastest_m_s": speed, "md_m": md}
+                rows.append(row | {"time_s": np.nan, "reason": why})
+        table = pd.DataFrame(rows)
+        for _, of in table.groupby(["operation", "end"], sort=False):
+            table.loc[of.index, "time_s"] = _time(case, of["bit_depth_m"].to_numpy(), of["fastest_m_s"].to_numpy())
+    return table
+
+
+def _time(case: Case, depth: Array, speed: Array) -> Array:
+    """Time from the first depth to each (n,) [s], at the mean slowness between depths, and connections; NaN beyond a
+    depth without a trip."""
+    slowness = np.divide(1.0, speed, out=np.full(len(speed), np.nan), where=speed > 0)
+    moving = np.diff(depth) * 0.5 * (slowness[1:] + slowness[:-1])
+    connections = np.diff(depth) / case.rig.stand_length * case.rig.connection_time
+    return np.append(0.0, np.cumsum(moving + connections))
+
+
+def _asked(
+    case: Case, bit_depths: Sequence[float | str], operation: str | Sequence[str], end: str | Sequence[str],
+    eccentricity: float,
+) -> tuple[list[float], list[str], list[str], float]:  # fmt: skip
+    """Depths [m], operations, ends and eccentricity that are asked for, checked."""
+    check_flows(case.mud)
+    depths = [argument(depth, LENGTH, "bit_depths") for depth in bit_depths] or [case.deepest]
+    kinds = [operation] if isinstance(operation, str) else list(operation)
+    ends = [end] if isinstance(end, str) else list(end) or [case.end]
+    for key, given, known in (("operation", kinds, TRIPS), ("end", ends, ENDS)):
+        for one in given:
+            if one not in known:
+                raise InputError(" or ".join(f'"{word}"' for word in known), key=key, value=one)
+    return depths, kinds, ends, bare(eccentricity, "eccentricity", "a share")
+
+
+def _laid(
+    case: Case, depths: list[float], kinds: list[str], ends: list[str], eccentricity: float, progress: Progress | None
+) -> list[tuple[list[Trip], float, str]]:
+    """The trips at every depth, or none and the reason; raises InputError where string and hole fit at no depth."""
+    found: list[tuple[list[Trip], float, str]] = []
+    unfit: list[InputError] = []
+    for depth in depths:
+        try:
+            check_bit_depth(depth, *case.depths, "bit_depths", f"{depth:g} m")
+            found.append((trips_at(case, depth, kinds, ends, eccentricity), depth, "none"))
+        except InputError as error:
+            unfit.append(error)
+            found.append(([], depth, f"not_possible: {error}"))
+        if progress is not None:
+            progress(len(found), len(depths))
+    if len(unfit) == len(depths):
+        raise unfit[0]
+    return found
+
+
+def _moved(trip: Trip, speed: float) -> Row:
+    circuit, laid = trip.moved(speed), trip.laid
+    surge, depth = float(circuit.outside[-1]), float(laid.depth[-1])
+    ends = laid.hole.intervals[:-1, TO_MD]
+    shoes = [k for k in range(1, len(laid.ends)) if laid.ends[k] in ends]
+    rest = float(laid.at_rest(laid.ends[-1:])[0])
+    return {
+        "surge_Pa": surge, "shoe_surge_Pa": float(circuit.outside[shoes[-1]]) if shoes else np.nan,
+        "density_bit_kg_m3": (rest + surge) / (GRAVITY * depth) if depth > 0 else np.nan,
+        "out_of_bit_m3_s": circuit.bore_flow, "regime": REGIMES[int(circuit.annulus.regime.max())],
+        "lift_N": circuit.lift,
+    }  # fmt: skip
