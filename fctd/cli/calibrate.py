@@ -158,6 +158,11 @@ def notes_of(found: Calibration) -> Iterator[tuple[str, str]]:
                 "start it nearer (--prior, bounds), or fit without (--no-scatter)"
             ),
         )
+    if found.absorbed:
+        messages.print(f"warning: {found.absorbed}", markup=False, soft_wrap=True)
+    if lifted := found.residuals["lift_N"].abs().max():
+        factor, label = shown_unit("N", units)
+        screen.print(f"flow takes up to {lifted * factor:.3g} {label} off the hook load", soft_wrap=True)
     for name, doubt in [*found.misread.items(), *found.doubts.items()]:
         yield "doubt", f"with care: {name}: {doubt}"
     for name, reason in found.left_out.items():

@@ -25,7 +25,7 @@ from fctd.model.wellbore import Wellbore
 # Within so much of the flow that the string displaces the flow through an open bore is known.
 SHARED = 1e-10
 # Number of flows through an open bore between whose pressures the flow is looked for.
-FLOWS = 33
+FLOWS = 257
 
 
 @dataclass(frozen=True)
@@ -83,24 +83,26 @@ class Channel:
         return self._shared(speed)
 
     def _shared(self, speed: float) -> float:
-        """Flow out of an open bit [m³/s] with which the pressures there are equal, while the string displaces mud."""
+        """Flow out of an open bit [m³/s] with which the pressures there are equal, while the string displaces mud.
+
+        Between the flows of a table the gradients are taken as straight.
+        """
         (outside, run), (inside, of_bore) = self._annulus, self._bore
         around, within = np.bincount(run, self.wet), np.bincount(of_bore, self.length)
-        tools = float(self.tools.sum())
-
-        def higher(through: Any, gradient: Array, lost: Array) -> Any:
-            """Pressure outside less that inside [Pa]."""
-            return gradient @ around + lost @ within + tools * through * abs(through) + self.bit_drop(through)
-
         # The annulus is left by less than the string displaces and half of what would move with its wall.
         most = 0.5 * np.pi * float((self.annulus[:, :2] ** 2).sum(axis=1).max()) * speed
-        flows, *tables = _table_of_flows(outside, inside, most, speed)
-        k = min(max(int(np.argmax(higher(flows, *tables) * speed <= 0)), 1), len(flows) - 1)
+        flows, *gradients = _table_of_flows(outside, inside, most, speed)
+        lost, tools = gradients[0] @ around + gradients[1] @ within, float(self.tools.sum())
+        higher = lost + tools * flows * np.abs(flows) + self.bit_drop(flows)  # outside than inside
+        k = min(max(int(np.argmax(higher * speed <= 0)), 1), len(flows) - 1)
+        low, high = flows[k - 1 : k + 1].tolist()
+        below, above = lost[k - 1 : k + 1].tolist()
 
-        def at(through: float) -> float:
-            return float(higher(through, _find_annulus(outside, through, speed).gradient, _find_bore(inside, through)))
+        def between(through: float) -> float:
+            straight = below + (above - below) * (through - low) / (high - low)
+            return float(straight + tools * through * abs(through) + self.bit_drop(through))
 
-        return float(brentq(at, flows[k - 1], flows[k], xtol=SHARED * abs(most), rtol=SHARED))
+        return float(brentq(between, low, high, xtol=SHARED * abs(most), rtol=SHARED))
 
     def thrust(self, through: float) -> Array:
         """Thrust upwards on each segment (n,) [N] of mud that is pumped and speeds up at its lower end."""
@@ -167,13 +169,13 @@ def _runs(table: Array) -> tuple[bytes, NDArray[np.int64]]:
     return table[new].tobytes(), np.cumsum(new) - 1
 
 
-def _find_annulus(rows: bytes, through: float, speed: float) -> Loss:
+def _find_annulus(rows: bytes, through: float | Array, speed: float) -> Loss:
     outer, hole, eccentricity, *mud, density = np.frombuffer(rows).reshape(-1, 7).T
     displaced = np.pi * outer**2 * speed
     return annulus(outer, hole, Rheology(*mud), density, through + displaced, speed, eccentricity)
 
 
-def _find_bore(rows: bytes, through: float) -> Array:
+def _find_bore(rows: bytes, through: float | Array) -> Array:
     inner, *mud, density = np.frombuffer(rows).reshape(-1, 5).T
     return bore(inner, Rheology(*mud), density, through).gradient
 
@@ -182,10 +184,8 @@ def _find_bore(rows: bytes, through: float) -> Array:
 def _table_of_flows(outside: bytes, inside: bytes, most: float, speed: float) -> tuple[Array, Array, Array]:
     """Flows (m,) down to ``-most`` out of the bit [m³/s], and the gradients of annulus and bore at each [Pa/m]."""
     flows = -most * np.linspace(0.0, 1.0, FLOWS)
-    return (
-        flows, np.array([_find_annulus(outside, flow, speed).gradient for flow in flows.tolist()]),
-        np.array([_find_bore(inside, flow) for flow in flows.tolist()]),
-    )  # fmt: skip
+    through = flows[:, None]
+    return flows, _find_annulus(outside, through, speed).gradient, _find_bore(inside, through)
 
 
 # The strings of a chart have the same few rows at most depths.
