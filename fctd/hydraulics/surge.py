@@ -16,8 +16,7 @@ from fctd.case.operations import KINDS
 from fctd.case.units import LENGTH, SPEED, argument, bare
 from fctd.hydraulics.circuit import Circuit, circulate
 from fctd.hydraulics.closed_forms import REGIMES
-from fctd.hydraulics.pressures import Laid, Progress, Row, lay
-from fctd.hydraulics.rheology import check_flows
+from fctd.hydraulics.pressures import Laid, Progress, Row, check_flows, lay
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.fluids import depth_at
 from fctd.model.pieces import TO_MD
@@ -84,7 +83,9 @@ class Trip:
         return low, self.left(high)[1], "none"
 
 
-def trips_at(case: Case, bit_depth: float, operation: Sequence[str], end: Sequence[str], eccentricity: float) -> list[Trip]:
+def trips_at(
+    case: Case, bit_depth: float, operation: Sequence[str], end: Sequence[str], eccentricity: float
+) -> list[Trip]:
     """The trips of kinds and ends with the bit at a depth [m]."""
     laid = lay(case, bit_depth, eccentricity)
     return [Trip(laid, KINDS[kind].direction, one) for kind in operation for one in end]

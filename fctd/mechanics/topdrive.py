@@ -95,7 +95,7 @@ class PerMetre(NamedTuple):
     mass [kg/m], weight (buoyed) [N/m], axial_inertia [kg m], EA [N], GJ, EI [N m^2], shear (κGA) [N],
     mud damping axial, lateral [N s/m^2], rotational [N s]; added_mass of the mud that moves sideways with it [kg/m];
     squeeze : by which share the pressure of the mud shortens it; beside : length of the longest segment below the long
-    one [m], which tells what waves it may have; 0 : none; given : load along it, towards the bit (given_loads.py) [N/m].
+    one [m], which tells what waves it may have; 0 : none; given : load along it towards the bit, given_loads.py [N/m].
     """
 
     mass: float

@@ -95,7 +95,8 @@ def fill(
     """Write the string into a fresh buffer; returns the pipe fed at the top.
 
     given (n,) : load along each segment, towards the bit [N]; squeeze (n,) : of ``squeeze_of``, by default without
-    friction of the mud.  Mud that moves sideways with the string is left out; ``fctd.simulation.carried_mud.take_along`` adds it.
+    friction of the mud.  Mud that moves sideways with the string is left out;
+    ``fctd.simulation.carried_mud.take_along`` adds it.
     """
     # Absurd masses and stiffnesses overflow; ``_step_limit`` refuses them, and ``not_finite`` is their steady status.
     pipe: PerMetre = fill_rows(
@@ -151,7 +152,7 @@ def damping_of(case: Case, string: String, hole: Wellbore) -> Array:
     """Damping by the mud per metre of every segment (n, 3): along, across [N s/m²] and about the axis [N s]."""
     mud, damping = case.mud, np.empty((string.segments, 3))
     damping[:] = mud.axial_damping or 0.0, mud.lateral_damping or 0.0, mud.rotational_damping or 0.0
-    if mud.viscosity and mud.rotational_damping is None:
+    if mud.curve is not None and mud.rotational_damping is None:
         around = hole_radius(hole, string.top_md, string.length)
-        damping[:, 2] = resistance(string.of("outer"), around, mud.viscosity)
+        damping[:, 2] = resistance(string.of("outer"), around, mud.unsteady)
     return damping

@@ -12,7 +12,8 @@ import numpy as np
 
 from fctd.arrays import Array
 from fctd.case.load import Case
-from fctd.hydraulics.circuit import Circuit, channel_of, circulate, has_flow_curve
+from fctd.hydraulics.channel import channel_of, has_flow_curve
+from fctd.hydraulics.circuit import Circuit, circulate
 from fctd.mechanics import state
 from fctd.mechanics.topdrive import Motion, smooth_step
 from fctd.model.drillstring import String

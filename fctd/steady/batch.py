@@ -73,8 +73,8 @@ class Strings(NamedTuple):
 
     first (m + 1,) : of their segments in length [m] and component (N,); long_segment (m,); bit_depth (m,) [m];
     sections : a row for each component; weights (3, N) : of ``String.weights``; damping (N, 3), squeeze (N,), given
-    (N,), per_metre : see ``fill_rows``; excess (N + m,) : pressure inside less that outside [Pa], at the top and the contact
-    points of each string.
+    (N,), per_metre : see ``fill_rows``; excess (N + m,) : pressure inside less that outside [Pa], at the top and the
+    contact points of each string.
     """
 
     first: NDArray[np.int64]

@@ -7,7 +7,8 @@ import numpy as np
 
 from fctd.arrays import Array
 from fctd.case.load import Case
-from fctd.hydraulics.circuit import Channel, Circuit, channel_of, circulate, flows
+from fctd.hydraulics.channel import Channel, channel_of
+from fctd.hydraulics.circuit import Circuit, circulate, flows
 from fctd.mechanics.topdrive import PerMetre
 from fctd.model.drillstring import String
 from fctd.model.operations import BitLoads, SteadyRates, bit_loads

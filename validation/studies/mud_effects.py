@@ -6,7 +6,8 @@ import numpy as np
 import pandas as pd
 
 from fctd import Case, equilibrium, simulate
-from fctd.hydraulics.circuit import channel_of, circulate
+from fctd.hydraulics.channel import channel_of
+from fctd.hydraulics.circuit import circulate
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.drillstring import lay_out
 from fctd.model.mud import resistance

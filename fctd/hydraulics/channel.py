@@ -1,0 +1,202 @@
+"""What the mud of a laid-out string flows through, and its losses there at a flow out of the bit.
+
+Tool joints that are not laid out as segments of their own do not narrow the annulus.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import brentq
+
+from fctd.arrays import Array
+from fctd.case.errors import InputError
+from fctd.case.load import Case
+from fctd.case.rheology import FlowSpec, Rheology
+from fctd.case.rig import MudSpec
+from fctd.hydraulics.closed_forms import Loss, annulus, bore
+from fctd.model.drillstring import String
+from fctd.model.fluids import Column
+from fctd.model.mud import hole_radius
+from fctd.model.wellbore import Wellbore
+
+# Within so much of the flow that the string displaces the flow through an open bore is known.
+SHARED = 1e-10
+# Number of flows through an open bore between whose pressures the flow is looked for.
+FLOWS = 33
+
+
+@dataclass(frozen=True)
+class Channel:
+    """What the mud of a laid-out string flows through, segments (n,) from the top down.
+
+    above : distances from the bit (n + 1,) [m]; length [m]; wet : of it, with mud around [m]; annulus : rows of radii
+    of pipe and hole [m], eccentricity, yield stress, consistency, index and density of the mud; bore : rows of radius,
+    yield stress, consistency, index and density; tools : pressure drop over the square of the flow [Pa s²/m⁶];
+    nozzles : their area, infinite where the case gives none [m²], and what their drop is over that of an ideal flow;
+    end : of the string, "open", "closed" or "float", which lets mud out alone.
+    """
+
+    above: Array
+    length: Array
+    wet: Array
+    annulus: Array
+    bore: Array
+    tools: Array
+    nozzles: tuple[float, float]
+    end: str
+
+    @cached_property
+    def _annulus(self) -> tuple[bytes, NDArray[np.int64]]:
+        return _runs(self.annulus)
+
+    @cached_property
+    def _bore(self) -> tuple[bytes, NDArray[np.int64]]:
+        return _runs(self.bore)
+
+    def outside(self, through: float, speed: float) -> Loss:
+        """Losses of the annulus (n,) at a flow out of the bit [m³/s] and a speed of the pipe downwards [m/s]."""
+        rows, run = self._annulus
+        return Loss(*(of[run] for of in _annulus_of(rows, through, speed)))
+
+    def inside(self, through: float) -> Array:
+        """Pressure lost along each segment's bore and tools (n,) [Pa] at a flow downwards [m³/s]."""
+        rows, run = self._bore
+        return np.asarray(_bore_of(rows, through)[run] * self.length + self.tools * through * abs(through))
+
+    def bit_drop(self, through: Any) -> Any:
+        """Pressure from the bore to the annulus at a flow out of the bit [Pa]."""
+        area, worse = self.nozzles
+        return 0.5 * float(self.bore[-1, -1]) * worse * through * abs(through) / area**2
+
+    def out_of_bit(self, flow: float, speed: float, end: str) -> float:
+        """Flow out of the bit [m³/s] while mud is pumped, or displaced at a speed downwards [m/s].
+
+        Raises InputError for a flow through a closed end.
+        """
+        if flow > 0 and end == "closed":
+            raise InputError('"open" or "float" with a flow through it', key="bit.end", value=end)
+        if flow > 0 or speed == 0 or end == "closed" or (end == "float" and speed > 0):
+            return flow
+        return self._shared(speed)
+
+    def _shared(self, speed: float) -> float:
+        """Flow out of an open bit [m³/s] with which the pressures there are equal, while the string displaces mud."""
+        (outside, run), (inside, of_bore) = self._annulus, self._bore
+        around, within = np.bincount(run, self.wet), np.bincount(of_bore, self.length)
+        tools = float(self.tools.sum())
+
+        def higher(through: Any, gradient: Array, lost: Array) -> Any:
+            """Pressure outside less that inside [Pa]."""
+            return gradient @ around + lost @ within + tools * through * abs(through) + self.bit_drop(through)
+
+        # The annulus is left by less than the string displaces and half of what would move with its wall.
+        most = 0.5 * np.pi * float((self.annulus[:, :2] ** 2).sum(axis=1).max()) * speed
+        flows, *tables = _table_of_flows(outside, inside, most, speed)
+        k = min(max(int(np.argmax(higher(flows, *tables) * speed <= 0)), 1), len(flows) - 1)
+
+        def at(through: float) -> float:
+            return float(higher(through, _find_annulus(outside, through, speed).gradient, _find_bore(inside, through)))
+
+        return float(brentq(at, flows[k - 1], flows[k], xtol=SHARED * abs(most), rtol=SHARED))
+
+    def thrust(self, through: float) -> Array:
+        """Thrust upwards on each segment (n,) [N] of mud that is pumped and speeds up at its lower end."""
+        bores = np.pi * self.bore[:, 0] ** 2
+        area = np.append(bores, min(self.nozzles[0], bores[-1]))
+        return np.asarray(self.bore[:, -1] * through**2 * np.diff(1 / area))
+
+
+def has_flow_curve(case: Case) -> bool:
+    """Whether a case says how its mud flows, in or around the string."""
+    mud = case.mud
+    return any(curve is not None and max(curve[:2]) > 0 for curve in _curves(mud, (mud, *mud.inside, *mud.outside)))
+
+
+def channel_of(case: Case, string: String, hole: Wellbore, eccentricity: float | Array = 0.0) -> Channel:
+    """The channel of a laid-out string; eccentricity (n,) : offset of the pipe over its clearance, 0 to 1."""
+    n, length = string.segments, string.length
+    inside, outside = (_flow_curves(case, string, side) for side in ("inside", "outside"))
+    densities = string.densities or (case.mud.density, case.mud.density)
+    bottom = string.top_md + np.cumsum(length)
+    around = (string.of("outer"), hole_radius(hole, string.top_md, length), eccentricity, *outside, densities[1])
+    within = (string.of("inner"), *inside, densities[0])
+    return Channel(
+        string.above_bit, length, np.clip(bottom, 0.0, length), _table(n, around), _table(n, within),
+        _tools(string, densities[0]), (case.bit.nozzle_area or np.inf, case.bit.discharge**-2),
+        "closed" if any(row.plug for row in case.mud.inside) else case.end,
+    )  # fmt: skip
+
+
+def _curves(mud: MudSpec, rows: Sequence[FlowSpec]) -> list[Rheology | None]:
+    """The flow curves of rows of a mud, by default its own."""
+    return [mud.curve if row.curve is None else row.curve for row in rows]
+
+
+def _flow_curves(case: Case, string: String, side: str) -> Rheology:
+    """The flow curve on a side of each segment, halfway along it; without one mud flows without friction."""
+    mud, frictionless = case.mud, Rheology.newtonian(0.0)
+    rows: Sequence[FlowSpec] = getattr(mud, side)
+    if not rows or string.fluids is None:
+        return frictionless if mud.curve is None else mud.curve
+    column: Column = getattr(string.fluids, side)
+    row = column.row_of(0.5 * (string.above_bit[:-1] + string.above_bit[1:]))
+    curves = [frictionless if curve is None else curve for curve in _curves(mud, rows)]
+    return Rheology(*np.array(curves)[row].T)
+
+
+def _tools(string: String, density: Array | float) -> Array:
+    """Pressure drop of the tools in each segment over the square of the flow (n,) [Pa s²/m⁶], spread along a tool.
+
+    density : of the mud inside [kg/m³].
+    """
+    drops = np.zeros(string.segments)
+    for k, part in enumerate(string.parts):
+        tool = part.component
+        if tool.pressure_drop is not None and tool.at_flow is not None:
+            laid = np.where(string.origin == part.origin, string.length, 0.0)
+            each = np.where(string.component == k, laid, 0.0) / laid.sum()
+            drops += tool.pressure_drop / tool.at_flow**2 * (density / tool.at_density) * each
+    return drops
+
+
+def _table(n: int, columns: Sequence[ArrayLike]) -> Array:
+    table = np.empty((n, len(columns)))
+    for k, column in enumerate(columns):
+        table[:, k] = column
+    return table
+
+
+def _runs(table: Array) -> tuple[bytes, NDArray[np.int64]]:
+    """The rows of a table (n, k) without those that repeat the row above, as bytes, and which of them each row is."""
+    new = np.ones(len(table), np.bool_)
+    np.any(table[1:] != table[:-1], axis=1, out=new[1:])
+    return table[new].tobytes(), np.cumsum(new) - 1
+
+
+def _find_annulus(rows: bytes, through: float, speed: float) -> Loss:
+    outer, hole, eccentricity, *mud, density = np.frombuffer(rows).reshape(-1, 7).T
+    displaced = np.pi * outer**2 * speed
+    return annulus(outer, hole, Rheology(*mud), density, through + displaced, speed, eccentricity)
+
+
+def _find_bore(rows: bytes, through: float) -> Array:
+    inner, *mud, density = np.frombuffer(rows).reshape(-1, 5).T
+    return bore(inner, Rheology(*mud), density, through).gradient
+
+
+@lru_cache(maxsize=64)
+def _table_of_flows(outside: bytes, inside: bytes, most: float, speed: float) -> tuple[Array, Array, Array]:
+    """Flows (m,) down to ``-most`` out of the bit [m³/s], and the gradients of annulus and bore at each [Pa/m]."""
+    flows = -most * np.linspace(0.0, 1.0, FLOWS)
+    return (
+        flows, np.array([_find_annulus(outside, flow, speed).gradient for flow in flows.tolist()]),
+        np.array([_find_bore(inside, flow) for flow in flows.tolist()]),
+    )  # fmt: skip
+
+
+# The strings of a chart have the same few rows at most depths.
+_annulus_of, _bore_of = lru_cache(maxsize=1024)(_find_annulus), lru_cache(maxsize=1024)(_find_bore)
