@@ -56,6 +56,7 @@ from fctd.cli.pictures import (
 )
 from fctd.cli.steady import (
     KIND_HELP,
+    Flow,
     ResolveBuckling,
     Rpm,
     Speed,
@@ -113,6 +114,7 @@ def chart_command(
     ] = [],  # noqa: B006
     speed: Speed = None,
     rpm: Rpm = None,
+    flow: Flow = None,
     resolve_buckling: ResolveBuckling = None,
     overrides: Overrides = [],  # noqa: B006
     out: Annotated[
@@ -146,7 +148,8 @@ def chart_command(
     keeping = SaveOptions(checkpoint_every, resume, restart, accept_changes, time_limit, memory_limit)
     keeping.check({
         "CASE": case_file, "--operation": operations or None, "--depths": depths, "--friction": frictions or None,
-        "--speed": speed, "--rpm": rpm, "--set": overrides or None, "--resolve-buckling": resolve_buckling,
+        "--speed": speed, "--rpm": rpm, "--flow": flow, "--set": overrides or None,
+        "--resolve-buckling": resolve_buckling,
         "--out": out, "--plot": plot, "--plot-profile": plot_profile, "--measured": measured,
         "--limits": limits or None,
     })  # fmt: skip
@@ -159,7 +162,9 @@ def chart_command(
     if case_file is None or depths is None:
         raise InputError("a case file, or --resume with an unfinished chart", key="CASE")
     files = {"out": out, "plot": plot, "plot_profile": plot_profile, "measured": measured}
-    asked = ChartRequest(operations, depths, frictions, speed, rpm, load, side_force, limits, units, strict, **files)
+    asked = ChartRequest(
+        operations, depths, frictions, speed, rpm, flow, load, side_force, limits, units, strict, **files
+    )
     check_targets(out, plot, {"--plot-profile": plot_profile})
     case = read_case(case_file, changes_of(overrides, resolve=resolve_buckling))
     target = out or plot or plot_profile
@@ -187,6 +192,7 @@ class ChartRequest:
     frictions: list[str]
     speed: str | None
     rpm: str | None
+    flow: str | None
     load: ShownLoad
     side_force: ShownSideForce
     limits: bool
@@ -229,7 +235,7 @@ def _chart(
     if asked.limits and plot is None:
         raise InputError("--plot beside it, the picture to draw them in", key="--limits", value=True)
     factors = parse_frictions(asked.frictions, "--friction")
-    drive = read_drive(asked.speed, asked.rpm, units)
+    drive = read_drive(asked.speed, asked.rpm, asked.flow, units)
     gauge = asked.load == "indicator" or points_measured is not None
     warnings = warnings_of(case, kinds, **drive, frictions=factors, indicator=gauge)
     told = tell(case, warnings, strict=asked.strict, units=units)

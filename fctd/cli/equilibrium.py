@@ -36,6 +36,7 @@ from fctd.cli.pictures import PICTURE_HELP, ShownSideForce, draw_profiles
 from fctd.cli.steady import (
     DEPTH_HELP,
     KIND_HELP,
+    Flow,
     ResolveBuckling,
     Rpm,
     Speed,
@@ -68,6 +69,7 @@ def equilibrium_command(
     bit_depth: Annotated[str, typer.Option("--bit-depth", metavar="D", help=f"{DEPTH_HELP}.")],
     speed: Speed = None,
     rpm: Rpm = None,
+    flow: Flow = None,
     resolve_buckling: ResolveBuckling = None,
     overrides: Overrides = [],  # noqa: B006 (typer copies it)
     friction: Friction = None,
@@ -93,7 +95,7 @@ def equilibrium_command(
     depth = read_depth(bit_depth, case, "--bit-depth", bare_length(units))
     with naming_file(case):
         check_bit_depth(depth, *case.depths, "--bit-depth", bit_depth)
-    drive = read_drive(speed, rpm, units)
+    drive = read_drive(speed, rpm, flow, units)
     check_feeding(plot_feeding, case, rates_of_all(case, [operation], **drive)[operation])
     warnings = warnings_of(case, [operation], **drive)
     told = tell(case, warnings, strict=strict, units=units)

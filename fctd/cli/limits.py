@@ -29,6 +29,7 @@ from fctd.cli.options import (
 )
 from fctd.cli.steady import (
     KIND_HELP,
+    Flow,
     Rpm,
     Speed,
     Units,
@@ -75,6 +76,7 @@ def limits_command(
     ] = "td",
     speed: Speed = None,
     rpm: Rpm = None,
+    flow: Flow = None,
     overrides: Overrides = [],  # noqa: B006
     friction: Friction = None,
     out: Annotated[Path | None, file_option("--out", "A row for every margin, .csv, .parquet or .xlsx.")] = None,
@@ -93,7 +95,7 @@ def limits_command(
     bare = bare_length(units)
     bit_depths = read_depths(depths, case, "--depths", bare) if ":" in depths else [_one(depths, case, bare)]
     kinds = read_kinds(operations, USUAL)
-    drive = read_drive(speed, rpm, units)
+    drive = read_drive(speed, rpm, flow, units)
     warnings = warnings_of(case, kinds, **drive)
     tell(case, warnings, strict=strict, units=units)
     with row_bar(quiet) as bar:

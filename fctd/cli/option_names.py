@@ -11,7 +11,7 @@ P = ParamSpec("P")
 R = TypeVar("R")
 
 # Arguments of the library's functions that are options of the commands.
-OPTIONS = {name: f"--{name}" for name in ("operation", "speed", "rpm", "friction", "tolerance", "most")}
+OPTIONS = {name: f"--{name}" for name in ("operation", "speed", "rpm", "flow", "friction", "tolerance", "most")}
 
 
 def naming_options(command: Callable[P, R], others: Mapping[str, str] | None = None) -> Callable[P, R]:

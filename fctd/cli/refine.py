@@ -30,7 +30,7 @@ from fctd.cli.options import (
     screen,
     tell,
 )
-from fctd.cli.steady import DEPTH_HELP, KIND_HELP, ResolveBuckling, Rpm, Speed, Units, read_drive
+from fctd.cli.steady import DEPTH_HELP, KIND_HELP, Flow, ResolveBuckling, Rpm, Speed, Units, read_drive
 from fctd.model.depths import read_depth
 from fctd.results.unit_systems import System, shown
 from fctd.steady.refine import Refinement, refine
@@ -60,6 +60,7 @@ def refine_command(
     most: Annotated[int, typer.Option("--most", metavar="N", help="Largest number of segments.")] = 5000,
     speed: Speed = None,
     rpm: Rpm = None,
+    flow: Flow = None,
     resolve_buckling: ResolveBuckling = None,
     overrides: Overrides = [],  # noqa: B006 (typer copies it)
     friction: Friction = None,
@@ -82,7 +83,7 @@ def refine_command(
     if out is not None:
         survey_from(out, case)  # raises InputError before the computing
     depth = None if bit_depth is None else read_depth(bit_depth, case, "--bit-depth", bare_length(units))
-    drive = read_drive(speed, rpm, units)
+    drive = read_drive(speed, rpm, flow, units)
     tell(case, warnings_of(case, operations, **drive), strict=strict, units=units)
     with messages.status("compiling") as status:
         if quiet:

@@ -11,7 +11,7 @@ from fctd.case.errors import InputError
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
-from fctd.case.units import ROTATION, SPEED
+from fctd.case.units import FLOW, ROTATION, SPEED
 from fctd.cli.options import check_target, messages, read_quantity, screen
 from fctd.cli.pictures import PICTURES, check_package, check_pictures
 from fctd.model.drillstring import lay_out
@@ -45,6 +45,12 @@ Rpm = Annotated[
     str | None,
     typer.Option("--rpm", metavar="N", help=f"Rev/min; default: the case's, else {_defaults('default_rpm')}."),
 ]
+Flow = Annotated[
+    str | None,
+    typer.Option(
+        "--flow", metavar="Q", help="Flow of the pumps, '2000 L/min' or '500 gpm'; default: the case's, or 0."
+    ),
+]
 DEPTH_HELP = "Bit depth, '2450 m', td or shoe; bare in m, with --units field in ft"
 Units = Annotated[
     System,
@@ -65,11 +71,12 @@ def file_option(option: str, what: str) -> typer.models.OptionInfo:
     return info
 
 
-def read_drive(speed: str | None, rpm: str | None, units: System = "si") -> dict[str, Any]:
-    """The given rates: speed [m/s] and rpm, None where the case sets them."""
+def read_drive(speed: str | None, rpm: str | None, flow: str | None, units: System = "si") -> dict[str, Any]:
+    """The given rates: speed [m/s], rpm and flow [m³/s], None where the case sets them."""
     return {
         "speed": None if speed is None else read_quantity(speed, SPEED, "--speed", units),
         "rpm": None if rpm is None else read_quantity(rpm, ROTATION, "--rpm"),
+        "flow": None if flow is None else read_quantity(flow, FLOW, "--flow"),
     }
 
 
@@ -128,7 +135,7 @@ def metadata_of(
     rates = rates_of_all(case, kinds, **drive)
     return metadata_of_case(case, warnings) | {
         "units": units,
-        "rates": {kind: {"speed_m_s": r.speed, "spin_rad_s": r.spin} for kind, r in rates.items()},
+        "rates": {kind: {"speed_m_s": r.speed, "spin_rad_s": r.spin, "flow_m3_s": r.flow} for kind, r in rates.items()},
     }
 
 

@@ -28,7 +28,7 @@ from fctd.cli.options import (
     tell,
 )
 from fctd.cli.pictures import check_package
-from fctd.cli.steady import KIND_HELP, ResolveBuckling, Rpm, Speed, Units, file_option, read_drive, read_kinds
+from fctd.cli.steady import KIND_HELP, Flow, ResolveBuckling, Rpm, Speed, Units, file_option, read_drive, read_kinds
 from fctd.model.depths import read_depths, usual_depths
 from fctd.results.tables import open_result, result_files
 from fctd.results.unit_systems import System
@@ -86,6 +86,7 @@ def view_command(
     ] = None,
     speed: Speed = None,
     rpm: Rpm = None,
+    flow: Flow = None,
     friction: Friction = None,
     resolve_buckling: ResolveBuckling = None,
     overrides: Overrides = [],  # noqa: B006 (typer copies it)
@@ -106,6 +107,7 @@ def view_command(
         "--depths": depths,
         "--speed": speed,
         "--rpm": rpm,
+        "--flow": flow,
         "--friction": friction,
     }
     given |= {"--set": overrides, "--resolve-buckling": resolve_buckling}
@@ -117,7 +119,7 @@ def view_command(
         wanted = (
             usual_depths(case, DEPTHS) if depths is None else read_depths(depths, case, "--depths", bare_length(units))
         )
-        drive = read_drive(speed, rpm, units)
+        drive = read_drive(speed, rpm, flow, units)
         told = tell(case, warnings_of(case, kinds, **drive), strict=False, units=units)
         columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn())
         with Progress(*columns, console=messages, disable=quiet, transient=True) as bar:

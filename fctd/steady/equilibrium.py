@@ -116,13 +116,14 @@ def equilibrium(
     bit_depth: float | str,
     speed: float | str | None = None,
     rpm: float | str | None = None,
+    flow: float | str | None = None,
 ) -> Equilibrium:
     """The steady string of an operation with the bit at ``bit_depth`` [m], or a text such as "8000 ft".
 
-    operation : a kind of operation.  speed [m/s] or a text with its unit, rpm : by default those of the case's
-    operation of that kind, else the kind's defaults.  Weight on bit and bit torque are the case's.  Raises InputError
-    for input that cannot be used; ``status`` says whether a balance was found.
+    operation : a kind of operation.  speed [m/s], rpm, flow [m³/s], or texts with units : by default those of the
+    case's operation of that kind, else the kind's defaults.  Weight on bit and bit torque are the case's.  Raises
+    InputError for input that cannot be used; ``status`` says whether a balance was found.
     """
     with naming_file(case):
         depth = argument(bit_depth, LENGTH, "bit_depth")
-        return Solver(case).solve(operation, steady_rates(case, operation, speed, rpm), depth)
+        return Solver(case).solve(operation, steady_rates(case, operation, speed, rpm, flow), depth)

@@ -36,12 +36,13 @@ def margin_table(
     friction: FrictionChoice | None = None,
     speed: float | str | None = None,
     rpm: float | str | None = None,
+    flow: float | str | None = None,
     progress: Progress | None = None,
 ) -> pd.DataFrame:
     """A row for every margin of every operation and bit depth, SI.
 
     operation : kind or kinds.  bit_depths [m], or texts with units; without any the depth of the hole.  friction : None
-    for the case's own.  speed [m/s], rpm : see ``equilibrium``.
+    for the case's own.  speed [m/s], rpm, flow [m³/s] : see ``equilibrium``.
 
     Columns: operation, bit_depth_m, and those of ``Margin``: margin (overpull, set_down, torque, slips, fatigue, or
     none where no steady string was found), limit (the first that is reached), part and md_m (where), share_used (of
@@ -56,7 +57,7 @@ def margin_table(
     with naming_file(case):
         kinds = [operation] if isinstance(operation, str) else list(operation)
         depths = [argument(depth, LENGTH, "bit_depths") for depth in bit_depths] or [case.depths[1]]
-        rates = rates_of_all(case, kinds, speed, rpm)
+        rates = rates_of_all(case, kinds, speed, rpm, flow)
         solver = Solver(case if friction is None else with_friction(case, friction))
         rows: list[Row] = []
         unfit: list[InputError] = []

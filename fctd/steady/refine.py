@@ -89,6 +89,7 @@ def refine(
     most: int = 5000,
     speed: float | str | None = None,
     rpm: float | str | None = None,
+    flow: float | str | None = None,
     progress: Progress | None = None,
 ) -> Refinement:
     """Cut the string of a case finer until hook load and torque are within ``tolerance`` (0.01 is 1 %).
@@ -96,15 +97,16 @@ def refine(
     operation : kind or kinds, by default that of the case's first operation; bit_depth [m], by default that operation's
     end.  graded : short segments in bends and near the bit, long ones elsewhere, if that takes at least a tenth fewer
     segments than one length for all; a graded string is valid for this bit depth only.  most : segments at most.  speed
-    [m/s], rpm : see ``torque_drag``.  Errors are relative to the load, or to a tenth of the string's weight (hook load)
-    or of Σ r μ F_n (torque) where that is more; without rotation to all of Σ r μ F_n.  The solver lays out the buckled
-    stretch of a string, unless the case sets ``solver.buckling``.  Raises InputError for bad input.
+    [m/s], rpm, flow [m³/s] : see ``torque_drag``.  Errors are relative to the load, or to a tenth of the string's
+    weight (hook load) or of Σ r μ F_n (torque) where that is more; without rotation to all of Σ r μ F_n.  The solver
+    lays out the buckled stretch of a string, unless the case sets ``solver.buckling``.  Raises InputError for bad
+    input.
     """
     with naming_file(case):
         kinds = _kinds(case, operation)
         depth = _depth(case, kinds[0], bit_depth)
         _check(case, tolerance, most, depth)
-        task = Task(rates_of_all(case, kinds, speed, rpm), depth, most, progress)
+        task = Task(rates_of_all(case, kinds, speed, rpm, flow), depth, most, progress)
         coarse = _with_buckling(case, "detect")
         solve_level(
             "string", "uniform", _cut(coarse, task, "uniform", layouts.divided_length(case, depth) / FIRST), task

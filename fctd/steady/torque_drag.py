@@ -43,15 +43,17 @@ def torque_drag(
     friction: FrictionChoice | Sequence[FrictionChoice] | None = None,
     speed: float | str | None = None,
     rpm: float | str | None = None,
+    flow: float | str | None = None,
     progress: Progress | None = None,
     threads: int | None = None,
 ) -> pd.DataFrame:
     """A row per operation, friction and depth.
 
-    operation : kind or kinds.  bit_depths [m], or texts with units : rising.  friction : None for the case's own, or
-    what is set in turn, each a kinetic factor for every interval or factors by kind, such as {"cased": 0.2, "open":
-    0.3}; a text "0.3/0.2" is a factor along the hole and one around it.  speed [m/s], rpm : see ``equilibrium``; only
-    for kinds that have them.  threads : by default as many as processors; the rows do not depend on it.
+    operation : kind or kinds.  bit_depths [m], or texts with units : rising.  friction : None for the case's own,
+    or what is set in turn, each a kinetic factor for every interval or factors by kind, such as {"cased": 0.2,
+    "open": 0.3}; a text "0.3/0.2" is a factor along the hole and one around it.  speed [m/s], rpm : see
+    ``equilibrium``; only for kinds that have them.  flow [m³/s] : of the pumps, for all kinds.  threads : by
+    default as many as processors; the rows do not depend on it.
 
     Columns:
 
@@ -73,7 +75,7 @@ def torque_drag(
     """
     import pandas as pd  # slow to import, and a command that prints rows needs none
 
-    return pd.DataFrame(chart_rows(case, operation, bit_depths, friction, speed, rpm, progress, threads))
+    return pd.DataFrame(chart_rows(case, operation, bit_depths, friction, speed, rpm, flow, progress, threads))
 
 
 def chart_rows(
@@ -83,6 +85,7 @@ def chart_rows(
     friction: FrictionChoice | Sequence[FrictionChoice] | None = None,
     speed: float | str | None = None,
     rpm: float | str | None = None,
+    flow: float | str | None = None,
     progress: Progress | None = None,
     threads: int | None = None,
     *,
@@ -101,7 +104,7 @@ def chart_rows(
         kinds = [operation] if isinstance(operation, str) else list(operation)
         if not kinds:
             raise InputError("at least one kind of operation", key="operation", value=[])
-        rates = rates_of_all(case, kinds, speed, rpm)
+        rates = rates_of_all(case, kinds, speed, rpm, flow)
         sets = None if friction is None else friction_sets(friction)
         chart = _Chart(_solvers(case, build_wellbore(case), sets), kinds, rates, {} if above is None else above)
         threads = cores() if threads is None else threads

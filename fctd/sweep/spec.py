@@ -192,14 +192,15 @@ class WorkSpec(Table):
     bit_depth: units.MeasuredDepth | None = None
     speed: units.PositiveSpeed | None = None
     rpm: units.PositiveRpm | None = None
+    flow: units.Flow | None = None
     tolerance: PositiveShare = 0.01
 
     @model_validator(mode="after")
     def _check(self) -> Self:
         allowed = {
-            "chart": ("operations", "depths", "speed", "rpm"),
-            "equilibrium": ("operations", "bit_depth", "speed", "rpm"),
-            "refine": ("operations", "bit_depth", "speed", "rpm", "tolerance"),
+            "chart": ("operations", "depths", "speed", "rpm", "flow"),
+            "equilibrium": ("operations", "bit_depth", "speed", "rpm", "flow"),
+            "refine": ("operations", "bit_depth", "speed", "rpm", "flow", "tolerance"),
             "simulate": (),
         }[self.kind]
         for key in sorted(self.model_fields_set - {"kind"}):

@@ -42,7 +42,7 @@ def task_of(spec: WorkSpec, case: Case) -> Task:
     if spec.bit_depth is not None:
         depths = (spec.bit_depth,)
     if spec.kind != "simulate":
-        rates_of_all(case, spec.operations, spec.speed, spec.rpm)
+        rates_of_all(case, spec.operations, spec.speed, spec.rpm, spec.flow)
     elif not case.operations:
         raise InputError('operations of the case, which kind = "simulate" runs', key="work.kind", value="simulate")
     return Task(spec, depths)
@@ -69,7 +69,15 @@ def chart(case: Case, task: Task, tick: Tick) -> list[Row]:
     """A row for every operation and depth, as of ``fctd chart``."""
     spec = task.spec
     return chart_rows(
-        case, spec.operations, task.depths, None, spec.speed, spec.rpm, progress=lambda done, total: tick(), threads=1
+        case,
+        spec.operations,
+        task.depths,
+        None,
+        spec.speed,
+        spec.rpm,
+        spec.flow,
+        progress=lambda done, total: tick(),
+        threads=1,
     )
 
 
@@ -77,7 +85,7 @@ def equilibrium(case: Case, task: Task, tick: Tick) -> list[Row]:
     """A row for every operation: its loads, and the extremes of its profile."""
     from fctd.steady.equilibrium import Solver
 
-    rates = rates_of_all(case, task.spec.operations, task.spec.speed, task.spec.rpm)
+    rates = rates_of_all(case, task.spec.operations, task.spec.speed, task.spec.rpm, task.spec.flow)
     solver, rows = Solver(case), list[Row]()
     laid = solver.lay_out(task.depths[0])
     for kind in task.spec.operations:
@@ -102,7 +110,7 @@ def refined(case: Case, task: Task, tick: Tick) -> list[Row]:
     """One row: the number of segments that the tolerance needs, and the estimated error."""
     spec = task.spec
     found = refine(
-        case, spec.tolerance, spec.operations, task.depths[0], speed=spec.speed, rpm=spec.rpm,
+        case, spec.tolerance, spec.operations, task.depths[0], speed=spec.speed, rpm=spec.rpm, flow=spec.flow,
         progress=lambda level: tick(),
     )  # fmt: skip
     return [

@@ -98,14 +98,16 @@ def of_chart(
     bit_depths: Sequence[float],
     speed: float | str | None = None,
     rpm: float | str | None = None,
+    flow: float | str | None = None,
     progress: Progress | None = None,
 ) -> Strings:
     """Steady strings of operations at bit depths [m].
 
-    speed [m/s], rpm : as for ``fctd.torque_drag``.  Raises InputError where string and hole fit at none of the depths.
+    speed [m/s], rpm, flow [m³/s] : as for ``fctd.torque_drag``.  Raises InputError where string and hole fit at none of
+    the depths.
     """
     kinds = [operation] if isinstance(operation, str) else list(operation)
-    rates, solver = rates_of_all(case, kinds, speed, rpm), Solver(case)
+    rates, solver = rates_of_all(case, kinds, speed, rpm, flow), Solver(case)
     points, unfit = [], dict[float, InputError]()
     for k, depth in enumerate(bit_depths, start=1):
         try:

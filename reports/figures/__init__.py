@@ -30,6 +30,7 @@ MODULES = (
     "buckling",
     "segments",
     "motion",
+    "hydraulics",
     "wells",
     "volve_f4",
     "judged",

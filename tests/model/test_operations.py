@@ -110,7 +110,7 @@ def test_rates_of_a_kind_are_its_own() -> None:
         assert (kind.default_speed > 0) == (kind.direction != 0)
         assert (kind.default_rpm > 0) <= kind.may_turn
         found = steady_rates(make_case(), name)
-        assert found == (kind.direction * kind.default_speed, pytest.approx(kind.default_rpm * np.pi / 30))
+        assert found == (kind.direction * kind.default_speed, pytest.approx(kind.default_rpm * np.pi / 30), 0.0)
 
 
 def test_given_rates_apply_to_the_kinds_that_have_them() -> None:
@@ -160,7 +160,7 @@ def test_rates_are_the_callers_then_the_cases_then_the_defaults(
 ) -> None:
     """The first operation of the kind has those of the case."""
     speed, spin = expected
-    assert steady_rates(make_case(operations=operations), kind, **given) == (speed, pytest.approx(spin))
+    assert steady_rates(make_case(operations=operations), kind, **given) == (speed, pytest.approx(spin), 0.0)
 
 
 @pytest.mark.parametrize(
@@ -188,7 +188,7 @@ def test_rates_near_nothing() -> None:
     case = make_case()
     for kind in ("rotate_off_bottom", "back_ream", "drill_rotating", "trip_in"):
         assert steady_rates(case, kind, rpm=0.5).spin == pytest.approx(0.5 * np.pi / 30)
-    assert steady_rates(case, "trip_out", speed=1e-4, rpm=0.0) == (-1e-4, 0.0)
+    assert steady_rates(case, "trip_out", speed=1e-4, rpm=0.0) == (-1e-4, 0.0, 0.0)
     assert steady_rates(case, "rotate_off_bottom", speed=0.0).speed == 0.0
     assert steady_rates(case, "drill_sliding", rpm=0.0).spin == 0.0
 

@@ -21,8 +21,8 @@ def test_filled_rows_by_hand() -> None:
     string = lay_out(case, 112.0)
     collar, blade, top = string.sections
     S = state.new_state(6)
-    fed = fill(S, string, case, build_wellbore(case))
     length = np.array([30, 30, 30, 2, 10, 10])
+    fed = fill(S, string, case, build_wellbore(case), given=11.0 * length)
     left = 1 - squeezed(case, np.array([15, 45, 75, 91, 97, 107]))
     sections = [top, top, top, blade, collar, collar]
     expected = {
@@ -38,6 +38,7 @@ def test_filled_rows_by_hand() -> None:
         state.MUD_AXIAL: 3.0 * length,
         state.MUD_LATERAL: 5.0 * length,
         state.MUD_SPIN: 0.7 * length,
+        state.GIVEN_FORCE: 11.0 * length,
     }
     for row, name in ((state.K_AXIAL, "EA"), (state.K_SHEAR, "shear"), (state.K_BEND, "EI"), (state.K_TWIST, "GJ")):
         p, b, c = (getattr(section, name) for section in (top, blade, collar))
@@ -45,7 +46,7 @@ def test_filled_rows_by_hand() -> None:
     check_rows(S, expected)
     assert fed == (
         top.mass, 0.0, top.axial_inertia, top.EA, top.GJ, top.EI, top.shear, 3.0, 5.0, 0.7, 0.0,
-        pytest.approx(1 - left[0]), 0.0,
+        pytest.approx(1 - left[0]), 0.0, 0.0,
     )  # fmt: skip
     # Stiffness of a point: every contact counts once.
     case = filled_case(pipe(None, None, segment_length=30.0), stiffness=1e7)
@@ -63,7 +64,7 @@ def test_filled_rows_below_a_long_segment_by_hand() -> None:
     collar, blade, top = string.sections
     left = 1 - squeezed(case, np.array([45, 91, 97, 107]))
     S = state.new_state(4)
-    fed = fill(S, string, case, build_wellbore(case))
+    fed = fill(S, string, case, build_wellbore(case), given=11.0 * string.length)
     expected = {
         state.MASS: [top.mass * 20, blade.mass * 2, collar.mass * 10, collar.mass * 10],
         state.WEIGHT: [top.weight * 45, blade.weight * 2, collar.weight * 10, collar.weight * 10],
@@ -81,6 +82,7 @@ def test_filled_rows_below_a_long_segment_by_hand() -> None:
         state.MUD_AXIAL: [135, 6, 30, 30],
         state.MUD_LATERAL: [225, 10, 50, 50],
         state.MUD_SPIN: [31.5, 1.4, 7, 7],
+        state.GIVEN_FORCE: [495, 22, 110, 110],
     }
     for row, name in ((state.K_AXIAL, "EA"), (state.K_SHEAR, "shear"), (state.K_BEND, "EI"), (state.K_TWIST, "GJ")):
         p, b, c = (getattr(section, name) for section in (top, blade, collar))
@@ -88,7 +90,7 @@ def test_filled_rows_below_a_long_segment_by_hand() -> None:
     check_rows(S, expected)
     assert fed == (
         top.mass, top.weight, top.axial_inertia, top.EA, top.GJ, top.EI, top.shear, 3.0, 5.0, 0.7, 0.0,
-        pytest.approx(1 - left[0]), 10.0,
+        pytest.approx(1 - left[0]), 10.0, 11.0,
     )  # fmt: skip
 
 

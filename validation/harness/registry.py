@@ -24,6 +24,7 @@ STUDIES: dict[str, str] = {
     "broomstick": "validation.studies.broomstick",
     "soft_limit": "validation.studies.soft_limit",
     "soft_stiff_map": "validation.studies.soft_stiff_map",
+    "annular_flow": "validation.studies.annular_flow",
     "friction_laws": "validation.studies.friction_laws",
     "sticking": "validation.studies.sticking",
     "tortuosity": "validation.studies.tortuosity",

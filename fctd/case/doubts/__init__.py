@@ -6,6 +6,7 @@ Every bound lies beyond what wells and rigs have, so that a warning is worth rea
 from collections.abc import Sequence
 
 from fctd.case.doubts.caliper import measured_size
+from fctd.case.doubts.flow import of_flow
 from fctd.case.doubts.hole import hole_size, rough_wall, shoe_below_td, wider_below
 from fctd.case.doubts.rig import no_bit_load, no_block, no_mud, rates, sheaves_and_drive
 from fctd.case.doubts.string import (
@@ -26,6 +27,7 @@ def warnings_of(
     kinds: Sequence[str] = (),
     speed: float | None = None,
     rpm: float | None = None,
+    flow: float | None = None,
     frictions: Sequence[FrictionSet] = (),
     indicator: bool = False,
 ) -> tuple[InputWarning, ...]:
@@ -55,4 +57,5 @@ def warnings_of(
         *sheaves_and_drive(case.rig),
         *no_block(case.rig, indicator),
         *rates(case.operations, kinds, speed, rpm),
+        *of_flow(case.mud, case.bit, case.operations, flow),
     )
