@@ -18,6 +18,8 @@ from fctd.steady.steady_string import Equilibrium
 if TYPE_CHECKING:
     import pandas as pd
 
+    from fctd.plots.depth_panels import Panels
+
 PAGE = ".html"
 DRAWN = (".png", ".svg", ".pdf")
 PICTURES = (*DRAWN, PAGE)
@@ -74,3 +76,12 @@ def draw_profiles(path: Path, points: Sequence[Equilibrium], **options: Any) -> 
     if path.suffix.lower() == PAGE:
         return plots.save_page(plots.profile_page(points, **options), path)
     return plots.save(plots.profile_figure(points, **options), path)
+
+
+def draw_panels(path: Path, panels: "Panels") -> list[Path]:
+    """Write curves against depth in panels.  Returns the files."""
+    from fctd import plots
+
+    if path.suffix.lower() == PAGE:
+        return plots.save_page(plots.panels_page(panels), path)
+    return plots.save(plots.panels_figure(panels), path)

@@ -82,8 +82,9 @@ def annulus(
 
     A moving pipe acts on the pressure by its clinging constant, exact in laminar Newtonian flow (Burkhardt 1961), and
     drags mud along, for which other muds have their apparent viscosity at the sum of the shear rates of flow and drag.
-    Turbulent flow has the ratio of lift and gradient that laminar flow in the same annulus has (``pull_square``).  An
-    eccentric pipe lowers the gradient by the factor of Haciislamoglu & Cartalos 1994.
+    Turbulent flow has the ratio of lift and gradient that laminar flow in the same annulus has.  An eccentric pipe
+    lowers the gradient by the factor of Haciislamoglu & Cartalos 1994, and what it bears of the shear is that of
+    ``pull_square``; it drags mud along as a concentric one does.
     """
     wide = np.asarray(hole, float)
     radius = filled(outer, wide, FULL) * wide
@@ -96,8 +97,8 @@ def annulus(
     drag = 2 * np.asarray(speed) / (radius * widening)
     rate = wall.rate + np.abs(drag)
     dragged = rheology.stress(rate) * wall.rise * (drag / np.where(rate > 0, rate, 1.0))
-    square = pull_square(radius, wide, eccentricity, rheology.index, wall.yield_share)
-    lift = np.pi * square * gradient + 2 * np.pi * radius * dragged
+    pull = np.pi * pull_square(radius, wide, eccentricity, rheology.index, wall.yield_share)
+    lift = pull * gradient + 2 * np.pi * radius * dragged
     return Loss(*np.broadcast_arrays(gradient, lift, wall.regime, wall.yield_share))
 
 

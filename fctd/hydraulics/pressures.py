@@ -12,12 +12,13 @@ import numpy as np
 from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.load import Case, check_bit_depth, naming_file
-from fctd.case.units import FLOW, LENGTH, argument, bare
-from fctd.hydraulics.channel import Channel, channel_of, flow_curves
+from fctd.case.rheology import Rheology
+from fctd.case.rig import MudSpec
+from fctd.case.units import FLOW, FLOW_UNITS, LENGTH, Quantity, argument, bare
+from fctd.hydraulics.channel import Channel, channel_of
 from fctd.hydraulics.circuit import Circuit, circulate
 from fctd.hydraulics.closed_forms import REGIMES, bore
 from fctd.hydraulics.cuttings import Cuttings, share_of_cuttings, transport_ratio
-from fctd.hydraulics.rheology import check_flows
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.drillstring import String, lay_out
 from fctd.model.fluids import depth_at
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 SHORTEST: Final = 1e-6  # [m]: two ends in one place
+PUMPED: Final = Quantity(dimension=FLOW, above=0.0, at_most=1.0, likely_units=FLOW_UNITS)
 Row = dict[str, Any]
 Progress = Callable[[int, int], None]
 
@@ -70,8 +72,6 @@ class Laid:
         """Pressure that the pumps need since the mud outside is denser than that inside [Pa]."""
         if (fluids := self.string.fluids) is None:
             return 0.0
-        if any(row.plug for row in self.case.mud.inside):
-            raise InputError("false with a flow, which a plug lets not pass", key="mud.inside[0].plug", value=True)
         bit = np.zeros(1), self.depth[-1:], self.hole, self.string.bit_depth
         return float(fluids.outside.pressure(*bit)[0] - fluids.inside.pressure(*bit)[0] + fluids.inside.surface)
 
@@ -106,11 +106,8 @@ class Circulation:
     @property
     def surface(self) -> float:
         """Pressure lost in the surface lines [Pa]."""
-        case = self.laid.case
-        inside, density = flow_curves(case, self.laid.string)[0], self.laid.channel.bore[0, -1]
-        first = type(inside)(*(float(np.ravel(value)[0]) for value in inside))
-        lost = bore(0.5 * case.rig.surface_bore, first, density, self.flow).gradient
-        return float(lost) * case.rig.surface_length
+        rig, (_, *mud, density) = self.laid.case.rig, self.laid.channel.bore[0].tolist()
+        return float(bore(0.5 * rig.surface_bore, Rheology(*mud), density, self.flow).gradient) * rig.surface_length
 
     @cached_property
     def tools(self) -> Array:
@@ -138,12 +135,10 @@ class Circulation:
         """Transport ratios (n,) of the cuttings; NaN without any, and in steep hole."""
         if self.cuttings is None or self.flow <= 0:
             return np.full(self.laid.string.segments, np.nan)
-        outer, wall = self.laid.channel.annulus[:, :2].T
+        outer, wall, _, *mud, density = self.laid.channel.annulus.T
         middle = 0.5 * (self.laid.ends[1:] + self.laid.ends[:-1])
-        return transport_ratio(
-            self.cuttings, flow_curves(self.laid.case, self.laid.string)[1], self.laid.channel.annulus[:, -1],
-            self.speeds, wall - outer, self.laid.hole.inclination(middle),
-        )  # fmt: skip
+        tilt = self.laid.hole.inclination(middle)
+        return transport_ratio(self.cuttings, Rheology(*mud), density, self.speeds, wall - outer, tilt)
 
     @cached_property
     def equivalent(self) -> Array:
@@ -230,6 +225,17 @@ def circulation(
     return Circulation(laid, flow, circulate(laid.channel, flow), cuttings)
 
 
+def check_flows(mud: MudSpec) -> None:
+    """Raise InputError for a mud of whose flow the case says nothing."""
+    rows = (mud.inside or (mud,)) + (mud.outside or (mud,))
+    if mud.curve is None and any(row.curve is None for row in rows):
+        raise InputError(
+            "readings of a viscometer such as {600 = 60, 300 = 40}, a table [mud.rheology], or mud.viscosity: the mud "
+            "has no friction without them",
+            key="mud.fann",
+        )
+
+
 def circulations(
     case: Case, flows: Sequence[float], bit_depths: Sequence[float], eccentricity: float = 0.0,
     cuttings: Cuttings | None = None, progress: Progress | None = None,
@@ -278,7 +284,14 @@ def pressure_losses(
 
     with naming_file(case):
         given = [flow] if isinstance(flow, str | float | int) else list(flow)
-        flows = [argument(one, FLOW, "flow") for one in given]
+        flows = [_flow(one) for one in given]
         depths = [argument(depth, LENGTH, "bit_depths") for depth in bit_depths] or [case.deepest]
         found = circulations(case, flows, depths, bare(eccentricity, "eccentricity", "a share"), cuttings)
         return pd.DataFrame([of.summary() if isinstance(of, Circulation) else of for of in found])
+
+
+def _flow(value: float | str) -> float:
+    try:
+        return PUMPED.parse(value)
+    except InputError as error:
+        raise error.at("flow") from None

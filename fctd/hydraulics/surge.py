@@ -16,8 +16,7 @@ from fctd.case.operations import KINDS
 from fctd.case.units import LENGTH, SPEED, argument, bare
 from fctd.hydraulics.circuit import Circuit, circulate
 from fctd.hydraulics.closed_forms import REGIMES
-from fctd.hydraulics.pressures import Laid, Progress, Row, lay
-from fctd.hydraulics.rheology import check_flows
+from fctd.hydraulics.pressures import Laid, Progress, Row, check_flows, lay
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.fluids import depth_at
 from fctd.model.pieces import TO_MD

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from fctd.plots.calibration import calibration_figure, prediction_figure
     from fctd.plots.chart import chart_figure
+    from fctd.plots.depth_panels import panels_figure, panels_page
     from fctd.plots.feeding import feeding_figure
     from fctd.plots.loads import ChartLook
     from fctd.plots.monitor import monitor_figure
@@ -29,6 +30,8 @@ __all__ = [
     "feeding_figure",
     "map_figure",
     "monitor_figure",
+    "panels_figure",
+    "panels_page",
     "prediction_figure",
     "profile_figure",
     "profile_page",
@@ -48,6 +51,8 @@ _HOMES = {
     "feeding_figure": "feeding",
     "map_figure": "sweep",
     "monitor_figure": "monitor",
+    "panels_figure": "depth_panels",
+    "panels_page": "depth_panels",
     "prediction_figure": "calibration",
     "profile_figure": "profile",
     "profile_page": "page",

@@ -142,7 +142,7 @@ def chart_page(
         )
         figure.update_yaxes(autorange="reversed", row=row)
     title, lines = heading_of_chart(chart, units, case, look.rates, look.warnings)
-    return _with_heading(figure, title, lines, PANEL * len(groups))
+    return with_heading(figure, title, lines, PANEL * len(groups))
 
 
 def profile_page(
@@ -196,7 +196,7 @@ def profile_page(
         figure.update_yaxes(autorange="reversed", exponentformat="none", **place)
     figure.update_yaxes(title_text=f"{COLUMNS['md_m'].label}, {shown('md_m', units).label}", row=1, col=1)
     title, lines = heading_of_profile(points, units, warnings, sets)
-    return _with_heading(figure, title, lines, PANEL + 100)
+    return with_heading(figure, title, lines, PANEL + 100)
 
 
 def _curve(
@@ -302,7 +302,7 @@ def _line(
     return go.Scatter(x=value, y=depth, name=name, mode="lines", line=look, hoverinfo="skip", showlegend=legend)
 
 
-def _with_heading(figure: go.Figure, title: str, lines: Sequence[str], height: int) -> go.Figure:
+def with_heading(figure: go.Figure, title: str, lines: Sequence[str], height: int) -> go.Figure:
     """The figure with its title, the lines below it, and the legend below the panels."""
     top = 58 + LINE * (len(lines) + 1)
     small = "".join(f"<br><span style='font-size:12px;font-weight:normal'>{_wrapped(line)}</span>" for line in lines)

@@ -1,0 +1,104 @@
+"""Pictures of mud that flows: pressures and equivalent densities of pumping, surge and swab, the fastest trips."""
+
+from collections.abc import Sequence
+from itertools import count
+from typing import Final
+
+import numpy as np
+import pandas as pd
+
+from fctd.case.load import Case
+from fctd.hydraulics.pressures import Circulation
+from fctd.plots.depth_panels import Curve, Panel, Panels
+from fctd.results.unit_systems import Shown, System, shown
+
+# The pressures of a row, of which the picture has a curve each.
+PRESSURES: Final = {
+    "standpipe_Pa": "standpipe", "surface_drop_Pa": "surface lines", "bore_drop_Pa": "bore", "tool_drop_Pa": "tools",
+    "bit_drop_Pa": "bit", "annulus_drop_Pa": "annulus",
+}  # fmt: skip
+
+
+def losses_panels(table: pd.DataFrame, last: Circulation, units: System, lines: Sequence[str] = ()) -> Panels:
+    """Pressures lost against bit depth, and equivalent densities; along the hole where there is one depth.
+
+    table : of ``pressure_losses``, SI; last : the circulation with the largest flow at its last depth.
+    """
+    found = table[table["reason"] == "none"]
+    metre, bar, density = (shown(name, units) for name in ("bit_depth_m", "standpipe_Pa", "ecd_bit_kg_m3"))
+    if found["bit_depth_m"].nunique() < 2:
+        laid, circuit = last.laid, last.circuit
+        depth = laid.ends * metre.factor
+        surface = last.standpipe - last.surface
+        pressures = [
+            Curve((circuit.inside - circuit.inside[0] + surface) * bar.factor, depth, "in the string", 0),
+            Curve(circuit.outside * bar.factor, depth, "in the annulus", 1),
+        ]
+        dense = [Curve(last.equivalent * density.factor, depth, "equivalent density", 2)]
+        label, place = "friction pressure", "measured depth"
+    else:
+        pressures, dense = [], []
+        for dash, (flow, of) in enumerate(found.groupby("flow_m3_s", sort=False)):
+            depth = of["bit_depth_m"].to_numpy(float) * metre.factor
+            at = f" at {_words(float(flow), 'flow_m3_s', units)}"
+            for colour, (name, words) in enumerate(PRESSURES.items()):
+                if (of[name] > 0).any():
+                    values = of[name].to_numpy(float) * bar.factor
+                    pressures.append(Curve(values, depth, words + at, colour, dash))
+            for colour, (name, words) in enumerate(
+                (("ecd_bit_kg_m3", "at the bit"), ("ecd_shoe_kg_m3", "at the shoe"))
+            ):
+                if of[name].notna().any():
+                    values = of[name].to_numpy(float) * density.factor
+                    dense.append(Curve(values, depth, f"equivalent density {words}{at}", colour, dash))
+        label, place = "pressure", "bit depth"
+    panels = [
+        Panel(f"{label}, {bar.label}", pressures),
+        Panel(f"density, {density.label}", dense + _window(last, density, metre)),
+    ]
+    return Panels(last.laid.case.name, list(lines), f"{place}, {metre.label}", panels)
+
+
+def surge_panels(
+    case: Case, surges: pd.DataFrame, fastest: pd.DataFrame | None, units: System, lines: Sequence[str] = ()
+) -> Panels:
+    """Surge and swab at the bit against bit depth, and the fastest trips where the hole has a window.
+
+    surges : of ``surge_pressures``; fastest : of ``fastest_trips``; both SI.
+    """
+    metre, bar, speed = (shown(name, units) for name in ("bit_depth_m", "surge_Pa", "speed_m_s"))
+    surge, fast = [], []
+    colour = count()
+    for (kind, end), of in surges[surges["reason"] == "none"].groupby(["operation", "end"], sort=False):
+        place = next(colour)
+        for dash, (rate, at) in enumerate(of.groupby("speed_m_s", sort=False)):
+            words = f"{kind}, {end} end, {_words(float(rate), 'speed_m_s', units)}"
+            depth = at["bit_depth_m"].to_numpy(float) * metre.factor
+            surge.append(Curve(at["surge_Pa"].to_numpy(float) * bar.factor, depth, words, place, dash))
+        if fastest is not None:
+            at = fastest[(fastest["operation"] == kind) & (fastest["end"] == end)]
+            depth, value = at["bit_depth_m"].to_numpy(float), at["fastest_m_s"].to_numpy(float)
+            fast.append(Curve(value * speed.factor, depth * metre.factor, f"{kind}, {end} end, fastest", place, 4))
+    panels = [Panel(f"surge at the bit, {bar.label}", surge)]
+    panels += [Panel(f"fastest speed within the window, {speed.label}", fast)] if fast else []
+    return Panels(case.name, list(lines), f"bit depth, {metre.label}", panels)
+
+
+def _words(value: float, column: str, units: System) -> str:
+    unit = shown(column, units)
+    return f"{value * unit.factor:.4g} {unit.label}"
+
+
+def _window(last: Circulation, density: Shown, metre: Shown) -> list[Curve]:
+    """Pore and fracture densities of the open hole against measured depth."""
+    laid = last.laid
+    rows = laid.case.wellbore.window
+    if not rows:
+        return []
+    md = laid.ends
+    tvd = [row.tvd for row in rows]
+    return [
+        Curve(np.interp(laid.depth, tvd, [getattr(row, side) for row in rows]) * density.factor, md * metre.factor, side,
+              4 + k, 2)
+        for k, side in enumerate(("pore", "fracture"))
+    ]  # fmt: skip
