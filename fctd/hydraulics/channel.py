@@ -15,13 +15,14 @@ from scipy.optimize import brentq
 from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.load import Case
-from fctd.case.rheology import Rheology
+from fctd.case.rheology import FlowSpec, Rheology
 from fctd.hydraulics.closed_forms import Loss, annulus, bore
-from fctd.hydraulics.rheology import along
 from fctd.model.drillstring import String
+from fctd.model.fluids import Column
 from fctd.model.mud import hole_radius
 from fctd.model.wellbore import Wellbore
 
+FRICTIONLESS = Rheology.newtonian(0.0)
 # Within so much of the flow that the string displaces the flow through an open bore is known.
 SHARED = 1e-10
 # Number of flows through an open bore between whose pressures the flow is looked for.
@@ -118,11 +119,19 @@ def has_flow_curve(case: Case) -> bool:
 
 
 def flow_curves(case: Case, string: String) -> tuple[Rheology, Rheology]:
-    """Flow curves inside and outside every segment (n,), those halfway along it."""
-    middle, fluids = 0.5 * (string.above_bit[:-1] + string.above_bit[1:]), string.fluids
-    inside = along(case.mud, case.mud.inside, None if fluids is None else fluids.inside, middle)
-    outside = along(case.mud, case.mud.outside, None if fluids is None else fluids.outside, middle)
-    return inside, outside
+    """Flow curves inside and outside every segment (n,), those halfway along it.
+
+    A row of fluid that says nothing of its flow has the curve of the mud, and a mud that says nothing has no friction.
+    """
+    middle, fluids, mud = 0.5 * (string.above_bit[:-1] + string.above_bit[1:]), string.fluids, case.mud
+
+    def along(rows: Sequence[FlowSpec], column: Column | None) -> Rheology:
+        curves = [row.curve or mud.curve or FRICTIONLESS for row in rows or (mud,)]
+        index = np.zeros(len(middle), int) if column is None else column.row_of(middle)
+        return Rheology(*np.array(curves, float)[index].T)
+
+    inside, outside = (None, None) if fluids is None else (fluids.inside, fluids.outside)
+    return along(mud.inside, inside), along(mud.outside, outside)
 
 
 def channel_of(case: Case, string: String, hole: Wellbore, eccentricity: float | Array = 0.0) -> Channel:

@@ -98,7 +98,9 @@ def _window(last: Circulation, density: Shown, metre: Shown) -> list[Curve]:
     md = laid.ends
     tvd = [row.tvd for row in rows]
     return [
-        Curve(np.interp(laid.depth, tvd, [getattr(row, side) for row in rows]) * density.factor, md * metre.factor, side,
-              4 + k, 2)
+        Curve(
+            np.interp(laid.depth, tvd, [getattr(row, side) for row in rows]) * density.factor, md * metre.factor, side,
+            4 + k, 2,
+        )
         for k, side in enumerate(("pore", "fracture"))
     ]  # fmt: skip
