@@ -25,8 +25,10 @@ from fctd.model.wellbore import Wellbore
 FRICTIONLESS = Rheology.newtonian(0.0)
 # Within so much of the flow that the string displaces the flow through an open bore is known.
 SHARED = 1e-10
-# Number of flows through an open bore between whose pressures the flow is looked for.
-FLOWS = 257
+# Number of flows through an open bore between whose pressures the flow is looked for; of finer tables.
+FLOWS, FINER = 257, 2
+# Column of the rows of annuli; that of bores is two to the left.
+YIELD_STRESS = 3
 
 
 @dataclass(frozen=True)
@@ -86,18 +88,23 @@ class Channel:
     def _shared(self, speed: float) -> float:
         """Flow out of an open bit [m³/s] with which the pressures there are equal, while the string displaces mud.
 
-        Between the flows of a table the gradients are taken as straight.
+        It is looked for between the flows of a table, and of finer ones for muds with a yield stress, whose gradients
+        rise steeply from rest; between two flows the gradients are taken as straight.
         """
         (outside, run), (inside, of_bore) = self._annulus, self._bore
         around, within = np.bincount(run, self.wet), np.bincount(of_bore, self.length)
+        tools = float(self.tools.sum())
+        yields = self.annulus[:, YIELD_STRESS].any() or self.bore[:, YIELD_STRESS - 2].any()
         # The annulus is left by less than the string displaces and half of what would move with its wall.
         most = 0.5 * np.pi * float((self.annulus[:, :2] ** 2).sum(axis=1).max()) * speed
-        flows, *gradients = _table_of_flows(outside, inside, most, speed)
-        lost, tools = gradients[0] @ around + gradients[1] @ within, float(self.tools.sum())
-        higher = lost + tools * flows * np.abs(flows) + self.bit_drop(flows)  # outside than inside
-        k = min(max(int(np.argmax(higher * speed <= 0)), 1), len(flows) - 1)
-        low, high = flows[k - 1 : k + 1].tolist()
-        below, above = lost[k - 1 : k + 1].tolist()
+        low, high = 0.0, -most
+        for k in range(1 + FINER * bool(yields)):
+            flows, *gradients = (_table_of_flows if k == 0 else _find_table)(outside, inside, low, high, speed)
+            lost = gradients[0] @ around + gradients[1] @ within
+            higher = lost + tools * flows * np.abs(flows) + self.bit_drop(flows)  # outside than inside
+            at = min(max(int(np.argmax(higher * speed <= 0)), 1), len(flows) - 1)
+            low, high = flows[at - 1 : at + 1].tolist()
+        below, above = lost[at - 1 : at + 1].tolist()
 
         def between(through: float) -> float:
             straight = below + (above - below) * (through - low) / (high - low)
@@ -189,13 +196,13 @@ def _find_bore(rows: bytes, through: float | Array) -> Array:
     return bore(inner, Rheology(*mud), density, through).gradient
 
 
-@lru_cache(maxsize=64)
-def _table_of_flows(outside: bytes, inside: bytes, most: float, speed: float) -> tuple[Array, Array, Array]:
-    """Flows (m,) down to ``-most`` out of the bit [m³/s], and the gradients of annulus and bore at each [Pa/m]."""
-    flows = -most * np.linspace(0.0, 1.0, FLOWS)
+def _find_table(outside: bytes, inside: bytes, low: float, high: float, speed: float) -> tuple[Array, Array, Array]:
+    """Flows (m,) out of the bit between two [m³/s], and the gradients of annulus and bore at each [Pa/m]."""
+    flows = np.linspace(low, high, FLOWS)
     through = flows[:, None]
     return flows, _find_annulus(outside, through, speed).gradient, _find_bore(inside, through)
 
 
 # The strings of a chart have the same few rows at most depths.
 _annulus_of, _bore_of = lru_cache(maxsize=1024)(_find_annulus), lru_cache(maxsize=1024)(_find_bore)
+_table_of_flows = lru_cache(maxsize=64)(_find_table)
