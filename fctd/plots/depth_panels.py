@@ -56,7 +56,9 @@ def panels_figure(of: Panels) -> Figure:
         sheet = Sheet(width, HEIGHT + BELOW, of.title, of.lines, handles)
         first = None
         for k, panel in enumerate(of.panels):
-            ax = sheet.axes(LEFT + k * (WIDTH + BETWEEN), 0.0, WIDTH, HEIGHT, **({} if first is None else {"sharey": first}))
+            ax = sheet.axes(
+                LEFT + k * (WIDTH + BETWEEN), 0.0, WIDTH, HEIGHT, **({} if first is None else {"sharey": first})
+            )
             for curve in panel.curves:
                 ax.plot(curve.value, curve.depth, **_look(curve), marker="o" if len(curve.depth) == 1 else None)
             ax.set_xlabel(panel.label)

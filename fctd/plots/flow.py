@@ -45,7 +45,9 @@ def losses_panels(table: pd.DataFrame, last: Circulation, units: System, lines: 
                 if (of[name] > 0).any():
                     values = of[name].to_numpy(float) * bar.factor
                     pressures.append(Curve(values, depth, words + at, colour, dash))
-            for colour, (name, words) in enumerate((("ecd_bit_kg_m3", "at the bit"), ("ecd_shoe_kg_m3", "at the shoe"))):
+            for colour, (name, words) in enumerate(
+                (("ecd_bit_kg_m3", "at the bit"), ("ecd_shoe_kg_m3", "at the shoe"))
+            ):
                 if of[name].notna().any():
                     values = of[name].to_numpy(float) * density.factor
                     dense.append(Curve(values, depth, f"equivalent density {words}{at}", colour, dash))
@@ -93,10 +95,6 @@ def _window(last: Circulation, density: Shown, metre: Shown) -> list[Curve]:
     rows = laid.case.wellbore.window
     if not rows:
         return []
-    md = laid.ends
-    tvd = [row.tvd for row in rows]
-    return [
-        Curve(np.interp(laid.depth, tvd, [getattr(row, side) for row in rows]) * density.factor, md * metre.factor, side,
-              4 + k, 2)
-        for k, side in enumerate(("pore", "fracture"))
-    ]  # fmt: skip
+    tvd, md = [row.tvd for row in rows], laid.ends * metre.factor
+    sides = {side: np.interp(laid.depth, tvd, [getattr(row, side) for row in rows]) for side in ("pore", "fracture")}
+    return [Curve(value * density.factor, md, side, 4 + k, 2) for k, (side, value) in enumerate(sides.items())]

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fctd.hydraulics.closed_forms import LAMINAR, REGIMES, TRANSITIONAL, TURBULENT, Loss, annulus, bore, clinging
 from fctd.case.rheology import Rheology
+from fctd.hydraulics.closed_forms import LAMINAR, REGIMES, TRANSITIONAL, TURBULENT, Loss, annulus, bore, clinging
 
 INCH, FT, PSI, PPG, GPM, FANN = 0.0254, 0.3048, 6894.757, 119.8264, 6.30902e-5, 0.511
 PIPE, HOLE = 2.5 * INCH, 4.25 * INCH
