@@ -6,6 +6,8 @@
     point = fctd.equilibrium(case, operation="trip_out", bit_depth="8000 ft")
     chart = fctd.torque_drag(case, operation=["trip_in", "trip_out"], bit_depths=range(1750, 2451, 10))
     left = fctd.margin_table(case, bit_depths=[2450])
+    lost = fctd.pressure_losses(case, flow="2000 L/min")
+    trips = fctd.surge_pressures(case, speeds=[0.5])
     found = fctd.monitor(case, "readings.csv")
     finer = fctd.refine(case, tolerance=0.01).case
     fitted = fctd.calibrate(case, "measured.csv", ["friction.open", "rig.block_weight"]).case
@@ -21,6 +23,8 @@ if TYPE_CHECKING:
     from fctd.calibration.result import Calibration
     from fctd.case.errors import InputError
     from fctd.case.load import Case, load_case
+    from fctd.hydraulics.pressures import pressure_losses
+    from fctd.hydraulics.surge import fastest_trips, surge_pressures
     from fctd.model.wellbore import Contacts, Wellbore, build_wellbore, find_contacts
     from fctd.monitoring.monitor import Monitored, monitor
     from fctd.results.tables import SimulationResult, open_result
@@ -46,14 +50,17 @@ _HOMES = {
     "build_wellbore": "fctd.model.wellbore",
     "calibrate": "fctd.calibration.calibrate",
     "equilibrium": "fctd.steady.equilibrium",
+    "fastest_trips": "fctd.hydraulics.surge",
     "find_contacts": "fctd.model.wellbore",
     "load_case": "fctd.case.load",
     "margin_table": "fctd.steady.margin_table",
     "monitor": "fctd.monitoring.monitor",
     "open_result": "fctd.results.tables",
     "predict": "fctd.calibration.calibrate",
+    "pressure_losses": "fctd.hydraulics.pressures",
     "refine": "fctd.steady.refine",
     "simulate": "fctd.simulation.simulate",
+    "surge_pressures": "fctd.hydraulics.surge",
     "torque_drag": "fctd.steady.torque_drag",
 }
 __all__ = [
@@ -70,14 +77,17 @@ __all__ = [
     "build_wellbore",
     "calibrate",
     "equilibrium",
+    "fastest_trips",
     "find_contacts",
     "load_case",
     "margin_table",
     "monitor",
     "open_result",
     "predict",
+    "pressure_losses",
     "refine",
     "simulate",
+    "surge_pressures",
     "torque_drag",
 ]
 

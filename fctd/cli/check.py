@@ -55,16 +55,16 @@ def check_command(
 def _print(summary: Summary, units: System) -> None:
     metre, across, force = (shown(name, units) for name in ("bit_depth_m", "clearance_m", "hookload_N"))
     screen.print(printable(summary.case.name), style="bold")
-    screen.print(_facts(_path(summary, units, metre)))
+    screen.print(facts_table(_path(summary, units, metre)))
     screen.print(_hole(summary.case, metre, across))
     if summary.case.wellbore.calipers is not None:
-        screen.print(_facts(_caliper(summary.case.wellbore.calipers, metre, across)))
+        screen.print(facts_table(_caliper(summary.case.wellbore.calipers, metre, across)))
     screen.print(_string(summary, metre, across, force))
     if rows := _fittings(summary.case, metre, across):
-        screen.print(_facts(rows))
-    screen.print(_facts(_loads(summary, units, force)))
+        screen.print(facts_table(rows))
+    screen.print(facts_table(_loads(summary, units, force)))
     if rows := flow_curves(summary.case.mud, units):
-        screen.print(_facts(rows))
+        screen.print(facts_table(rows))
 
 
 def flow_curves(mud: MudSpec, units: System) -> list[Row]:
@@ -124,7 +124,7 @@ def _loads(summary: Summary, units: System, force: Shown) -> list[Row]:
     ]
 
 
-def _facts(rows: Sequence[Row]) -> Table:
+def facts_table(rows: Sequence[Row]) -> Table:
     """A table of one fact a row."""
     table = Table(box=SIMPLE_HEAD, show_header=False, pad_edge=False)
     for row in rows:

@@ -93,7 +93,7 @@ def limits_command(
     case = read_case(case_file, changes_of(overrides, friction))
     refuse_sources(case, out, "--out")
     bare = bare_length(units)
-    bit_depths = read_depths(depths, case, "--depths", bare) if ":" in depths else [_one(depths, case, bare)]
+    bit_depths = read_one_or_more(depths, case, bare)
     kinds = read_kinds(operations, USUAL)
     drive = read_drive(speed, rpm, flow, units)
     warnings = warnings_of(case, kinds, **drive)
@@ -117,12 +117,14 @@ def limits_command(
     finish(bool((table["margin"] != "none").all()), _beyond(table), strict)
 
 
-def _one(depth: str, case: Case, bare: str) -> float:
-    """A single bit depth [m]."""
-    found = read_depth(depth, case, "--depths", bare)
+def read_one_or_more(depths: str, case: Case, bare: str) -> list[float]:
+    """A single bit depth, or those of FROM:TO:STEP [m]."""
+    if ":" in depths:
+        return read_depths(depths, case, "--depths", bare)
+    found = read_depth(depths, case, "--depths", bare)
     with naming_file(case):
-        check_bit_depth(found, *case.depths, "--depths", depth)
-    return found
+        check_bit_depth(found, *case.depths, "--depths", depths)
+    return [found]
 
 
 def _beyond(table: "pd.DataFrame") -> list[str]:

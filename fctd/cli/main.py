@@ -35,6 +35,15 @@ GROUPS: dict[str, dict[str, dict[str, str]]] = {
         "limits": {"bit_depths": "--depths"},
         "refine": {"bit_depth": "--bit-depth"},
     },
+    "Mud": {
+        "hydraulics": {"bit_depths": "--depths", "flow": "--flow", "eccentricity": "--eccentricity"},
+        "surge": {
+            "bit_depths": "--depths",
+            "speeds": "--speed",
+            "end": "--end",
+            "eccentricity": "--eccentricity",
+        },
+    },
     "Strings in time": {"simulate": {}, "status": {}},
     "Measured wells": {
         "calibrate": CALIBRATION,

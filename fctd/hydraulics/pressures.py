@@ -14,7 +14,7 @@ from fctd.case.errors import InputError
 from fctd.case.load import Case, check_bit_depth, naming_file
 from fctd.case.rheology import Rheology
 from fctd.case.rig import MudSpec
-from fctd.case.units import FLOW, FLOW_UNITS, LENGTH, Quantity, argument, bare
+from fctd.case.units import FLOW, FLOW_UNITS, LENGTH, Number, Quantity, argument
 from fctd.hydraulics.channel import Channel, channel_of
 from fctd.hydraulics.circuit import Circuit, circulate
 from fctd.hydraulics.closed_forms import REGIMES, bore
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 
 SHORTEST: Final = 1e-6  # [m]: two ends in one place
 PUMPED: Final = Quantity(dimension=FLOW, above=0.0, at_most=1.0, likely_units=FLOW_UNITS)
+SHARE: Final = Number(noun="a share", at_least=0.0, at_most=1.0)
 Row = dict[str, Any]
 Progress = Callable[[int, int], None]
 
@@ -81,6 +82,10 @@ def lay(case: Case, bit_depth: float, eccentricity: float = 0.0) -> Laid:
 
     Raises InputError where string and hole do not fit.
     """
+    try:
+        SHARE.parse(eccentricity)
+    except InputError as error:
+        raise error.at("eccentricity") from None
     hole, string = build_wellbore(case), lay_out(case, bit_depth)
     check_fit(string, hole, bit_depth)
     ends = string.top_md + np.cumsum(string.length)
@@ -194,7 +199,7 @@ class Circulation:
                     "speed_m_s": float(np.average(self.speeds[of], weights=laid.string.length[of])),
                     "regime": REGIMES[int(self.circuit.annulus.regime[of].max())],
                     "ecd_kg_m3": float(self.equivalent[last + 1]),
-                    "transport_ratio": float(np.min(self.ratios[of])),
+                    "transport_ratio": min(self.ratios[of][~np.isnan(self.ratios[of])].tolist(), default=np.nan),
                 }
             )  # fmt: skip
         return rows
@@ -286,7 +291,7 @@ def pressure_losses(
         given = [flow] if isinstance(flow, str | float | int) else list(flow)
         flows = [_flow(one) for one in given]
         depths = [argument(depth, LENGTH, "bit_depths") for depth in bit_depths] or [case.deepest]
-        found = circulations(case, flows, depths, bare(eccentricity, "eccentricity", "a share"), cuttings)
+        found = circulations(case, flows, depths, eccentricity, cuttings)
         return pd.DataFrame([of.summary() if isinstance(of, Circulation) else of for of in found])
 
 

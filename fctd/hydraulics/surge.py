@@ -13,7 +13,7 @@ from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.load import Case, check_bit_depth, naming_file
 from fctd.case.operations import KINDS
-from fctd.case.units import LENGTH, SPEED, argument, bare
+from fctd.case.units import LENGTH, SPEED, argument
 from fctd.hydraulics.circuit import Circuit, circulate
 from fctd.hydraulics.closed_forms import REGIMES
 from fctd.hydraulics.pressures import Laid, Progress, Row, check_flows, lay
@@ -106,8 +106,8 @@ def surge_pressures(
     trip_out; end : "open", "closed" or "float", by default that of the case.  eccentricity : see ``pressure_losses``.
 
     Columns: operation, end, speed_m_s, bit_depth_m, surge_Pa at the bit (negative for a swab), shoe_surge_Pa at the
-    last end of an interval above the bit, density_bit_kg_m3 (equivalent, of mud at rest and surge), out_of_bit_m3_s
-    (from the bore into the annulus), regime (the most turbulent along the annulus), lift_N (of a vertical string), and
+    last end of an interval above the bit, density_bit_kg_m3 (equivalent, of mud at rest and surge), into_bore_m3_s
+    (through the bit), regime (the most turbulent along the annulus), lift_N (of a vertical string), and
     reason.  Raises InputError for unusable input, and where string and hole fit at none of the depths.
     """
     import pandas as pd  # slow to import
@@ -185,7 +185,7 @@ def _asked(
         for one in given:
             if one not in known:
                 raise InputError(" or ".join(f'"{word}"' for word in known), key=key, value=one)
-    return depths, kinds, ends, bare(eccentricity, "eccentricity", "a share")
+    return depths, kinds, ends, eccentricity
 
 
 def _laid(
@@ -217,6 +217,6 @@ def _moved(trip: Trip, speed: float) -> Row:
     return {
         "surge_Pa": surge, "shoe_surge_Pa": float(circuit.outside[shoes[-1]]) if shoes else np.nan,
         "density_bit_kg_m3": (rest + surge) / (GRAVITY * depth) if depth > 0 else np.nan,
-        "out_of_bit_m3_s": circuit.bore_flow, "regime": REGIMES[int(circuit.annulus.regime.max())],
+        "into_bore_m3_s": -circuit.bore_flow, "regime": REGIMES[int(circuit.annulus.regime.max())],
         "lift_N": circuit.lift,
     }  # fmt: skip

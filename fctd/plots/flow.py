@@ -95,12 +95,6 @@ def _window(last: Circulation, density: Shown, metre: Shown) -> list[Curve]:
     rows = laid.case.wellbore.window
     if not rows:
         return []
-    md = laid.ends
-    tvd = [row.tvd for row in rows]
-    return [
-        Curve(
-            np.interp(laid.depth, tvd, [getattr(row, side) for row in rows]) * density.factor, md * metre.factor, side,
-            4 + k, 2,
-        )
-        for k, side in enumerate(("pore", "fracture"))
-    ]  # fmt: skip
+    tvd, md = [row.tvd for row in rows], laid.ends * metre.factor
+    sides = {side: np.interp(laid.depth, tvd, [getattr(row, side) for row in rows]) for side in ("pore", "fracture")}
+    return [Curve(value * density.factor, md, side, 4 + k, 2) for k, (side, value) in enumerate(sides.items())]

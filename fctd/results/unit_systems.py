@@ -38,9 +38,12 @@ MEASURES: Final = (
     Measure("m/s", "m/s", "ft/min"),
     Measure("W", "kW", "hp"),
 )
-# Pressures of mud, for which MPa and ksi are too coarse: columns with these ends.
-OF_MUD: Final = Measure("Pa", "bar", "psi")
-_ENDS_OF_MUD: Final = ("drop_Pa", "standpipe_Pa", "surge_Pa")
+# Of mud, by the ends of columns: pressures, for which MPa and ksi are too coarse, and jets, which are fast.
+_PRESSURE: Final = Measure("Pa", "bar", "psi")
+OF_MUD: Final = {
+    "drop_Pa": _PRESSURE, "standpipe_Pa": _PRESSURE, "surge_Pa": _PRESSURE,
+    "jet_speed_m_s": Measure("m/s", "m/s", "ft/s"),
+}  # fmt: skip
 # Lengths across the hole, for which metres and feet are too coarse.
 ACROSS: Final = Measure("m", "mm", "in")
 
@@ -56,9 +59,8 @@ def measure_of(column: str) -> Measure | None:
     """Units of a column of an SI table; None for names, counts, angles and plain numbers."""
     if column in COLUMNS and COLUMNS[column].across:
         return ACROSS
-    if column.endswith(_ENDS_OF_MUD):
-        return OF_MUD
-    return next((measure for measure in MEASURES if column.endswith(_ending(measure.table))), None)
+    own = next((measure for end, measure in OF_MUD.items() if column.endswith(end)), None)
+    return own or next((measure for measure in MEASURES if column.endswith(_ending(measure.table))), None)
 
 
 def shown(column: str, system: System) -> Shown:
@@ -69,7 +71,7 @@ def shown(column: str, system: System) -> Shown:
     if measure is None:
         raise ValueError(f"column {column} has no unit to show")
     unit = measure.field if system == "field" else measure.si
-    return Shown(_factor(measure.table, unit), unit.replace("*", "·"))
+    return Shown(_factor(measure.table, unit), unit.replace("*", "·").replace("^3", "³"))
 
 
 def shown_unit(unit: str, system: System) -> Shown:

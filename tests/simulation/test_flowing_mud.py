@@ -76,8 +76,10 @@ def test_pumps_take_the_lift_off_the_hook_load_of_a_run() -> None:
 def test_what_a_case_turns_on() -> None:
     still, pumped = rotation(1000, 1), rotation(1000, 1) | {"flow": 0.02}
     assert not is_driven(case({}, still))
-    assert pumps(case({}, pumped)) and is_driven(case({}, pumped))
-    assert is_driven(case({"viscosity": 0.02}, still)) and not pumps(case({"viscosity": 0.02}, still))
+    assert pumps(case({}, pumped))
+    assert is_driven(case({}, pumped))
+    assert is_driven(case({"viscosity": 0.02}, still))
+    assert not pumps(case({"viscosity": 0.02}, still))
     assert not is_driven(case({"viscosity": 0.02, "axial_damping": 3.0}, still))
 
 

@@ -1,0 +1,268 @@
+"""``fctd hydraulics CASE``: what the pumps need, where pressure is lost, and the density that the hole feels."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Final
+
+import numpy as np
+import typer
+from rich.box import SIMPLE_HEAD
+from rich.table import Column, Table
+
+from fctd.case.doubts import warnings_of
+from fctd.case.errors import InputError
+from fctd.case.load import Case
+from fctd.case.text import counted, printable
+from fctd.case.units import DENSITY, LENGTH, SPEED, Dimension
+from fctd.cli.chart import DEPTHS_HELP
+from fctd.cli.check import Row, facts_table, flow_curves
+from fctd.cli.limits import read_one_or_more
+from fctd.cli.options import (
+    CaseFile,
+    Overrides,
+    Quiet,
+    Strict,
+    bare_length,
+    changes_of,
+    messages,
+    print_written,
+    read_case,
+    read_quantity,
+    refuse_sources,
+    screen,
+    tell,
+)
+from fctd.cli.pictures import PICTURE_HELP, draw_panels
+from fctd.cli.steady import Units, check_targets, file_option, in_units, metadata_of_case, row_bar
+from fctd.hydraulics.closed_forms import TURBULENT
+from fctd.hydraulics.cuttings import Cuttings
+from fctd.hydraulics.pressures import PUMPED, Circulation, circulations
+from fctd.results.unit_systems import System, reworded, shown
+from fctd.store.tables import write_table
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+SCREEN_ROWS: Final = 30
+# Columns of a row on the screen, with headings.
+SHOWN: Final = {
+    "bit_depth_m": "bit", "standpipe_Pa": "standpipe", "surface_drop_Pa": "surface", "bore_drop_Pa": "bore",
+    "tool_drop_Pa": "tools", "bit_drop_Pa": "at the bit", "annulus_drop_Pa": "annulus",
+    "ecd_shoe_kg_m3": "ECD, shoe", "ecd_bit_kg_m3": "ECD, bit",
+}  # fmt: skip
+# Share of the yield stress in the stress at the wall above which RP 13D is more than 2.5 % high.
+YIELDING: Final = 0.3
+
+Flows = Annotated[
+    list[str],
+    typer.Option(
+        "--flow",
+        metavar="Q",
+        help="Flow of the pumps, '2000 L/min' or '500 gpm', several with commas between them; default: the largest of "
+        "the case's operations.",
+    ),
+]
+Eccentricity = Annotated[
+    float,
+    typer.Option("--eccentricity", metavar="E", help="Offset of the pipe over its clearance, 0 (concentric) to 1."),
+]
+
+
+def hydraulics_command(
+    case_file: CaseFile,
+    flows: Flows = [],  # noqa: B006 (typer copies it)
+    depths: Annotated[
+        str,
+        typer.Option("--depths", metavar="D or FROM:TO:STEP", help=f"{DEPTHS_HELP} Or one depth, such as shoe."),
+    ] = "td",
+    eccentricity: Eccentricity = 0.0,
+    penetration: Annotated[
+        str | None,
+        typer.Option(
+            "--penetration", metavar="V", help="Rate of penetration, '20 m/h', whose cuttings weigh in the annulus."
+        ),
+    ] = None,
+    cuttings_size: Annotated[str, typer.Option("--cuttings-size", metavar="D", help="Of a piece.")] = "6.35 mm",
+    cuttings_density: Annotated[str, typer.Option("--cuttings-density", metavar="ρ", help="Of the rock.")] = "2.6 sg",
+    overrides: Overrides = [],  # noqa: B006
+    out: Annotated[
+        Path | None, file_option("--out", "A row for every flow and depth, .csv, .parquet or .xlsx, or its picture.")
+    ] = None,
+    parts: Annotated[
+        Path | None, file_option("--parts", "A row for every part of the circuit, .csv, .parquet or .xlsx.")
+    ] = None,
+    plot: Annotated[
+        Path | None, file_option("--plot", f"Pressures and equivalent densities against depth, {PICTURE_HELP}.")
+    ] = None,
+    units: Units = "si",
+    quiet: Quiet = False,
+    strict: Strict = False,
+) -> None:
+    """Find the pressures of mud that is pumped: surface lines, string, tools, bit and annulus, standpipe, ECD.
+
+    Friction is that of API RP 13D, steady, of one temperature and without gas.
+    """
+    table_out, plot = check_targets(out, plot, {})
+    check_targets(parts, None, {})
+    case = read_case(case_file, changes_of(overrides))
+    for key, path in (("--out", out), ("--parts", parts), ("--plot", plot)):
+        refuse_sources(case, path, key)
+    pumped = _flows(flows, case, units)
+    bit_depths = read_one_or_more(depths, case, bare_length(units))
+    cuttings = None
+    if penetration is not None:
+        read: list[tuple[str, Dimension, str]] = [
+            (penetration, SPEED, "--penetration"), (cuttings_size, LENGTH, "--cuttings-size"),
+            (cuttings_density, DENSITY, "--cuttings-density"),
+        ]  # fmt: skip
+        cuttings = Cuttings(*(read_quantity(text, dimension, key, units) for text, dimension, key in read))
+    warnings = warnings_of(case, flow=pumped[0])
+    told = tell(case, warnings, strict=strict, units=units)
+    with row_bar(quiet) as bar:
+        task = bar.add_task(printable(case.name), total=None)
+
+        def show(done: int, total: int) -> None:
+            bar.update(task, completed=done, total=total)
+
+        found = circulations(case, pumped, bit_depths, eccentricity, cuttings, show)
+    import pandas as pd  # slow to import
+
+    solved = [one for one in found if isinstance(one, Circulation)]
+    table = pd.DataFrame([one.summary() if isinstance(one, Circulation) else one for one in found])
+    metadata, written = metadata_of_case(case, warnings) | {"units": units}, []
+    try:  # written before anything is printed, as the terminal may be closed
+        if table_out is not None:
+            written += write_table(in_units(units, table), table_out, metadata)
+        if parts is not None:
+            rows = pd.DataFrame([row for one in solved for row in one.parts()])
+            written += write_table(in_units(units, rows), parts, metadata)
+        if plot is not None:
+            from fctd.plots.flow import losses_panels
+
+            lines = [_facts_line(solved[-1], units), *(f"warning {text}" for text in told)]
+            written += draw_panels(plot, losses_panels(table, solved[-1], units, lines))
+    finally:
+        _print(case, table, solved, units)
+    print_written(written)
+
+
+def _flows(texts: Sequence[str], case: Case, units: System) -> list[float]:
+    """The flows of ``--flow`` [m³/s], a bare number in gpm or L/min; else the largest of the operations."""
+    found = []
+    for text in (part.strip() for given in texts for part in given.split(",")):
+        bare = text.replace(".", "", 1).isdigit()
+        value = f"{text} {'gpm' if units == 'field' else 'L/min'}" if bare else text
+        try:
+            found.append(PUMPED.parse(value))
+        except InputError as error:
+            raise InputError(error.expected, key="--flow", value=text) from None
+    largest = max((operation.flow for operation in case.operations), default=0.0)
+    if not found and not largest:
+        raise InputError("a flow such as '2000 L/min', as no operation of the case has one", key="--flow")
+    return found or [largest]
+
+
+def _print(case: Case, table: "pd.DataFrame", found: Sequence[Circulation], units: System) -> None:
+    screen.print(printable(case.name), style="bold", soft_wrap=True)
+    if rows := flow_curves(case.mud, units):
+        screen.print(facts_table(rows))
+    for flow, of in table.groupby("flow_m3_s", sort=False):
+        here = [one for one in found if one.flow == flow]
+        if not here:
+            continue
+        standpipe, bit = here[-1].standpipe, here[-1].laid.string.bit_depth
+        pumped = f"{_in(float(flow), 'flow_m3_s', units)}, {_in(standpipe, 'standpipe_Pa', units)}"
+        screen.print(f"{pumped} at the standpipe with the bit at {_in(bit, 'bit_depth_m', units)}", soft_wrap=True)
+        screen.print(_table(of, units) if len(of) > 1 else _parts(here[0], units))
+        screen.print(facts_table(_bit(here[-1], units)))
+    for reason, of in table[table["reason"] != "none"].groupby("reason", sort=False):
+        depths = ", ".join(f"{depth * shown('bit_depth_m', units).factor:.0f}" for depth in of["bit_depth_m"].unique())
+        screen.print(f"at {depths} {shown('bit_depth_m', units).label}: {reworded(str(reason), units)}", soft_wrap=True)
+    if any(_yields(one) for one in found):
+        messages.print(
+            "RP 13D may be up to 40 % high where the yield stress is most of the stress at the wall, as in part of the "
+            "annulus here: more flow or less yield stress makes it exact within 2.5 %",
+            soft_wrap=True,
+        )
+    if any(one.cuttings is not None and np.isnan(one.ratios).any() for one in found):
+        messages.print(
+            "cuttings: no estimate where the hole is steeper than 30°, and no weight in the density there",
+            soft_wrap=True,
+        )
+
+
+def _yields(one: Circulation) -> bool:
+    loss = one.circuit.annulus
+    return bool(((loss.yield_share > YIELDING) & (loss.regime < TURBULENT)).any())
+
+
+def _table(of: "pd.DataFrame", units: System) -> Table:
+    """A row for every depth, evenly spread where they are many."""
+    unit = {name: shown(name, units) for name in SHOWN}
+    table = Table(
+        *(Column(f"{words}\n{unit[name].label}", justify="right") for name, words in SHOWN.items()), box=SIMPLE_HEAD,
+        collapse_padding=True, pad_edge=False,
+    )  # fmt: skip
+    rows: list[dict[str, Any]] = of.to_dict("records")
+    for k in np.unique(np.linspace(len(rows) - 1, 0, min(SCREEN_ROWS, len(rows))).round().astype(int)):
+        table.add_row(*(number(rows[k].get(name, np.nan) * unit[name].factor) for name in SHOWN))
+    return table
+
+
+def _parts(one: Circulation, units: System) -> Table:
+    """A row for every part of the circuit."""
+    metre, bar, speed, density = (shown(name, units) for name in ("md_m", "a_drop_Pa", "speed_m_s", "ecd_kg_m3"))
+    headings = [
+        f"from\n{metre.label}", f"to\n{metre.label}", f"lost\n{bar.label}", f"speed\n{speed.label}", "regime",
+        f"ECD below\n{density.label}", "cuttings\nrise at",
+    ]  # fmt: skip
+    table = Table(
+        Column("part", overflow="fold"), *(Column(text, justify="right") for text in headings), box=SIMPLE_HEAD,
+        collapse_padding=True, pad_edge=False,
+    )  # fmt: skip
+    for row in one.parts():
+        of = f" {printable(row['name'])}" if row["name"] else ""
+        hole = f" in {row['interval']}" if row["interval"] else ""
+        table.add_row(
+            row["part"] + of + hole, *(number(row[name] * metre.factor) for name in ("from_md_m", "to_md_m")),
+            number(row["pressure_drop_Pa"] * bar.factor), number(row["speed_m_s"] * speed.factor), row["regime"],
+            number(row["ecd_kg_m3"] * density.factor),
+            "" if np.isnan(row["transport_ratio"]) else f"{100 * row['transport_ratio']:.0f} %",
+        )  # fmt: skip
+    return table
+
+
+def _bit(one: Circulation, units: System) -> list[Row]:
+    """What the jets do, and what the flow does to the hook load."""
+    row = one.summary()
+    rows: list[Row] = []
+    if not np.isnan(row["jet_speed_m_s"]):
+        share = f"{100 * row['bit_drop_Pa'] / row['standpipe_Pa']:.0f} % of the standpipe pressure"
+        rows = [
+            _fact("pressure drop at the bit", row, "bit_drop_Pa", units, f", {share}"),
+            _fact("hydraulic power at the bit", row, "bit_power_W", units),
+            _fact("impact force of the jets", row, "impact_force_N", units),
+            _fact("speed of the jets", row, "jet_speed_m_s", units),
+        ]
+    return [*rows, _fact("hook load less by", row, "lift_N", units, ", in straight vertical hole")]
+
+
+def _fact(words: str, row: dict[str, Any], column: str, units: System, more: str = "") -> Row:
+    unit = shown(column, units)
+    return words, number(row[column] * unit.factor), unit.label + more
+
+
+def _facts_line(one: Circulation, units: System) -> str:
+    flow, depth = one.flow, one.laid.string.bit_depth
+    nozzles = counted(len(one.laid.case.bit.nozzles), "nozzle")
+    return f"{_in(flow, 'flow_m3_s', units)}, bit at {_in(depth, 'bit_depth_m', units)}, {nozzles}; API RP 13D"
+
+
+def _in(value: float, column: str, units: System) -> str:
+    unit = shown(column, units)
+    return f"{value * unit.factor:.4g} {unit.label}"
+
+
+def number(value: float) -> str:
+    """A number in four digits; nothing for NaN."""
+    return "" if np.isnan(value) else f"{value:.0f}" if abs(value) >= 1000 else f"{value:z.4g}"

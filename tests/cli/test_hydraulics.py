@@ -1,0 +1,72 @@
+"""``fctd hydraulics``: tables on the screen and in files, field units, pictures, refusals."""
+
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from fctd.cli.options import screen
+from tests.commands import Command
+
+WELL = Path(__file__).parents[2] / "examples" / "pumped_well.toml"
+
+
+@pytest.fixture(autouse=True)
+def wide(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(screen, "_width", 110)
+
+
+def test_parts_stand_on_the_screen_and_in_a_file(cli: Command, tmp_path: Path) -> None:
+    """What all parts lose is the standpipe pressure that the line above says."""
+    out = tmp_path / "parts.csv"
+    said = cli("hydraulics", WELL, "--penetration", "20 m/h", "--parts", out)
+    rows = pd.read_csv(out)
+    total = rows["pressure_drop_Pa"].sum() / 1e5
+    assert f"2000 L/min, {total:.4g} bar at the standpipe with the bit at 3000 m" in said.out
+    assert {"surface", "bore", "tool", "bit", "annulus"} == set(rows["part"])
+    for words in ("flow curve of the mud", "tool MWD", "laminar", "% of the standpipe pressure", "hook load less by"):
+        assert words in said.out
+    assert "no estimate where the hole is steeper than 30°" in said.err
+
+
+def test_depths_and_flows_in_field_units(cli: Command, tmp_path: Path) -> None:
+    out = tmp_path / "losses.parquet"
+    asked = ("--flow", "400,500 gpm", "--depths", "shoe:td:1000", "--units", "field", "--out", out)
+    said = cli("hydraulics", WELL, *asked)
+    rows = pd.read_parquet(out)
+    assert rows["flow_gpm"].unique() == pytest.approx([400, 500])
+    assert {"standpipe_psi", "ecd_bit_ppg", "bit_power_hp", "jet_speed_ft_s"} <= set(rows)
+    assert "400 gpm" in said.out
+    assert f"{rows['standpipe_psi'].iloc[0]:.0f}" in said.out
+
+
+@pytest.mark.parametrize("depths", ["td", "shoe:td:500"])
+@pytest.mark.parametrize("suffix", ["png", "html"])
+def test_pictures(cli: Command, tmp_path: Path, depths: str, suffix: str) -> None:
+    picture = tmp_path / f"flow.{suffix}"
+    cli("hydraulics", WELL, "--depths", depths, "--plot", picture)
+    assert picture.stat().st_size > 10_000
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (["--flow", "2000 L/s"], '--flow = "2000 L/s": expected a flow rate above 0 and at most 1 m^3/s'),
+        (["--flow", "fast"], '--flow = "fast": expected a flow rate'),
+        (["--set", "operations[0].flow=0"], "--flow is missing: expected a flow such as '2000 L/min'"),
+        (["--eccentricity", "2"], "--eccentricity = 2.0: expected a share"),
+        (["--set", "bit.end=closed"], 'bit.end = "closed": expected "open" or "float" with a flow through it'),
+        (["--set", "bit.nozzles=[14]"], "14 looks like '14/32 in' or '14 mm'"),
+        (["--set", "mud.fann.600=30"], "expected more than 40, the reading at 300 rev/min"),
+        (["--depths", "9 km"], "--depths"),
+    ],
+)
+def test_wrong_input_is_told_in_a_sentence(cli: Command, options: list[str], told: str) -> None:
+    said = cli("hydraulics", WELL, *options, code=2)
+    assert told in said.err
+    assert "Traceback" not in said.err
+
+
+def test_a_bit_without_nozzles_is_doubted(cli: Command) -> None:
+    assert "bit without nozzles" in cli("hydraulics", WELL, "--set", "bit.nozzles=[]").err
+    assert cli("hydraulics", WELL, "--set", "bit.nozzles=[]", "--strict", code=1).out == ""

@@ -1,0 +1,61 @@
+"""``fctd surge``: tables on the screen and in files, pictures, refusals."""
+
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from fctd.cli.options import screen
+from tests.commands import Command
+
+WELL = Path(__file__).parents[2] / "examples" / "pumped_well.toml"
+
+
+@pytest.fixture(autouse=True)
+def wide(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(screen, "_width", 110)
+
+
+def test_surges_and_the_fastest_trips(cli: Command, tmp_path: Path) -> None:
+    """A closed end surges as it swabs; the time of the last row is that of the line."""
+    out, trips = tmp_path / "surge.csv", tmp_path / "trips.csv"
+    said = cli("surge", WELL, "--end", "closed", "--depths", "shoe:td:500", "--out", out, "--trips", trips)
+    rows, fastest = pd.read_csv(out), pd.read_csv(trips)
+    surge = rows.set_index(["operation", "bit_depth_m"])["surge_Pa"]
+    assert surge["trip_in", 3000.0] == -surge["trip_out", 3000.0] > 0
+    assert f"{surge['trip_in', 3000.0] / 1e5:.4g}" in said.out
+    slow = fastest[fastest["operation"] == "trip_out"]
+    assert slow["fastest_m_s"].is_monotonic_decreasing
+    assert f"{slow['time_s'].iloc[-1] / 3600:.2f} h between 1500 and 3000 m" in said.out
+
+
+def test_all_ends_in_field_units(cli: Command) -> None:
+    asked = ("--end", "all", "--operation", "trip_in", "--speed", "90 ft/min", "--units", "field")
+    said = cli("surge", WELL, *asked).out
+    for words in ("trip_in, open end", "trip_in, closed end", "trip_in, float end", "psi", "ft/min", "ppg"):
+        assert words in said
+    assert "trip_out" not in said
+
+
+@pytest.mark.parametrize("suffix", ["png", "html"])
+def test_pictures(cli: Command, tmp_path: Path, suffix: str) -> None:
+    picture = tmp_path / f"surge.{suffix}"
+    cli("surge", WELL, "--depths", "shoe:td:750", "--speed", "0.3 m/s,0.6 m/s", "--plot", picture)
+    assert picture.stat().st_size > 10_000
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (["--end", "shut"], '--end = "shut": expected "open" or "closed" or "float"'),
+        (["--operation", "ream"], '--operation = "ream": expected "trip_in" or "trip_out"'),
+        (["--speed", "fast"], '--speed = "fast": expected a speed'),
+        (["--set", "wellbore.window=[]", "--trips", "trips.csv"], "expected a case with a [[wellbore.window]]"),
+        (["--set", "wellbore.window[0].pore=1600"], "expected more than pore, 1600 kg/m^3"),
+        (["--set", "wellbore.window[1].tvd=1000"], "wellbore.window[1].tvd"),
+    ],
+)
+def test_wrong_input_is_told_in_a_sentence(cli: Command, options: list[str], told: str) -> None:
+    said = cli("surge", WELL, *options, code=2)
+    assert told in said.err
+    assert "Traceback" not in said.err
