@@ -46,26 +46,29 @@ class StringLoads(NamedTuple):
     """Loads of a row's string: (hook load [N], torque [N m]), their derivatives by the unknowns (2, k), and a reason.
 
     reason : why there are no loads, "" where there are.  doubt : status and message where the string has
-    loads but is not ``converged``, else "".
+    loads but is not ``converged``, else "".  lift : that mud which flows takes off the load along the string [N].
     """
 
     loads: Array
     slopes: Array
     reason: str = ""
     doubt: str = ""
+    lift: float = 0.0
 
 
 @dataclass(frozen=True)
 class Evaluation:
     """What the rig would read: value (m,) [SI] of each reading, slopes (m, k) by the unknowns; NaN without loads.
 
-    reasons, doubts : of the rows without loads, and with loads of a string that is not ``converged``, by index.
+    reasons, doubts : of the rows without loads, and with loads of a string that is not ``converged``, by index; lifts :
+    that mud which flows takes off the load along the string of each row [N].
     """
 
     value: Array
     slopes: Array
     reasons: dict[int, str]
     doubts: dict[int, str]
+    lifts: tuple[float, ...]
 
 
 class Forward:
@@ -144,7 +147,7 @@ class Forward:
             value[i] = read + reading.added
         reasons = {k: loads.reason for k, loads in enumerate(solved) if loads.reason}
         doubts = {k: loads.doubt for k, loads in enumerate(solved) if loads.doubt}
-        return Evaluation(value, slopes, reasons, doubts)
+        return Evaluation(value, slopes, reasons, doubts, tuple(loads.lift for loads in solved))
 
     def _read(
         self, row: Row, load: Load, rig: RigSpec, values: Mapping[str, float], solved: StringLoads
@@ -224,7 +227,7 @@ class Forward:
             same = [laid for laid in (of_case, *strings[:1]) if laid.string.sections == sections]
             fluids = fluids_of(solver.case, row.bit_depth)
             other = replace(of_case.string, sections=sections, parts=parts, fluids=fluids)
-            strings.append(same[0] if same else LaidString(solver.case, solver.hole, other))
+            strings.append(same[0] if same else LaidString(solver.case, solver.hole, other, of_case.lie))
         changes = [Changed(solver, laid) for solver, laid in zip(solvers[1:], strings[1:], strict=True)]
         try:
             point, by = solve_with_changes(solvers[0], row.operation, row.rates, strings[0], changes)
@@ -237,7 +240,7 @@ class Forward:
         if not np.isfinite(slopes).all():
             return self._failed(f"{point.status}, and none with friction or mass a little larger")
         doubt = "" if point.status == SteadyStatus.CONVERGED else f"{point.status}: {point.message}"
-        return StringLoads(np.array([point.hookload, point.surface_torque]), slopes, doubt=doubt)
+        return StringLoads(np.array([point.hookload, point.surface_torque]), slopes, doubt=doubt, lift=point.lift)
 
     def gains(self, values: Array) -> Array:
         """What each reading gains from a weight at the hook (m,), 0 for torques."""

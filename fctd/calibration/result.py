@@ -17,6 +17,7 @@ from fctd.calibration.predict import Posterior
 from fctd.calibration.unknowns import Unknown, with_values
 from fctd.case.load import Case
 from fctd.case.text import counted
+from fctd.hydraulics.channel import has_flow_curve
 
 
 @dataclass(frozen=True, repr=False)
@@ -71,7 +72,8 @@ class Calibration:
         """A row for each measured load: id, string, operation, bit_depth_m, load, low, high and fitted (SI), residual.
 
         residual : distance of the fitted reading from the range [SI], 0 within it; in_noise : over the noise; fitted is
-        NaN where the string has no loads.  used : whether it was fitted.  day, pumps and flow_m3_s as the row has them.
+        NaN where the string has no loads.  used : whether it was fitted.  day, pumps and flow_m3_s as the row has them;
+        lift_N : what mud that flows takes off the load along the string.
         """
         forward, rows = self.forward, []
         for i, reading in enumerate(forward.readings):
@@ -85,7 +87,7 @@ class Calibration:
                     "id": row.id, "string": row.string, "operation": row.operation, "bit_depth_m": row.bit_depth,
                     "load": reading.load, "low": low, "high": high, "fitted": fitted, "residual": off,
                     "in_noise": off / reading.noise, "used": reading.row in self.fit.used, "day": row.day,
-                    "pumps": row.pumps, "flow_m3_s": row.flow,
+                    "pumps": row.pumps, "flow_m3_s": row.flow, "lift_N": self.fit.evaluation.lifts[reading.row],
                 }
             )  # fmt: skip
         return pd.DataFrame(rows)
@@ -96,6 +98,20 @@ class Calibration:
         table = self.residuals[self.residuals["used"]]
         free = len(table) - sum(unknown.prior is None for unknown in self.unknowns)
         return float((table["in_noise"] ** 2).sum() / free) if free > 0 else float("nan")
+
+    @property
+    def absorbed(self) -> str:
+        """That the fit takes the lift of flowing mud for something else, in a sentence; "" where it does not."""
+        used = [self.forward.rows[k] for k in self.fit.used]
+        pumped = [row for row in used if row.pumps == "on" or row.flow > 0]
+        silent = [row for row in pumped if not has_flow_curve(self.strings[row.string])]
+        if not silent:
+            return ""
+        return (
+            f"{counted(len(silent), 'row')} of {len(used)} were read with pumps on, and the case does not say how its "
+            "mud flows (mud.fann, mud.rheology or mud.viscosity): what the flow takes off the hook load is fitted as "
+            "friction, block weight or bias"
+        )
 
     @property
     def doubts(self) -> dict[str, str]:

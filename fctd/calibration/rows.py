@@ -26,6 +26,7 @@ from fctd.case.tables.fields import Field
 from fctd.case.tables.readings import FLOW_IN, ROTATION_OF_DRIVE, TORQUE_OF_DRIVE
 from fctd.case.tables.rows import read_number
 from fctd.case.units import FLOW, LENGTH, MOST_RPM, ROTATION, SPEED, Quantity
+from fctd.hydraulics.channel import has_flow_curve
 from fctd.model.operations import SteadyRates, rad_per_s, steady_rates
 
 Load = Literal["hookload", "torque"]
@@ -78,10 +79,10 @@ class Row:
     id : its name; string : of the case or override set, "" for the case itself; operation : a kind, ``in_slips`` or
     ``tare``; bit_depth [m], NaN without a string.  rates : speed downwards [m/s] and rotation [rad/s].  hookload [N] :
     of the weight indicator, block included; torque [N m]; weight : of its residuals; source : of its readings.
-    flow [m³/s] : recorded, and used by nothing; stroke [m], NaN where not given; locked_torque [N m] : left in the
-    string at the end of the stroke.  day : of the reading; rows of a day, a run or a report share their scatter, and
-    one without a name is a day of its own.  torque_read : one of ``TORQUES``; pumps : one of ``PUMPS`` or "", used by
-    nothing.
+    flow [m³/s] : recorded, which acts where the case has a flow curve; stroke [m], NaN where not given; locked_torque
+    [N m] : left in the string at the end of the stroke.  day : of the reading; rows of a day, a run or a report share
+    their scatter, and one without a name is a day of its own.  torque_read : one of ``TORQUES``; pumps : one of
+    ``PUMPS`` or "", used where no flow is given.
     """
 
     id: str
@@ -179,7 +180,7 @@ def _row(found: Measured, k: int, name: str, case: Case, *, measured: bool) -> R
         if not top < depth <= bottom:
             raise found.rows.error(k, DEPTH.key, f"a depth in the well, below {top:g} m and down to {bottom:g} m")
         try:
-            rates = steady_rates(case, operation, _given(speed), _given(rpm))
+            rates = steady_rates(case, operation, _given(speed), _given(rpm), _pumped(found, k, case))
         except InputError as error:
             raise found.rows.error(k, error.key, error.expected) from None
     else:
@@ -192,6 +193,17 @@ def _row(found: Measured, k: int, name: str, case: Case, *, measured: bool) -> R
         day=texts("day")[k], torque_read=_one_of(TORQUES, found, k, "torque_read") or TORQUES[0],
         pumps=_one_of(PUMPS, found, k, "pumps"),
     )  # fmt: skip
+
+
+def _pumped(found: Measured, k: int, case: Case) -> float | None:
+    """The flow of a row [m³/s], None where it is that of the case's operation.
+
+    Without a flow curve it is 0: nozzles alone would take less off the hook load than what they leave out.
+    """
+    if not has_flow_curve(case):
+        return 0.0
+    flow = found.number(k, "flow")
+    return 0.0 if np.isnan(flow) and found.rows.texts("pumps")[k] == "off" else _given(flow)
 
 
 def _range(found: Measured, row: int, load: str) -> Range | None:

@@ -1,8 +1,8 @@
 """The tables of a case file for what the rig brings: mud, block and drive."""
 
-from typing import Literal, Self
+from typing import Any, Final, Literal, Self
 
-from pydantic import StrictBool, model_validator
+from pydantic import Field, StrictBool, field_validator, model_validator
 
 from fctd.case import units
 from fctd.case.drilling import DriveSpec
@@ -13,6 +13,7 @@ from fctd.case.wall import CakeSpec
 
 # Viscosity of mud whose case gives none [Pa s]; it acts on motion that changes alone: steady loads do not depend on it.
 UNSTEADY = 0.02
+ECCENTRICITY: Final = units.Number(noun="'string' or a share", at_least=0.0, at_most=1.0)
 
 
 class MudSpec(FluidsSpec):
@@ -22,7 +23,9 @@ class MudSpec(FluidsSpec):
     default with a viscosity of 20 mPa*s. A `viscosity` that is given damps the string along and around itself too, in
     steady states as well; 0 turns all of it off. A damping that is given replaces the one that follows from the
     viscosity. In place of `viscosity` stands a `rheology`, or `fann`, readings of a viscometer by speed such as
-    `{600 = 60, 300 = 40, 6 = 8, 3 = 6}`; the viscosity of motion that changes is then that at 100 1/s.
+    `{600 = 60, 300 = 40, 6 = 8, 3 = 6}`; the viscosity of motion that changes is then that at 100 1/s. Mud flows past a
+    pipe on the axis of the hole, or with an `eccentricity`, its offset over its clearance; "string" takes it from where
+    the string lies.
 
     Where fluids differ along the string or between its two sides, `[[mud.inside]]` and `[[mud.outside]]` say so, with
     `inside_pressure` and `outside_pressure` [Pa] at the surface; a side without rows has the `density`. A `float`
@@ -31,10 +34,16 @@ class MudSpec(FluidsSpec):
     """
 
     density: units.Density = 0.0
+    eccentricity: float | Literal["string"] = Field(default=0.0, description='a share from 0 to 1, or "string"')
     axial_damping: units.DampingPerLength | None = None
     lateral_damping: units.DampingPerLength | None = None
     rotational_damping: units.RotationalDamping | None = None
     cake: CakeSpec | None = None
+
+    @field_validator("eccentricity", mode="before", json_schema_input_type=float | str)
+    @classmethod
+    def _read_eccentricity(cls, raw: Any) -> Any:
+        return raw if raw == "string" else ECCENTRICITY.parse(raw)
 
     @model_validator(mode="after")
     def _check(self) -> Self:

@@ -158,6 +158,8 @@ def notes_of(found: Calibration) -> Iterator[tuple[str, str]]:
                 "start it nearer (--prior, bounds), or fit without (--no-scatter)"
             ),
         )
+    if found.absorbed:
+        yield "flow_absorbed", f"warning: {found.absorbed}"
     for name, doubt in [*found.misread.items(), *found.doubts.items()]:
         yield "doubt", f"with care: {name}: {doubt}"
     for name, reason in found.left_out.items():
@@ -195,6 +197,9 @@ def print_calibration(found: Calibration, units: System) -> None:
     screen.print(rows)
     left = "row" if found.scattered is None else "rows of its day"
     screen.print(f"off: beyond the recorded range; left out: predicted by a fit without the {left}", soft_wrap=True)
+    if lifted := float(found.residuals["lift_N"].abs().max()):
+        factor, label = shown_unit("N", units)
+        screen.print(f"flow of the mud takes up to {lifted * factor:.3g} {label} off the hook load", soft_wrap=True)
     if found.scattered is not None:
         days = counted(len(found.scattered.days), "day")
         scores = found.scores or {"": found.scattered.score}

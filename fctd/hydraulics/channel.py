@@ -16,17 +16,19 @@ from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.rheology import FlowSpec, Rheology
-from fctd.case.rig import MudSpec
 from fctd.hydraulics.closed_forms import Loss, annulus, bore
 from fctd.model.drillstring import String
 from fctd.model.fluids import Column
 from fctd.model.mud import hole_radius
 from fctd.model.wellbore import Wellbore
 
+FRICTIONLESS = Rheology.newtonian(0.0)
 # Within so much of the flow that the string displaces the flow through an open bore is known.
 SHARED = 1e-10
-# Number of flows through an open bore between whose pressures the flow is looked for.
-FLOWS = 33
+# Number of flows through an open bore between whose pressures the flow is looked for; of finer tables.
+FLOWS, FINER = 257, 2
+# Column of the rows of annuli; that of bores is two to the left.
+YIELD_STRESS = 3
 
 
 @dataclass(frozen=True)
@@ -84,24 +86,31 @@ class Channel:
         return self._shared(speed)
 
     def _shared(self, speed: float) -> float:
-        """Flow out of an open bit [m³/s] with which the pressures there are equal, while the string displaces mud."""
+        """Flow out of an open bit [m³/s] with which the pressures there are equal, while the string displaces mud.
+
+        It is looked for between the flows of a table, and of finer ones for muds with a yield stress, whose gradients
+        rise steeply from rest; between two flows the gradients are taken as straight.
+        """
         (outside, run), (inside, of_bore) = self._annulus, self._bore
         around, within = np.bincount(run, self.wet), np.bincount(of_bore, self.length)
         tools = float(self.tools.sum())
-
-        def higher(through: Any, gradient: Array, lost: Array) -> Any:
-            """Pressure outside less that inside [Pa]."""
-            return gradient @ around + lost @ within + tools * through * abs(through) + self.bit_drop(through)
-
+        yields = self.annulus[:, YIELD_STRESS].any() or self.bore[:, YIELD_STRESS - 2].any()
         # The annulus is left by less than the string displaces and half of what would move with its wall.
         most = 0.5 * np.pi * float((self.annulus[:, :2] ** 2).sum(axis=1).max()) * speed
-        flows, *tables = _table_of_flows(outside, inside, most, speed)
-        k = min(max(int(np.argmax(higher(flows, *tables) * speed <= 0)), 1), len(flows) - 1)
+        low, high = 0.0, -most
+        for k in range(1 + FINER * bool(yields)):
+            flows, *gradients = (_table_of_flows if k == 0 else _find_table)(outside, inside, low, high, speed)
+            lost = gradients[0] @ around + gradients[1] @ within
+            higher = lost + tools * flows * np.abs(flows) + self.bit_drop(flows)  # outside than inside
+            at = min(max(int(np.argmax(higher * speed <= 0)), 1), len(flows) - 1)
+            low, high = flows[at - 1 : at + 1].tolist()
+        below, above = lost[at - 1 : at + 1].tolist()
 
-        def at(through: float) -> float:
-            return float(higher(through, _find_annulus(outside, through, speed).gradient, _find_bore(inside, through)))
+        def between(through: float) -> float:
+            straight = below + (above - below) * (through - low) / (high - low)
+            return float(straight + tools * through * abs(through) + self.bit_drop(through))
 
-        return float(brentq(at, flows[k - 1], flows[k], xtol=SHARED * abs(most), rtol=SHARED))
+        return float(brentq(between, low, high, xtol=SHARED * abs(most), rtol=SHARED))
 
     def thrust(self, through: float) -> Array:
         """Thrust upwards on each segment (n,) [N] of mud that is pumped and speeds up at its lower end."""
@@ -112,14 +121,30 @@ class Channel:
 
 def has_flow_curve(case: Case) -> bool:
     """Whether a case says how its mud flows, in or around the string."""
-    mud = case.mud
-    return any(curve is not None and max(curve[:2]) > 0 for curve in _curves(mud, (mud, *mud.inside, *mud.outside)))
+    muds = (case.mud, *case.mud.inside, *case.mud.outside)
+    return any(curve.yield_stress or curve.consistency for mud in muds if (curve := mud.curve) is not None)
+
+
+def flow_curves(case: Case, string: String) -> tuple[Rheology, Rheology]:
+    """Flow curves inside and outside every segment (n,), those halfway along it.
+
+    A row of fluid that says nothing of its flow has the curve of the mud, and a mud that says nothing has no friction.
+    """
+    middle, fluids, mud = 0.5 * (string.above_bit[:-1] + string.above_bit[1:]), string.fluids, case.mud
+
+    def along(rows: Sequence[FlowSpec], column: Column | None) -> Rheology:
+        curves = [row.curve or mud.curve or FRICTIONLESS for row in rows or (mud,)]
+        index = np.zeros(len(middle), int) if column is None else column.row_of(middle)
+        return Rheology(*np.array(curves, float)[index].T)
+
+    inside, outside = (None, None) if fluids is None else (fluids.inside, fluids.outside)
+    return along(mud.inside, inside), along(mud.outside, outside)
 
 
 def channel_of(case: Case, string: String, hole: Wellbore, eccentricity: float | Array = 0.0) -> Channel:
     """The channel of a laid-out string; eccentricity (n,) : offset of the pipe over its clearance, 0 to 1."""
     n, length = string.segments, string.length
-    inside, outside = (_flow_curves(case, string, side) for side in ("inside", "outside"))
+    inside, outside = flow_curves(case, string)
     densities = string.densities or (case.mud.density, case.mud.density)
     bottom = string.top_md + np.cumsum(length)
     around = (string.of("outer"), hole_radius(hole, string.top_md, length), eccentricity, *outside, densities[1])
@@ -129,23 +154,6 @@ def channel_of(case: Case, string: String, hole: Wellbore, eccentricity: float |
         _tools(string, densities[0]), (case.bit.nozzle_area or np.inf, case.bit.discharge**-2),
         "closed" if any(row.plug for row in case.mud.inside) else case.end,
     )  # fmt: skip
-
-
-def _curves(mud: MudSpec, rows: Sequence[FlowSpec]) -> list[Rheology | None]:
-    """The flow curves of rows of a mud, by default its own."""
-    return [mud.curve if row.curve is None else row.curve for row in rows]
-
-
-def _flow_curves(case: Case, string: String, side: str) -> Rheology:
-    """The flow curve on a side of each segment, halfway along it; without one mud flows without friction."""
-    mud, frictionless = case.mud, Rheology.newtonian(0.0)
-    rows: Sequence[FlowSpec] = getattr(mud, side)
-    if not rows or string.fluids is None:
-        return frictionless if mud.curve is None else mud.curve
-    column: Column = getattr(string.fluids, side)
-    row = column.row_of(0.5 * (string.above_bit[:-1] + string.above_bit[1:]))
-    curves = [frictionless if curve is None else curve for curve in _curves(mud, rows)]
-    return Rheology(*np.array(curves)[row].T)
 
 
 def _tools(string: String, density: Array | float) -> Array:
@@ -177,26 +185,24 @@ def _runs(table: Array) -> tuple[bytes, NDArray[np.int64]]:
     return table[new].tobytes(), np.cumsum(new) - 1
 
 
-def _find_annulus(rows: bytes, through: float, speed: float) -> Loss:
+def _find_annulus(rows: bytes, through: float | Array, speed: float) -> Loss:
     outer, hole, eccentricity, *mud, density = np.frombuffer(rows).reshape(-1, 7).T
     displaced = np.pi * outer**2 * speed
     return annulus(outer, hole, Rheology(*mud), density, through + displaced, speed, eccentricity)
 
 
-def _find_bore(rows: bytes, through: float) -> Array:
+def _find_bore(rows: bytes, through: float | Array) -> Array:
     inner, *mud, density = np.frombuffer(rows).reshape(-1, 5).T
     return bore(inner, Rheology(*mud), density, through).gradient
 
 
-@lru_cache(maxsize=64)
-def _table_of_flows(outside: bytes, inside: bytes, most: float, speed: float) -> tuple[Array, Array, Array]:
-    """Flows (m,) down to ``-most`` out of the bit [m³/s], and the gradients of annulus and bore at each [Pa/m]."""
-    flows = -most * np.linspace(0.0, 1.0, FLOWS)
-    return (
-        flows, np.array([_find_annulus(outside, flow, speed).gradient for flow in flows.tolist()]),
-        np.array([_find_bore(inside, flow) for flow in flows.tolist()]),
-    )  # fmt: skip
+def _find_table(outside: bytes, inside: bytes, low: float, high: float, speed: float) -> tuple[Array, Array, Array]:
+    """Flows (m,) out of the bit between two [m³/s], and the gradients of annulus and bore at each [Pa/m]."""
+    flows = np.linspace(low, high, FLOWS)
+    through = flows[:, None]
+    return flows, _find_annulus(outside, through, speed).gradient, _find_bore(inside, through)
 
 
 # The strings of a chart have the same few rows at most depths.
 _annulus_of, _bore_of = lru_cache(maxsize=1024)(_find_annulus), lru_cache(maxsize=1024)(_find_bore)
+_table_of_flows = lru_cache(maxsize=64)(_find_table)

@@ -55,6 +55,9 @@ def circulate(channel: Channel, flow: float, speed: float = 0.0, end: str | None
     drop = channel.bit_drop(through)
     around, below = np.zeros((2, len(inside) + 1))
     np.cumsum(outside.gradient * channel.wet, out=around[1:])
+    if flow == 0 and through != 0:
+        # Mud at rest in a bore bears what is less than its yield stress; its column begins without friction.
+        inside *= -(around[-1] + drop) / inside.sum()
     below[:-1] = np.cumsum(inside[::-1])[::-1]
     given = -outside.lift * channel.wet
     if flow > 0:

@@ -12,7 +12,8 @@ from fctd.case.errors import InputError
 from fctd.case.friction import FrictionSet, Pair, changed, table_of
 from fctd.case.load import Case
 from fctd.case.operations import KINDS as OPERATIONS
-from fctd.model.operations import drive_torque, rad_per_s, rates_of_all, weight_indicator
+from fctd.hydraulics.channel import has_flow_curve
+from fctd.model.operations import SteadyRates, drive_torque, rad_per_s, rates_of_all, weight_indicator
 from fctd.model.section import section_of
 from fctd.model.wellbore import build_wellbore
 from fctd.monitoring.stretches import OF_KIND, Mode
@@ -79,7 +80,9 @@ class Chart:
             for factor, interval in zip(self._set(float(FACTORS[HELD])).of(intervals), intervals, strict=True)
         )
         self._other = solver(held)
-        self._rates = rates_of_all(case, list(OF_KIND))
+        # Of mud at rest: what its flow takes off a reading is added to the reading.
+        self._rates = rates_of_all(case, list(OF_KIND), flow=0.0)
+        self._lifts: dict[tuple[float, float], float] = {}
         self._nodes: dict[tuple[str, float], Array] = {}
         self._coarse: dict[float, Array] = {}
         self._inverses: dict[tuple[Mode, float, float], PchipInterpolator | None] = {}
@@ -98,6 +101,20 @@ class Chart:
             column = 1 if kind == "rotate_off_bottom" else 0
             self._nodes[key] = np.array([self._solve(solver, *key)[column] for solver in self._solvers])
         return self._nodes[key]
+
+    def lift(self, depth: float, flow: float) -> float:
+        """What mud that is pumped [m³/s] takes off the hook load [N]: its pull along the string, whose friction is left
+        out.  0 where the case does not say how its mud flows, and without a flow."""
+        if not flow > 0 or not has_flow_curve(self.case):
+            return 0.0
+        key = self._near(depth), round(flow, 4)
+        if key not in self._lifts:
+            try:
+                laid = self._own.lay_out(key[0]).in_flow(SteadyRates(0.0, 0.0, key[1]))
+            except InputError:  # no string there, and no factor either
+                return 0.0
+            self._lifts[key] = 0.0 if laid.circuit is None else laid.circuit.lift
+        return self._lifts[key]
 
     def _near(self, depth: float) -> float:
         return float(np.clip(round(depth / NODES) * NODES, NODES, self.deepest))

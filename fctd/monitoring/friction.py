@@ -71,7 +71,8 @@ class Apparent:
     """A stretch with its friction factor.
 
     factor : NaN where none is inferred, for the reason in ``left_out``.  noise : standard deviation of the factor by
-    the reading alone.  low, high : 95 % band by the reading and by what is held.
+    the reading alone.  low, high : 95 % band by the reading and by what is held.  lift [N] : that the flow takes off
+    the hook load, which the factor is without.
     """
 
     stretch: Stretch
@@ -80,6 +81,7 @@ class Apparent:
     low: float
     high: float
     left_out: str
+    lift: float = 0.0
 
 
 def apparent(stretch: Stretch, chart: Chart, uncertainty: Uncertainty) -> Apparent:
@@ -99,7 +101,8 @@ def apparent(stretch: Stretch, chart: Chart, uncertainty: Uncertainty) -> Appare
     reading = stretch.torque if rotating else stretch.hook_load
     if np.isnan(reading.median):
         return none("no reading")
-    found = chart.invert(mode, depth, reading.median, stretch.rpm)
+    lift = chart.lift(depth, stretch.flow)
+    found = chart.invert(mode, depth, reading.median + (0.0 if rotating else lift), stretch.rpm)
     if found is None:
         return none("no steady string at this depth")
     if rotating:
@@ -113,4 +116,4 @@ def apparent(stretch: Stretch, chart: Chart, uncertainty: Uncertainty) -> Appare
     cased = chart.by_held(mode, depth) * uncertainty.cased if uncertainty.cased > 0 else 0.0
     total = float(np.sqrt(noise**2 + found.per_reading**2 * (held**2 + cased**2)))
     low, high = (found.factor + sign * TWO_SIDED_95 * total for sign in (-1, 1))
-    return Apparent(stretch, found.factor, noise, low, high, "")
+    return Apparent(stretch, found.factor, noise, low, high, "", lift)

@@ -23,7 +23,7 @@ ENDS: Final = ("_p25", "", "_p75", "_error")
 COLUMNS: Final = (
     "mode", "start_s", "end_s", "first_row", "last_row", "bit_depth_m", "samples", "rpm", "speed_m_s", "flow_m3_s",
     *(f"{name}{end}_{unit}" for name, unit in READINGS.items() for end in ENDS),
-    "friction", "friction_low", "friction_high", "friction_baseline", "friction_baseline_error", "left_out",
+    "friction", "friction_low", "friction_high", "friction_baseline", "friction_baseline_error", "lift_N", "left_out",
 )  # fmt: skip
 
 
@@ -86,7 +86,7 @@ class Monitor:
                 (
                     s.mode, s.start, s.end, s.first_row, s.last_row, s.bit_depth, s.samples, s.rpm, s.speed, s.flow,
                     *s.hook_load, *s.torque, reading.factor, reading.low, reading.high, baseline, error,
-                    reading.left_out,
+                    reading.lift, reading.left_out,
                 )
             )  # fmt: skip
         return pd.DataFrame(rows, columns=list(COLUMNS))

@@ -314,7 +314,7 @@ EVERYWHERE: Final = frozenset({
     ),
     # Of flow alone.
     *(f"wellbore.window.{key}" for key in ("tvd", "pore", "fracture")),
-    "rig.surface_length", "rig.surface_bore", "bit.nozzles", "bit.flow_area", "bit.discharge",
+    "mud.eccentricity", "rig.surface_length", "rig.surface_bore", "bit.nozzles", "bit.flow_area", "bit.discharge",
     *(f"string.components.{key}" for key in ("pressure_drop", "at_flow", "at_density")),
     *(
         f"mud.{side}.{key}" for side in ("inside", "outside")

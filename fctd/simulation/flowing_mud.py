@@ -6,7 +6,7 @@ mud, and the work of the pull an entry of the ledger.
 """
 
 import math
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import numpy as np
 
@@ -15,11 +15,9 @@ from fctd.case.load import Case
 from fctd.hydraulics.channel import channel_of, has_flow_curve
 from fctd.hydraulics.circuit import Circuit, circulate
 from fctd.mechanics import state
-from fctd.mechanics.topdrive import Motion, smooth_step
+from fctd.mechanics.topdrive import Motion, PerMetre, smooth_step
 from fctd.model.drillstring import String
-
-if TYPE_CHECKING:
-    from fctd.simulation.run import Run
+from fctd.model.wellbore import Wellbore
 
 # Speed of a string that rests or creeps, for the drag on its swings [m/s]: a yield stress would hold it without limit.
 SLOWEST: Final = 0.05
@@ -35,37 +33,43 @@ def is_driven(case: Case) -> bool:
     return pumps(case) or (case.mud.axial_damping is None and has_flow_curve(case))
 
 
-def let_flow(run: "Run", motion: Motion, at: float) -> Circuit:
-    """Write the loads of the flow at a time [s] into the state of a run; returns the flow."""
+def let_flow(
+    S: Array, case: Case, string: String, hole: Wellbore, pipe: PerMetre, motion: Motion, at: float, *,
+    in_derrick: bool = False,
+) -> tuple[PerMetre, Circuit]:  # fmt: skip
+    """Write the loads of the flow at a time of a motion [s] into a state; returns the pipe at the top, and the flow.
+
+    string : laid out at its present depth; in_derrick : whether its upper part is in air (derrick.py).
+    """
     feed, flow = (
         smooth_step(at, motion.start, motion.duration, *ends)
         for ends in ((motion.feed_from, motion.feed_to), (motion.flow_from, motion.flow_to))
     )
-    string, case = run.laid_out, run.case
-    channel = channel_of(case, string, run.hole)
-    resting = circulate(channel, flow)
-    drag = None
-    if case.mud.axial_damping is None:
-        speed = math.copysign(max(abs(feed), SLOWEST), feed)
-        moving = circulate(channel, flow, speed)
-        drag = (resting.given - moving.given) / speed
-    _write(run, string, resting.given, drag)
-    return moving if drag is not None and speed == feed else resting
-
-
-def _write(run: "Run", string: String, given: Array, drag: Array | None) -> None:
-    """Write loads [N] and, where it is not the case's own, drag [N s/m] of the segments (n,)."""
-    S, n = run.S, string.segments
+    n, given = string.segments, case.mud.eccentricity
+    channel = channel_of(case, string, hole, lie_of(S, string) if isinstance(given, str) else given)
+    found = resting = circulate(channel, flow)
     half = np.ones(n)
     if string.long_segment:  # half of it hangs on the top drive
         half[0] = 0.5
-        run.pipe = run.pipe._replace(given=float(given[0] / string.length[0]))
-    state.row(S, state.GIVEN_FORCE, n)[:] = half * given
-    if drag is None:
-        return
-    if string.long_segment:
-        run.pipe = run.pipe._replace(mud_axial=float(drag[0] / string.length[0]))
+        pipe = pipe._replace(given=float(resting.given[0] / string.length[0]))
+    state.row(S, state.GIVEN_FORCE, n)[:] = half * resting.given
+    if case.mud.axial_damping is not None:
+        return pipe, found
+    speed = math.copysign(max(abs(feed), SLOWEST), feed)
+    moving = circulate(channel, flow, speed)
+    drag = (resting.given - moving.given) / speed
     state.row(S, state.MUD_AXIAL, n)[:] = half * drag
-    if run.upper_end.in_derrick:
+    if string.long_segment:
+        pipe = pipe._replace(mud_axial=float(drag[0] / string.length[0]))
+    if in_derrick:
         share = state.row(S, state.IMMERSED, n)
         state.row(S, state.IN_MUD_AXIAL, n)[:] = drag / np.where(share > 0, share, 1.0)
+    return pipe, moving if speed == feed else found
+
+
+def lie_of(S: Array, string: String) -> Array:
+    """Offset of each segment over its clearance (n,), 0 to 1, by its contact point; 0 where there is no wall."""
+    n = string.segments
+    offset = np.linalg.norm([state.row(S, row, n) for row in (state.PX, state.PY, state.PZ)], axis=0)
+    clearance = state.row(S, state.HOLE, n) - string.of("outer")
+    return np.asarray(np.clip(offset / np.where(clearance > 0, clearance, np.inf), 0.0, 1.0))

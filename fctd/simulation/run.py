@@ -66,7 +66,10 @@ class Run(MovingString, Restorable):
     def let_mud_flow(self, motion: Motion, until: float) -> None:
         """Update what mud that is pumped, and mud that the string displaces, do to it until a time [s]."""
         if is_driven(self.case):
-            self.circuit = let_flow(self, motion, 0.5 * (self.time + until))
+            self.pipe, self.circuit = let_flow(
+                self.S, self.case, self.laid_out, self.hole, self.pipe, motion, 0.5 * (self.time + until),
+                in_derrick=self.upper_end.in_derrick,
+            )  # fmt: skip
 
     def excess_pressure(self) -> Array:
         """Pressure inside less that outside (n + 1,) [Pa], at the top of the string and at its contact points."""

@@ -24,6 +24,7 @@ from fctd.steady.findings import Findings
 from fctd.steady.ladder import NEWTON, look_for
 from fctd.steady.laid_string import LaidString
 from fctd.steady.laws import Hole, hole_of
+from fctd.steady.lie import lie_of
 from fctd.steady.problem import Allowance, Problem, Workspace
 from fctd.steady.reading import SOLVED, Answer
 from fctd.steady.steady_string import Equilibrium, steady_string
@@ -48,7 +49,7 @@ class Solver:
         string = lay_out(self.case, bit_depth)
         check_fit(string, self.hole, bit_depth)
         check_end(string, self.hole)
-        return LaidString(self.case, self.hole, string)
+        return LaidString(self.case, self.hole, string, lie_of)
 
     def solve(self, operation: str, rates: SteadyRates, bit_depth: float) -> Equilibrium:
         """The steady string at a bit depth [m]; raises InputError when string and hole do not fit there."""

@@ -135,7 +135,7 @@ class Findings:
     def lay_finer(self, case: Case) -> Problem:
         """The problem on the segments of another case, which shares the allowance."""
         own = self.problem
-        laid = LaidString(case, own.hole, lay_out(case, own.string.bit_depth))
+        laid = LaidString(case, own.hole, lay_out(case, own.string.bit_depth), own.laid.lie)
         other = self.lay(own.operation, own.rates, laid, case)
         other.at_axis, other.allowance = 1, own.allowance
         return other

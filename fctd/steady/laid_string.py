@@ -1,5 +1,6 @@
 """A string laid out at one bit depth: what its steady strings of all operations and friction factors have in common."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -21,18 +22,21 @@ from fctd.results.buckling import Pipe, pipe_of
 class LaidString:
     """A string in its hole, whose friction factors do not matter.
 
-    circuit : of the mud that flows past it, None where none does.
+    lie : finds where it lies across its hole, for the mud that flows past it; circuit : of that mud, None where none
+    flows; rests : whether mud is taken to be at rest.
     """
 
     case: Case
     hole: Wellbore
     string: String
+    lie: Callable[["LaidString"], Array | None] | None = None
     circuit: Circuit | None = None
+    rests: bool = False
     _in_flow: dict[tuple[float, float], "LaidString"] = field(default_factory=dict, repr=False, compare=False)
 
     def in_flow(self, rates: SteadyRates) -> "LaidString":
         """The string in the mud that an operation pumps and displaces; itself where mud rests or has no viscosity."""
-        if self.circuit is not None or not flows(self.case, rates.flow, rates.speed):
+        if self.rests or self.circuit is not None or not flows(self.case, rates.flow, rates.speed):
             return self
         # A damping along the string that the case gives replaces the drag of the mud that the string displaces.
         at = rates.flow, rates.speed if self.case.mud.axial_damping is None else 0.0
@@ -40,9 +44,23 @@ class LaidString:
             self._in_flow[at] = replace(self, circuit=circulate(self._channel, *at))
         return self._in_flow[at]
 
+    @property
+    def at_rest(self) -> "LaidString":
+        """The string in mud at rest."""
+        return replace(self, rests=True)
+
+    @cached_property
+    def eccentricity(self) -> float | Array | None:
+        """Offset of the pipe over its clearance, of each segment (n,) or of all; None where no lie was found."""
+        given = self.case.mud.eccentricity
+        if not isinstance(given, str):
+            return given
+        return None if self.lie is None else self.lie(self)
+
     @cached_property
     def _channel(self) -> Channel:
-        return channel_of(self.case, self.string, self.hole)
+        beside = 0.0 if self.eccentricity is None else self.eccentricity
+        return channel_of(self.case, self.string, self.hole, beside)
 
     def put(self, S: Array) -> PerMetre:
         """Write the string into a buffer of the engine; returns the pipe at the top."""

@@ -28,7 +28,7 @@ def test_a_row_has_all_that_its_columns_say(tmp_path: Path) -> None:
     (row,), strings = read_rows(written(tmp_path, text), well(), {"wiper": well()}, measured=True)
     assert (row.id, row.string, row.operation, row.source, row.weight) == ("A", "wiper", "back_ream", "DDR", 0.5)
     assert row.bit_depth == pytest.approx(914.4)
-    assert row.rates == pytest.approx((-0.1524, 90 * np.pi / 30))
+    assert row.rates == pytest.approx((-0.1524, 90 * np.pi / 30, 0.0))
     assert row.hookload == Range(pytest.approx(444822.16152605), pytest.approx(489304.377678655))  # lbf: NIST SP 811
     assert row.torque == Range(pytest.approx(5423.2719), pytest.approx(5423.2719))
     assert (row.flow, row.stroke, row.locked_torque) == (pytest.approx(0.03), 12.0, 1500.0)

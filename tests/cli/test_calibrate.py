@@ -106,7 +106,7 @@ def test_days_pumps_and_doubts_are_printed(
     table = tmp_path / "table.csv"
     monkeypatch.setattr("fctd.cli.calibrate.warnings_of", lambda case: [])  # they would end it before
     strict = cli("calibrate", *files, *options, "--table", table, "--units", "field", "--strict", code=1)
-    assert "strict: notes are errors (doubt, misfit)" in strict.err
+    assert "strict: notes are errors (doubt, flow_absorbed, misfit)" in strict.err
     assert re.search(r"a slack-off weight of [\d.]+ klbf above the rotating weight of [\d.]+ klbf", strict.err)
     metadata = json.loads((tmp_path / "table.csv.json").read_text())
     assert metadata["case"]["name"]

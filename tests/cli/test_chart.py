@@ -73,7 +73,11 @@ def test_a_chart_is_the_one_of_the_library_with_its_origin_beside_it(
     pd.testing.assert_frame_equal(table, expected, check_dtype=False)
     origin = json.loads((tmp_path / "new" / "chart.csv.json").read_text())
     assert origin["case"]["name"] == "tiny"
-    assert origin["rates"]["trip_in"] == {"speed_m_s": 0.3, "spin_rad_s": pytest.approx(80 * np.pi / 30)}
+    assert origin["rates"]["trip_in"] == {
+        "speed_m_s": 0.3,
+        "spin_rad_s": pytest.approx(80 * np.pi / 30),
+        "flow_m3_s": 0.0,
+    }
     assert {"fctd", "numpy", "numba", "python"} <= origin["versions"].keys()
 
 

@@ -20,11 +20,13 @@ def test_an_entry_compares_stored_and_lost_energy_with_energy_put_in() -> None:
     for k, offset in enumerate(ledger.LOSSES.values()):
         state.row(S, offset, 3)[:] = 10.0**k
     top[[topdrive.TOP_WORK, topdrive.FED_ENERGY, topdrive.LOST_BIT]] = 5000.0, 200.0, 40_000.0
+    top[topdrive.GIVEN_WORK] = 600_000.0
     row = ledger.entry(S, top, 3, Energy(1.0, 2.0, 3.0, 4.0), Energy(11.0, 22.0, 33.0, 44.0))
     assert row == {
         "kinetic_J": 10.0, "gravity_J": 20.0, "strain_J": 30.0, "contact_J": 40.0, "top_drive_work_J": 5000.0,
-        "fed_pipe_J": 200.0, "lost_friction_J": 3.0, "lost_contact_J": 30.0, "lost_mud_J": 300.0,
-        "lost_joints_J": 3000.0, "lost_bit_J": 40_000.0, "residual_J": 100.0 + 43_333.0 - 5200.0,
+        "fed_pipe_J": 200.0, "flow_work_J": 600_000.0, "lost_friction_J": 3.0, "lost_contact_J": 30.0,
+        "lost_mud_J": 300.0, "lost_joints_J": 3000.0, "lost_bit_J": 40_000.0,
+        "residual_J": 100.0 + 43_333.0 - 605_200.0,
     }  # fmt: skip
 
 

@@ -1,0 +1,61 @@
+"""What the mud of a case flows through: its channel by the components, the fluids by depth, tools and nozzles."""
+
+import numpy as np
+import pytest
+
+from fctd import build_wellbore
+from fctd.hydraulics.channel import Channel, channel_of, flow_curves, has_flow_curve
+from fctd.model.drillstring import lay_out
+from tests.cases import make_case, pipe
+
+THICK, THIN = {"viscosity": 0.1}, {"viscosity": 0.01}
+
+
+def channel(top_md: float = 0.0, **mud: object) -> Channel:
+    tool = pipe(10, 2, outer=0.17, inner=0.06, pressure_drop=2e6, at_flow=0.03)
+    case = make_case(
+        [[0, 0, 0], [1000, 0, 0]], [tool, pipe(None, None, inner=0.1, segment_length=90.0)],
+        mud={"density": 1200.0, "viscosity": 0.03} | mud, bit={"flow_area": 3e-4, "discharge": 0.9},
+    )  # fmt: skip
+    return channel_of(case, lay_out(case, 900.0), build_wellbore(case))
+
+
+def test_a_channel_has_the_radii_and_the_mud_of_its_segments() -> None:
+    found = channel()
+    assert found.annulus[0].tolist() == [0.0635, pytest.approx(0.10795, rel=0.5), 0.0, 0.0, 0.03, 1.0, 1200.0]
+    assert found.bore[-1].tolist() == [0.03, 0.0, 0.03, 1.0, 1200.0]
+    assert found.wet.sum() == pytest.approx(900.0)
+    assert found.nozzles == (3e-4, pytest.approx(0.9**-2))
+    assert found.end == "open"
+
+
+def test_a_tool_has_its_pressure_drop_at_its_flow_spread_along_it() -> None:
+    """At the flow and 1000 kg/m³ of its sheet; in denser mud more."""
+    found = channel()
+    assert found.tools.sum() * 0.03**2 == pytest.approx(2e6 * 1.2)
+    assert (found.tools[:-2] == 0).all()
+    assert found.tools[-1] == pytest.approx(found.tools[-2])
+    assert (found.inside(0.03) - found.inside(0.0)).sum() > 2.4e6
+
+
+def test_each_depth_has_the_flow_curve_of_its_fluid() -> None:
+    """A row without a curve has that of the mud."""
+    outside = [
+        {"to_md": 500.0, "density": 1200.0} | THICK,
+        {"to_md": 700.0, "density": 1200.0},
+        {"density": 1200.0} | THIN,
+    ]
+    case = make_case(
+        [[0, 0, 0], [1000, 0, 0]], [pipe(None, None, segment_length=100.0)],
+        mud={"density": 1200.0, "viscosity": 0.03, "outside": outside},
+    )  # fmt: skip
+    inside, around = flow_curves(case, lay_out(case, 1000.0))
+    assert np.unique(inside.consistency) == [0.03]
+    assert list(around.consistency) == [0.1] * 5 + [0.03] * 2 + [0.01] * 3
+    assert has_flow_curve(case)
+
+
+def test_a_plug_closes_the_bore() -> None:
+    inside = [{"to_md": 500.0, "density": 1200.0, "plug": True}, {"density": 1200.0}]
+    assert channel(inside=inside, float=True).end == "closed"
+    assert channel(float=True).end == "float"
