@@ -10,6 +10,9 @@ from matplotlib.figure import Figure
 
 import fctd
 from fctd import plots
+from fctd.hydraulics.pressures import circulation
+from fctd.model.depths import depths_between
+from fctd.plots.flow import losses_panels
 from fctd.plots.loads import ChartLook
 from fctd.store.parquet import read_frame
 from fctd.sweep.dataset import open_dataset
@@ -105,6 +108,15 @@ def stick_slip() -> Figure:
     return plots.map_figure(_swept("stick_slip_map"), ["operations[0].rpm", "bit.weight_on_bit"], "stick_slip_severity")
 
 
+def hydraulics() -> Figure:
+    """Pressures of the example's mud over bit depth at three flows, and the densities that its hole feels."""
+    case = fctd.load_case(ROOT / "examples" / "pumped_well.toml")
+    flows, depths = [1600 / 6e4, 2000 / 6e4, 2400 / 6e4], depths_between(case.shoes[-1], case.deepest, 50.0)
+    last = circulation(case, flows[-1], depths[-1])
+    table = fctd.pressure_losses(case, flows, depths)
+    return plots.panels_figure(losses_panels(table, last, "si", ["API RP 13D, concentric"]))
+
+
 def _swept(name: str) -> Uncertainty:
     """What an example sweep says."""
     spec = read_sweep(ROOT / "examples" / f"{name}.toml")
@@ -120,6 +132,7 @@ def _tables(*names: str) -> dict[str, pd.DataFrame]:
 
 PICTURES: dict[str, Callable[[], Figure]] = {
     "overview": overview, "chart": chart, "limits": limits, "feeding": feeding, "monitor": monitor, "run": run,
+    "hydraulics": hydraulics,
     "public_well": public_well, "judged_rows": judged_rows,
     "bands": bands, "stick_slip": stick_slip,
 }  # fmt: skip

@@ -95,7 +95,7 @@ def _check_order(rows: Sequence[OutsideSpec], name: str) -> None:
             raise InputError(f"more than {above.to_md:g} m, where the row above ends", key=f"{name}[{i}].to_md")
 
 
-def check_downwards(rows: Sequence[TemperatureSpec] | Sequence[WindowSpec], name: str) -> None:
+def check_downwards(rows: Sequence[TemperatureSpec | WindowSpec], name: str) -> None:
     """Raise InputError for rows that do not run downwards."""
     for i, (above, row) in enumerate(pairwise(rows), start=1):
         if row.tvd <= above.tvd:

@@ -32,6 +32,7 @@ FLATTEST: Final = 0.1
 # Shear rate at which one viscosity stands for a curve [1/s]: that of a string that moves in its annulus.
 USUAL_RATE: Final = 100.0
 MOST_READING: Final = 1000.0
+_SPEED: Final = re.compile(r"[1-9][0-9]{0,2}")  # [rev/min]
 _TO_THE_INDEX: Final = re.compile(r"\s*[*.·]?\s*s\s*\^?\s*[nⁿ](?![^\W\d_])")
 
 
@@ -78,7 +79,7 @@ class Readings(Expects):
             raise InputError(self.expected, value=raw)
         found = {}
         for key, value in raw.items():
-            if not re.fullmatch(r"[1-9]\d{0,2}", str(key)):
+            if not _SPEED.fullmatch(str(key)):
                 raise InputError("a speed of the viscometer in rev/min, such as 600", key=str(key), value=value)
             reading = units.Number(noun="a reading in degrees", at_least=0.0, at_most=MOST_READING)
             try:
@@ -101,7 +102,9 @@ class Readings(Expects):
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         reading = {"type": "number", "minimum": 0, "maximum": MOST_READING}
-        return {"type": "object", "additionalProperties": reading, "minProperties": 2, "description": self.expected}
+        names = {"pattern": f"^{_SPEED.pattern}$"}
+        shape = {"type": "object", "additionalProperties": reading, "propertyNames": names}
+        return shape | {"description": self.expected}
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -16,7 +16,7 @@ from fctd.case.text import counted, printable
 from fctd.case.units import DENSITY, LENGTH, SPEED, Dimension
 from fctd.cli.chart import DEPTHS_HELP
 from fctd.cli.check import Row, facts_table, flow_curves
-from fctd.cli.limits import read_one_or_more
+from fctd.cli.limits import read_one_or_more, rows_of
 from fctd.cli.options import (
     CaseFile,
     Overrides,
@@ -82,8 +82,12 @@ def hydraulics_command(
             "--penetration", metavar="V", help="Rate of penetration, '20 m/h', whose cuttings weigh in the annulus."
         ),
     ] = None,
-    cuttings_size: Annotated[str, typer.Option("--cuttings-size", metavar="D", help="Of a piece.")] = "6.35 mm",
-    cuttings_density: Annotated[str, typer.Option("--cuttings-density", metavar="ρ", help="Of the rock.")] = "2.6 sg",
+    cuttings_size: Annotated[
+        str, typer.Option("--cuttings-size", metavar="D", help="Size of a piece of rock.")
+    ] = "6.35 mm",
+    cuttings_density: Annotated[
+        str, typer.Option("--cuttings-density", metavar="ρ", help="Density of the rock.")
+    ] = "2.6 sg",
     overrides: Overrides = [],  # noqa: B006
     out: Annotated[
         Path | None, file_option("--out", "A row for every flow and depth, .csv, .parquet or .xlsx, or its picture.")
@@ -166,12 +170,13 @@ def _print(case: Case, table: "pd.DataFrame", found: Sequence[Circulation], unit
     screen.print(printable(case.name), style="bold", soft_wrap=True)
     if rows := flow_curves(case.mud, units):
         screen.print(facts_table(rows))
-    for flow, of in table.groupby("flow_m3_s", sort=False):
+    for flow in dict.fromkeys(table["flow_m3_s"].tolist()):
+        of = table[table["flow_m3_s"] == flow]
         here = [one for one in found if one.flow == flow]
         if not here:
             continue
         standpipe, bit = here[-1].standpipe, here[-1].laid.string.bit_depth
-        pumped = f"{_in(float(flow), 'flow_m3_s', units)}, {_in(standpipe, 'standpipe_Pa', units)}"
+        pumped = f"{_in(flow, 'flow_m3_s', units)}, {_in(standpipe, 'standpipe_Pa', units)}"
         screen.print(f"{pumped} at the standpipe with the bit at {_in(bit, 'bit_depth_m', units)}", soft_wrap=True)
         screen.print(_table(of, units) if len(of) > 1 else _parts(here[0], units))
         screen.print(facts_table(_bit(here[-1], units)))
@@ -203,7 +208,7 @@ def _table(of: "pd.DataFrame", units: System) -> Table:
         *(Column(f"{words}\n{unit[name].label}", justify="right") for name, words in SHOWN.items()), box=SIMPLE_HEAD,
         collapse_padding=True, pad_edge=False,
     )  # fmt: skip
-    rows: list[dict[str, Any]] = of.to_dict("records")
+    rows = rows_of(of)
     for k in np.unique(np.linspace(len(rows) - 1, 0, min(SCREEN_ROWS, len(rows))).round().astype(int)):
         table.add_row(*(number(rows[k].get(name, np.nan) * unit[name].factor) for name in SHOWN))
     return table

@@ -167,7 +167,7 @@ def _table(of: "pd.DataFrame", columns: tuple[str, str, str], units: System) -> 
         *(Column(name, justify="right", no_wrap=True, min_width=len(name)) for name in numbers),
         Column("where", no_wrap=True, overflow="ellipsis"), box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
     )  # fmt: skip
-    for row in _rows(of[of["bit_depth_m"].isin(picked)]):
+    for row in rows_of(of[of["bit_depth_m"].isin(picked)]):
         place = "" if np.isnan(row["md_m"]) else f"{row['md_m'] * metre.factor:.0f} {metre.label}"
         part = "" if row["part"] == "none" else printable(row["part"])
         table.add_row(
@@ -179,7 +179,8 @@ def _table(of: "pd.DataFrame", columns: tuple[str, str, str], units: System) -> 
     return table
 
 
-def _rows(table: "pd.DataFrame") -> list[dict[str, Any]]:
+def rows_of(table: "pd.DataFrame") -> list[dict[str, Any]]:
+    """The rows of a table by column."""
     return cast("list[dict[str, Any]]", table.to_dict("records"))
 
 
@@ -194,7 +195,7 @@ def _bending(table: "pd.DataFrame", units: System) -> list[str]:
     lines = []
     metre, stress = shown("bit_depth_m", units), shown("bending_stress_Pa", units)
     for operation, of in table[table["margin"] == FATIGUE].groupby("operation", sort=False):
-        worst = max(_rows(of), key=lambda row: row["bending_stress_Pa"])
+        worst = max(rows_of(of), key=lambda row: row["bending_stress_Pa"])
         amplitude, often = worst["bending_stress_Pa"] * stress.factor, worst["cycles_per_hour"]
         place, bit = worst["md_m"] * metre.factor, worst["bit_depth_m"] * metre.factor
         lines.append(

@@ -17,7 +17,7 @@ from fctd.case.units import SPEED
 from fctd.cli.chart import DEPTHS_HELP
 from fctd.cli.check import facts_table, flow_curves
 from fctd.cli.hydraulics import Eccentricity, number
-from fctd.cli.limits import read_one_or_more
+from fctd.cli.limits import read_one_or_more, rows_of
 from fctd.cli.options import (
     CaseFile,
     Overrides,
@@ -172,7 +172,7 @@ def _table(of: "pd.DataFrame", columns: dict[str, str], last: str, units: System
         Column("" if last == "reason" else last, overflow="fold"), box=SIMPLE_HEAD, collapse_padding=True,
         pad_edge=False,
     )  # fmt: skip
-    rows: list[dict[str, Any]] = of.to_dict("records")
+    rows = rows_of(of)
     for k in np.unique(np.linspace(len(rows) - 1, 0, min(SCREEN_ROWS, len(rows))).round().astype(int)):
         words = "" if rows[k][last] == "none" else reworded(str(rows[k][last]), units)
         table.add_row(*(number(rows[k][name] * unit[name].factor) for name in columns), words)

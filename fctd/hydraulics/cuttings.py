@@ -36,7 +36,7 @@ def slip_speed(cuttings: Cuttings, viscosity: ArrayLike, density: ArrayLike) -> 
     pull = 4 / 3 * GRAVITY * np.maximum(cuttings.density - density, 0.0) * cuttings.size
     slow = pull * cuttings.size / (40 * viscosity)
     between = (pull / 22 * np.sqrt(cuttings.size / (viscosity * density))) ** (2 / 3)
-    return np.minimum(np.minimum(slow, between), np.sqrt(pull / (1.5 * density)))
+    return np.asarray(np.minimum(np.minimum(slow, between), np.sqrt(pull / (1.5 * density))))
 
 
 def transport_ratio(

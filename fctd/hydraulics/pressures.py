@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fctd.arrays import Array
 from fctd.case.errors import InputError
@@ -21,7 +22,7 @@ from fctd.hydraulics.closed_forms import REGIMES, bore
 from fctd.hydraulics.cuttings import Cuttings, share_of_cuttings, transport_ratio
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.drillstring import String, lay_out
-from fctd.model.fluids import depth_at
+from fctd.model.fluids import SAME_PLACE, depth_at
 from fctd.model.pieces import TO_MD
 from fctd.model.string_in_hole import check_fit
 from fctd.model.wellbore import Wellbore, build_wellbore
@@ -29,7 +30,6 @@ from fctd.model.wellbore import Wellbore, build_wellbore
 if TYPE_CHECKING:
     import pandas as pd
 
-SHORTEST: Final = 1e-6  # [m]: two ends in one place
 PUMPED: Final = Quantity(dimension=FLOW, above=0.0, at_most=1.0, likely_units=FLOW_UNITS)
 SHARE: Final = Number(noun="a share", at_least=0.0, at_most=1.0)
 Row = dict[str, Any]
@@ -57,10 +57,17 @@ class Laid:
         return depth_at(self.hole, self.ends)
 
     @cached_property
-    def interval(self) -> Array:
+    def interval(self) -> NDArray[np.int64]:
         """Index (n,) of the interval of the hole beside each segment."""
         middle = 0.5 * (self.ends[1:] + self.ends[:-1])
         return np.minimum(np.searchsorted(self.hole.intervals[:, TO_MD], middle), len(self.hole.intervals) - 1)
+
+    @cached_property
+    def shoe(self) -> int | None:
+        """Index into ``ends`` of the last end of an interval above the bit, None where there is none."""
+        changes = self.hole.intervals[:-1, TO_MD]
+        found = np.flatnonzero((np.abs(self.ends[1:, None] - changes) < SAME_PLACE).any(axis=1))
+        return int(found[-1]) + 1 if len(found) else None
 
     def at_rest(self, md: Array) -> Array:
         """Pressures (k,) outside at measured depths [Pa], of mud at rest."""
@@ -90,11 +97,11 @@ def lay(case: Case, bit_depth: float, eccentricity: float = 0.0) -> Laid:
     check_fit(string, hole, bit_depth)
     ends = string.top_md + np.cumsum(string.length)
     changes = hole.intervals[:-1, TO_MD]
-    changes = changes[(changes > string.top_md + SHORTEST) & (changes < bit_depth - SHORTEST)]
-    new = changes[(np.abs(changes[:, None] - ends) > SHORTEST).all(axis=1)]
+    changes = changes[(changes > string.top_md + SAME_PLACE) & (changes < bit_depth - SAME_PLACE)]
+    new = changes[(np.abs(changes[:, None] - ends) > SAME_PLACE).all(axis=1)]
     cut = np.sort(np.append(ends, new))
     cut[-1] = bit_depth
-    owner = string.component[np.searchsorted(ends, cut - SHORTEST)]
+    owner = string.component[np.searchsorted(ends, cut - SAME_PLACE)]
     string = replace(string, length=np.diff(cut, prepend=string.top_md), component=owner)
     return Laid(case, hole, string, channel_of(case, string, hole, eccentricity))
 
@@ -154,7 +161,7 @@ class Circulation:
             share = share_of_cuttings(self.cuttings, self.ratios, area, self.flow)
             heavier = share * (self.cuttings.density - laid.channel.annulus[:, -1]) * GRAVITY * np.diff(laid.depth)
             pressure[1:] += np.cumsum(heavier)
-        deep = laid.depth > SHORTEST
+        deep = laid.depth > SAME_PLACE
         return np.where(deep, pressure / (GRAVITY * np.where(deep, laid.depth, 1.0)), np.nan)
 
     def summary(self) -> Row:
@@ -162,13 +169,13 @@ class Circulation:
         area = self.laid.case.bit.nozzle_area
         jets = self.flow / area if area else np.nan
         drop, standpipe = self.circuit.bit_drop, self.standpipe
-        shoes = [k for k in range(1, len(self.laid.ends)) if self.laid.ends[k] in self.laid.hole.intervals[:-1, TO_MD]]
+        shoe = self.laid.shoe
         return {
             "flow_m3_s": self.flow, "bit_depth_m": self.laid.string.bit_depth, "standpipe_Pa": standpipe,
             "surface_drop_Pa": self.surface, "bore_drop_Pa": float(self.bores.sum()),
             "tool_drop_Pa": float(self.tools.sum()), "bit_drop_Pa": drop,
             "annulus_drop_Pa": float(self.circuit.outside[-1]),
-            "ecd_shoe_kg_m3": float(self.equivalent[shoes[-1]]) if shoes else np.nan,
+            "ecd_shoe_kg_m3": np.nan if shoe is None else float(self.equivalent[shoe]),
             "ecd_bit_kg_m3": float(self.equivalent[-1]),
             "bit_power_W": drop * self.flow, "pump_power_W": standpipe * self.flow,
             "impact_force_N": float(self.laid.channel.bore[-1, -1]) * self.flow * jets, "jet_speed_m_s": jets,
@@ -212,7 +219,7 @@ class Circulation:
         }  # fmt: skip
 
 
-def _runs(values: Array) -> list[tuple[int, int]]:
+def _runs(values: Array | NDArray[np.int64]) -> list[tuple[int, int]]:
     """First and last index of every run of equal values."""
     starts = np.flatnonzero(np.diff(values, prepend=values[0] - 1))
     return list(zip(starts.tolist(), [*(starts[1:] - 1).tolist(), len(values) - 1], strict=True))

@@ -19,7 +19,6 @@ from fctd.hydraulics.closed_forms import REGIMES
 from fctd.hydraulics.pressures import Laid, Progress, Row, check_flows, lay
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.fluids import depth_at
-from fctd.model.pieces import TO_MD
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -211,11 +210,9 @@ def _laid(
 def _moved(trip: Trip, speed: float) -> Row:
     circuit, laid = trip.moved(speed), trip.laid
     surge, depth = float(circuit.outside[-1]), float(laid.depth[-1])
-    ends = laid.hole.intervals[:-1, TO_MD]
-    shoes = [k for k in range(1, len(laid.ends)) if laid.ends[k] in ends]
     rest = float(laid.at_rest(laid.ends[-1:])[0])
     return {
-        "surge_Pa": surge, "shoe_surge_Pa": float(circuit.outside[shoes[-1]]) if shoes else np.nan,
+        "surge_Pa": surge, "shoe_surge_Pa": np.nan if laid.shoe is None else float(circuit.outside[laid.shoe]),
         "density_bit_kg_m3": (rest + surge) / (GRAVITY * depth) if depth > 0 else np.nan,
         "into_bore_m3_s": -circuit.bore_flow, "regime": REGIMES[int(circuit.annulus.regime.max())],
         "lift_N": circuit.lift,

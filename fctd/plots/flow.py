@@ -10,8 +10,10 @@ import pandas as pd
 from fctd.case.load import Case
 from fctd.hydraulics.pressures import Circulation
 from fctd.plots.depth_panels import Curve, Panel, Panels
+from fctd.plots.palette import PALETTE
 from fctd.results.unit_systems import Shown, System, shown
 
+BLACK: Final = list(PALETTE).index("black")
 # The pressures of a row, of which the picture has a curve each.
 PRESSURES: Final = {
     "standpipe_Pa": "standpipe", "surface_drop_Pa": "surface lines", "bore_drop_Pa": "bore", "tool_drop_Pa": "tools",
@@ -38,19 +40,21 @@ def losses_panels(table: pd.DataFrame, last: Circulation, units: System, lines: 
         label, place = "friction pressure", "measured depth"
     else:
         pressures, dense = [], []
-        for dash, (flow, of) in enumerate(found.groupby("flow_m3_s", sort=False)):
+        for dash, flow in enumerate(dict.fromkeys(found["flow_m3_s"].tolist())):
+            of = found[found["flow_m3_s"] == flow]
             depth = of["bit_depth_m"].to_numpy(float) * metre.factor
-            at = f" at {_words(float(flow), 'flow_m3_s', units)}"
             for colour, (name, words) in enumerate(PRESSURES.items()):
                 if (of[name] > 0).any():
                     values = of[name].to_numpy(float) * bar.factor
-                    pressures.append(Curve(values, depth, words + at, colour, dash))
+                    pressures.append(Curve(values, depth, words, colour, dash))
             for colour, (name, words) in enumerate(
                 (("ecd_bit_kg_m3", "at the bit"), ("ecd_shoe_kg_m3", "at the shoe"))
             ):
                 if of[name].notna().any():
                     values = of[name].to_numpy(float) * density.factor
-                    dense.append(Curve(values, depth, f"equivalent density {words}{at}", colour, dash))
+                    dense.append(Curve(values, depth, f"equivalent density {words}", colour, dash))
+            # Without points, for the legend: a flow has a dash.
+            dense.append(Curve(np.zeros(0), np.zeros(0), _words(flow, "flow_m3_s", units), BLACK, dash))
         label, place = "pressure", "bit depth"
     panels = [
         Panel(f"{label}, {bar.label}", pressures),
@@ -71,8 +75,8 @@ def surge_panels(
     colour = count()
     for (kind, end), of in surges[surges["reason"] == "none"].groupby(["operation", "end"], sort=False):
         place = next(colour)
-        for dash, (rate, at) in enumerate(of.groupby("speed_m_s", sort=False)):
-            words = f"{kind}, {end} end, {_words(float(rate), 'speed_m_s', units)}"
+        for dash, rate in enumerate(dict.fromkeys(of["speed_m_s"].tolist())):
+            at, words = of[of["speed_m_s"] == rate], f"{kind}, {end} end, {_words(rate, 'speed_m_s', units)}"
             depth = at["bit_depth_m"].to_numpy(float) * metre.factor
             surge.append(Curve(at["surge_Pa"].to_numpy(float) * bar.factor, depth, words, place, dash))
         if fastest is not None:

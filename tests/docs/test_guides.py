@@ -47,6 +47,7 @@ PRINTED = {
     "README.md": ["converged", "contact_angle_deg"],
     "calibrate.md": ["friction.cased", "inside95"],
     "adding_a_contact_method.md": ["completed straight_down"],
+    "hydraulics.md": ["standpipe_Pa", "fastest_m_s"],
     "monitor.md": ["friction_low", "the apparent friction factor is"],
     "references.md": ["valid 42", "settled hook load"],
     "steady.md": ["converged", "trip_out", "weight_on_bit_N"],
@@ -150,7 +151,7 @@ def run_command(command: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> 
     monkeypatch.setattr(sys, "argv", [program, *shlex.split(shorter(command).removeprefix(f".venv/bin/{program} "))])
     with exit_code_0():
         main.run(PROGRAMS[program])
-    for target in re.findall(r"--(?:out|plot|plot-profile|plot-feeding|table|png) (\S+)", command):
+    for target in re.findall(r"--(?:out|parts|trips|plot|plot-profile|plot-feeding|table|png) (\S+)", command):
         assert (folder / target).exists()
 
 

@@ -4,13 +4,15 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.rheology import Rheology
 from fctd.hydraulics.closed_forms import annulus
 from fctd.hydraulics.cuttings import Cuttings
-from fctd.hydraulics.pressures import Circulation, circulation, lay, pressure_losses
+from fctd.hydraulics.pressures import circulation, lay, pressure_losses
 from tests.cases import make_case, pipe
 
 G, PSI, INCH, GPM, PPG = 9.80665, 6894.757, 0.0254, 6.30902e-5, 119.8264
@@ -116,8 +118,10 @@ def test_what_cannot_be_pumped_is_told_in_a_sentence(
     assert "\n" not in str(caught.value)
 
 
-def test_a_laid_string_keeps_its_length_where_it_is_cut() -> None:
-    laid = lay(well(), 1000.0)
-    assert laid.string.length.sum() == pytest.approx(1000.0)
-    assert 333.0 in laid.ends
-    assert isinstance(Circulation(laid, 0.0, circulation(well(), FLOW, 1000.0).circuit).surface, float)
+@given(st.floats(50.0, 1000.0))
+def test_a_laid_string_keeps_its_length_and_finds_the_shoe(bit_depth: float) -> None:
+    laid = lay(well(), bit_depth)
+    assert laid.string.length.sum() == pytest.approx(bit_depth)
+    assert (laid.shoe is None) == (bit_depth < 333.0 - 1e-6)
+    if laid.shoe is not None:
+        assert laid.ends[laid.shoe] == pytest.approx(333.0, abs=1e-6)

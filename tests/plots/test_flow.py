@@ -24,11 +24,13 @@ def case() -> Case:
 def test_losses_over_depths() -> None:
     table = pressure_losses(case(), [0.02, 0.03], DEPTHS)
     panels = losses_panels(table, circulation(case(), 0.03, 3000.0), "si")
-    curves = {curve.name: curve for curve in panels.panels[0].curves}
+    slow, fast = (curve for curve in panels.panels[0].curves if curve.name == "standpipe")
     first = table[table["flow_m3_s"] == 0.02]
-    assert curves["standpipe at 1200 L/min"].value == pytest.approx(first["standpipe_Pa"].to_numpy() / 1e5)
-    assert curves["standpipe at 1200 L/min"].depth.tolist() == DEPTHS
-    assert curves["bit at 1800 L/min"].dash != curves["bit at 1200 L/min"].dash
+    assert slow.value == pytest.approx(first["standpipe_Pa"].to_numpy() / 1e5)
+    assert slow.depth.tolist() == DEPTHS
+    dashes = {curve.name: curve.dash for curve in panels.panels[1].curves if not len(curve.depth)}
+    assert dashes == {"1200 L/min": slow.dash, "1800 L/min": fast.dash}
+    assert slow.dash != fast.dash
     assert {"pore", "fracture"} < {curve.name for curve in panels.panels[1].curves}
 
 
