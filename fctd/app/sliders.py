@@ -12,11 +12,13 @@ from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.case.raw_case import scaled_static
 from fctd.case.units import conversion
+from fctd.hydraulics.channel import has_flow_curve
 from fctd.model.drillstring import lay_out
 from fctd.model.layouts import is_cut
 from fctd.results.unit_systems import System
 
 RPM: Final = "rpm"
+FLOW: Final = "flow"
 # SI unit, shown units, step and usual ends [shown], by system.
 Scale = tuple[str, str, float, float, float]
 SCALES: Final[dict[str, dict[System, Scale]]] = {
@@ -27,9 +29,10 @@ SCALES: Final[dict[str, dict[System, Scale]]] = {
     "wob": {"si": ("N", "kN", 5.0, 0.0, 300.0), "field": ("N", "klbf", 1.0, 0.0, 70.0)},
     "bit_torque": {"si": ("N*m", "kN*m", 0.5, 0.0, 30.0), "field": ("N*m", "kft*lbf", 0.5, 0.0, 22.0)},
     RPM: {"si": ("", "", 5.0, 5.0, 240.0), "field": ("", "", 5.0, 5.0, 240.0)},
+    FLOW: {"si": ("m^3/s", "L/min", 50.0, 0.0, 4000.0), "field": ("m^3/s", "gallon/min", 10.0, 0.0, 1100.0)},
     "segment": {"si": ("m", "m", 1.0, 5.0, 60.0), "field": ("m", "ft", 2.0, 16.0, 200.0)},
 }  # fmt: skip
-LABELS: Final = {"kg/m^3": "kg/m³", "lb/gal": "ppg", "kN*m": "kN·m", "kft*lbf": "kft·lbf", "": ""}
+LABELS: Final = {"kg/m^3": "kg/m³", "lb/gal": "ppg", "kN*m": "kN·m", "kft*lbf": "kft·lbf", "gallon/min": "gpm", "": ""}
 KIND_LABELS: Final = {"cased": "friction, cased", "open": "friction, open hole", None: "friction"}
 
 
@@ -69,12 +72,15 @@ def sliders_of(case: Case, units: System) -> list[Slider]:
     turning = [operation.rpm for operation in case.operations if KINDS[operation.kind].turns]
     rpm = float(turning[0] if turning else KINDS["rotate_off_bottom"].default_rpm)
     length = float(f"{_segment_length(case):.3g}")
+    flow = max((operation.flow for operation in case.operations), default=0.0)
+    of_flow = [(FLOW, "flow of the pumps", flow)] if has_flow_curve(case) else []
     of_mud = [] if case.mud.inside and case.mud.outside else [("mud", "mud density", case.mud.density)]
     for name, label, value in (
         *of_mud,
         ("wob", "weight on bit", case.bit.weight_on_bit),
         ("bit_torque", "bit torque", case.bit.torque),
         (RPM, "rotation", rpm),
+        *of_flow,
         ("segment", "segment length", length),
     ):
         found.append(_slider(name, label, name, value, units))
@@ -111,6 +117,8 @@ def changes(
             for i, operation in enumerate(case.operations):
                 if KINDS[operation.kind].turns:
                     found[f"operations[{i}].rpm"] = value
+        elif name == FLOW:
+            found |= {f"operations[{i}].flow": value for i in range(len(case.operations))}
         elif name == "segment":
             for i, part in enumerate(case.string.components):
                 if is_cut(part):
@@ -121,13 +129,18 @@ def changes(
     return found
 
 
-def turning_at(case: Case, rpm: float) -> Case:
-    """The case with operations of all kinds that turn the string, at a rotation [rev/min], for steady strings alone."""
+def rates_at(case: Case, rpm: float, flow: float) -> Case:
+    """The case with operations of all kinds, those that turn at a rotation [rev/min], for steady strings alone.
+
+    flow : of the pumps [m³/s].
+    """
     here = {operation.kind for operation in case.operations}
     more: Any = tuple(
-        kind.model_construct(kind=name, rpm=rpm, speed=kind.default_speed)
+        kind.model_construct(
+            kind=name, rpm=rpm if kind.turns else kind.default_rpm, speed=kind.default_speed, flow=flow
+        )
         for name, kind in KINDS.items()
-        if kind.turns and name not in here
+        if name not in here
     )
     return case.model_copy(update={"operations": (*case.operations, *more)})
 

@@ -16,7 +16,7 @@ from fctd.app import charts, scenes
 from fctd.app.case_text import SourceCase
 from fctd.app.rows import Rows
 from fctd.app.sessions import Source
-from fctd.app.sliders import RPM, changes, sliders_of, turning_at
+from fctd.app.sliders import FLOW, RPM, changes, rates_at, sliders_of
 from fctd.calibration.measured import read_measured
 from fctd.case.errors import InputError
 from fctd.case.friction import table_of
@@ -68,8 +68,10 @@ class Well:
         key = json.dumps(values, sort_keys=True)
         if key != self._last[0]:
             case = self.read.changed(self.overrides(values))
-            rpm = next((slider for slider in self.sliders if slider.name == RPM and RPM in values), None)
-            case = case if rpm is None else turning_at(case, rpm.check(values[RPM]))
+            rates = {slider.name: slider for slider in self.sliders if slider.name in (RPM, FLOW)}
+            if rates.keys() & values.keys():
+                shown_at = {name: of.check(values.get(name, of.value)) * of.factor for name, of in rates.items()}
+                case = rates_at(case, shown_at[RPM], shown_at.get(FLOW, 0.0))
             # No slider moves the hole: its wall alone changes.
             self._last = key, case, self.hole.with_friction(table_of(case.wellbore.intervals))
         return self._last[1]

@@ -34,7 +34,7 @@ from fctd.cli.options import (
 )
 from fctd.cli.pictures import PICTURE_HELP, draw_panels
 from fctd.cli.steady import Units, check_targets, file_option, in_units, metadata_of_case, row_bar
-from fctd.hydraulics.closed_forms import TURBULENT
+from fctd.hydraulics.closed_forms import TURBULENT, YIELDING
 from fctd.hydraulics.cuttings import Cuttings
 from fctd.hydraulics.pressures import PUMPED, Circulation, circulations
 from fctd.results.unit_systems import System, reworded, shown
@@ -50,8 +50,6 @@ SHOWN: Final = {
     "tool_drop_Pa": "tools", "bit_drop_Pa": "at the bit", "annulus_drop_Pa": "annulus",
     "ecd_shoe_kg_m3": "ECD, shoe", "ecd_bit_kg_m3": "ECD, bit",
 }  # fmt: skip
-# Share of the yield stress in the stress at the wall above which RP 13D is more than 2.5 % high.
-YIELDING: Final = 0.3
 
 Flows = Annotated[
     list[str],

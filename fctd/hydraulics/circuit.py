@@ -12,7 +12,7 @@ import numpy as np
 from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.hydraulics.channel import Channel, has_flow_curve
-from fctd.hydraulics.closed_forms import Loss
+from fctd.hydraulics.closed_forms import TURBULENT, YIELDING, Loss
 
 
 @dataclass(frozen=True)
@@ -33,6 +33,13 @@ class Circuit:
     bore_flow: float
     bit_drop: float
     given: Array
+
+    @property
+    def doubted(self) -> float:
+        """Lift where much of the stress at the wall of the annulus is yield stress [N]: RP 13D is too high there."""
+        loss = self.annulus
+        yields = (loss.yield_share > YIELDING) & (loss.regime < TURBULENT)
+        return float(np.abs(self.given[yields]).sum())
 
     @property
     def lift(self) -> float:

@@ -20,6 +20,8 @@ from fctd.model.mud import FULL, filled
 LAMINAR: Final = 0
 TRANSITIONAL: Final = 1
 TURBULENT: Final = 2
+# Share of the yield stress in the stress at a wall above which the laminar law is more than 2.5 % too high.
+YIELDING: Final = 0.3
 REGIMES: Final = ("laminar", "transitional", "turbulent")
 # Reynolds number below which the laminar law alone is left, and one above all flow: powers stay within floats.
 SLOWEST, FASTEST = 1.0, 1e20

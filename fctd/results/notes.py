@@ -20,6 +20,9 @@ from fctd.results.buckling import Buckling
 from fctd.results.limits import LIMITS, Place, place_of
 from fctd.results.profile import place_in_words
 
+# By how much RP 13D's laminar law may be too high for a mud that mostly yields (study annular_flow), and the share of a
+# string's weight that is worth a note.
+LAW_OFF, HARDLY = 0.4, 0.01
 FULL: Final = LimitsSpec()  # all of each capacity may be used
 # Codes of notes on what string and rig bear, whose probability a sweep tells.
 BORNE: Final = (*(limit.code for limit in LIMITS), "hoist", "drive", "slips")
@@ -49,6 +52,10 @@ MEANINGS: Final = {
     "homogenised": Meaning(
         "the waves of the buckled string are homogenised: mean wall force and friction of the closed forms",
         "raise solver.resolve_work where the shape itself matters, or use smaller loads",
+    ),
+    "flow_law": Meaning(
+        "the pull of the mud along the string is uncertain, since most of the stress at its walls is yield stress",
+        "check the readings at 6 and 3 rev/min (mud.fann), or move or pump faster",
     ),
     "tortuosity": Meaning("the segments are too long to follow the hole's tortuosity", "use shorter segments"),
     "wall": Meaning(
@@ -122,6 +129,13 @@ class Note:
 def note_of(code: str, text: str, excess: float, place: float | None = None) -> Note:
     """A note with the remedy of its code."""
     return Note(code, text, MEANINGS[code].remedy, place, excess)
+
+
+def flow_law(doubted: float, weight: float) -> Note | None:
+    """The note on a lift [N] by a law that is up to ``LAW_OFF`` too high, beside a string of a weight [N]."""
+    off = LAW_OFF * doubted
+    text = f"the pull of the mud along the string may be {off / 1e3:.0f} kN too large"
+    return note_beyond("flow_law", text, off, HARDLY * weight)
 
 
 def note_beyond(code: str, text: str, value: float, bound: float) -> Note | None:

@@ -21,6 +21,8 @@ from fctd.model.wellbore import Wellbore
 
 # Speed of a string that rests or creeps, for the drag on its swings [m/s]: a yield stress would hold it without limit.
 SLOWEST: Final = 0.05
+# For so long a string is taken to lie where it does [s], for the eccentricity of its annulus.
+LIE_LASTS: Final = 10.0
 
 
 def pumps(case: Case) -> bool:
@@ -33,18 +35,24 @@ def is_driven(case: Case) -> bool:
     return pumps(case) or (case.mud.axial_damping is None and has_flow_curve(case))
 
 
-def let_flow(
-    S: Array, case: Case, string: String, hole: Wellbore, pipe: PerMetre, motion: Motion, at: float, *,
-    in_derrick: bool = False,
-) -> tuple[PerMetre, Circuit]:  # fmt: skip
-    """Write the loads of the flow at a time of a motion [s] into a state; returns the pipe at the top, and the flow.
-
-    string : laid out at its present depth; in_derrick : whether its upper part is in air (derrick.py).
-    """
+def rates_at(motion: Motion, at: float) -> tuple[float, float]:
+    """Feed downwards [m/s] and flow of the pumps [m³/s] at a time of a motion [s]."""
     feed, flow = (
         smooth_step(at, motion.start, motion.duration, *ends)
         for ends in ((motion.feed_from, motion.feed_to), (motion.flow_from, motion.flow_to))
     )
+    return feed, flow
+
+
+def let_flow(
+    S: Array, case: Case, string: String, hole: Wellbore, pipe: PerMetre, feed: float, flow: float, *,
+    in_derrick: bool = False,
+) -> tuple[PerMetre, Circuit]:  # fmt: skip
+    """Write the loads of the flow into a state; returns the pipe at the top, and the flow.
+
+    string : laid out at its present depth; feed [m/s], flow [m³/s] : of ``rates_at``; in_derrick : whether its upper
+    part is in air (derrick.py).
+    """
     n, given = string.segments, case.mud.eccentricity
     channel = channel_of(case, string, hole, lie_of(S, string) if isinstance(given, str) else given)
     found = resting = circulate(channel, flow)

@@ -60,7 +60,7 @@ class Guards(Restorable):
         self.notes: dict[str, Note] = {}
         self.seconds = self.residual = self.work = 0.0
         self.swing = 0.0, 0.0
-        self._worst, self._judged = np.empty((len(LIMITS), WORST)), (run.string, run.circuit, *self._constants())
+        self._worst, self._judged = np.empty((len(LIMITS), WORST)), (run.string, run.flow_pressures, *self._constants())
         # Reading the compiled code from disk, or compiling it, is no part of the checks' time.
         n = run.segments
         is_sound(run.S, n)
@@ -135,8 +135,8 @@ class Guards(Restorable):
         """The notes on the string's limits."""
         run, string = self.run, self.run.string
         # Another string at each record where it hangs from a block, and another flow where mud flows; else never.
-        if string is not self._judged[0] or run.circuit is not self._judged[1]:
-            self._judged = string, run.circuit, *self._constants()
+        if string is not self._judged[0] or run.flow_pressures is not self._judged[1]:
+            self._judged = string, run.flow_pressures, *self._constants()
         hanging = hanging_along(run.hole, string, loads, walls.md, run.case.contact.enabled)
         beyond = find_shares(
             loads.tension, loads.torque, hanging, loads.bit_tension, loads.bit_torque, hookload, walls.offset,

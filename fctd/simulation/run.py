@@ -1,13 +1,12 @@
 """The string of a case in motion."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.case.operations import Operation
-from fctd.hydraulics.circuit import Circuit
 from fctd.mechanics import state
 from fctd.mechanics.moving_string import STILL, MovingString
 from fctd.mechanics.topdrive import Motion
@@ -15,7 +14,7 @@ from fctd.model.drillstring import String
 from fctd.model.string_in_hole import excess_pressure
 from fctd.model.wellbore import Wellbore
 from fctd.simulation.carried_mud import take_along
-from fctd.simulation.flowing_mud import is_driven, let_flow
+from fctd.simulation.flowing_mud import LIE_LASTS, is_driven, let_flow, rates_at
 from fctd.simulation.upper_end import UpperEnd
 from fctd.store.facts import Facts, Restorable
 
@@ -25,16 +24,19 @@ class Run(MovingString, Restorable):
     """The string of a case in motion, with the case, the hole and the string it was built from.
 
     upper_end : what feeds or holds it.  mud_at : bit depth [m], segments and rotation [rev/min] to which the mud that
-    moves along belongs.  circuit : of the mud that flows past the string, None where none does.
+    moves along belongs; flow_at : whole bit depth [m], segments, feed [m/s], flow [m³/s] and stretch of time to which
+    the mud that flows belongs.  flow_pressures (3, k) : distances from the bit [m], and what flow adds to the pressures
+    inside and outside there [Pa]; (3, 0) where none flows.
     """
 
-    FACTS = ("top", "owner", "steps", "segments", "pipe", "mud_at", "upper_end")
+    FACTS = ("top", "owner", "steps", "segments", "pipe", "mud_at", "flow_at", "flow_pressures", "upper_end")
     case: Case
     hole: Wellbore
     string: String
     upper_end: UpperEnd
     mud_at: tuple[float, int, float] | None = None
-    circuit: Circuit | None = None
+    flow_at: tuple[float, ...] = ()
+    flow_pressures: Array = field(default_factory=lambda: np.zeros((3, 0)))
 
     @property
     def bit_depth(self) -> float:
@@ -65,11 +67,19 @@ class Run(MovingString, Restorable):
 
     def let_mud_flow(self, motion: Motion, until: float) -> None:
         """Update what mud that is pumped, and mud that the string displaces, do to it until a time [s]."""
-        if is_driven(self.case):
-            self.pipe, self.circuit = let_flow(
-                self.S, self.case, self.laid_out, self.hole, self.pipe, motion, 0.5 * (self.time + until),
-                in_derrick=self.upper_end.in_derrick,
-            )  # fmt: skip
+        if not is_driven(self.case):
+            return
+        feed, flow = rates_at(motion, 0.5 * (self.time + until))
+        # Along a metre of the hole it hardly changes; where the string lies may change wherever it is.
+        stretch = self.time // LIE_LASTS if self.case.mud.eccentricity == "string" else 0.0
+        now = (float(round(self.bit_depth)), float(self.segments), feed, flow, stretch)
+        if now == self.flow_at:
+            return
+        self.pipe, circuit = let_flow(
+            self.S, self.case, self.laid_out, self.hole, self.pipe, feed, flow, in_derrick=self.upper_end.in_derrick
+        )
+        self.flow_at = now
+        self.flow_pressures = np.stack([circuit.above, circuit.inside, circuit.outside])
 
     def excess_pressure(self) -> Array:
         """Pressure inside less that outside (n + 1,) [Pa], at the top of the string and at its contact points."""
@@ -79,7 +89,11 @@ class Run(MovingString, Restorable):
     @property
     def friction(self) -> tuple[Array, Array] | None:
         """What flow adds to the pressures inside and outside there (n + 1,) [Pa]; None where no mud flows."""
-        return None if self.circuit is None else self.circuit.pressures(self.string.contacts_above)
+        above, *sides = self.flow_pressures
+        if not len(above):
+            return None
+        inside, outside = (np.interp(-self.string.contacts_above, -above, side) for side in sides)
+        return inside, outside
 
     def facts(self) -> Facts:
         """See ``Restorable.facts``: what does not follow from the case, which is prepared anew.

@@ -21,7 +21,7 @@ from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling
 from fctd.results.columns import IN_CHART, Column
 from fctd.results.display import MAIN, html_table, load_rows
 from fctd.results.limits import WORST
-from fctd.results.notes import Note, homogenised, limit_notes, rig_notes
+from fctd.results.notes import Note, flow_law, homogenised, limit_notes, rig_notes
 from fctd.results.profile import profile_table
 from fctd.results.status import SteadyStatus
 from fctd.steady.continuation import CONVERGED, NOT_FINITE
@@ -165,6 +165,9 @@ class Equilibrium:
         found = rig_notes(self.case.rig, self.case.limits, self.weight_indicator, self.drive_torque, top, hanging)
         if shape.numbers[NOTED] or not self.case.limits.all_used:
             found = (*limit_notes(self.shares, string, shape.walls, self.case.limits), *found)
+        if (circuit := shape.laid.circuit) is not None:
+            law = flow_law(circuit.doubted, float(string.weight @ string.length))
+            found = found if law is None else (*found, law)
         if self.method != HOMOGENISED:
             return found
         # How deep its long segments lie in the wall says nothing of the string's waves.

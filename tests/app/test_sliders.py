@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fctd.app.case_text import SourceCase
-from fctd.app.sliders import changes, sliders_of, turning_at
+from fctd.app.sliders import changes, rates_at, sliders_of
 from fctd.case.errors import InputError
 from fctd.model.operations import rad_per_s, steady_rates
 from tests.app.made import TEXT, source
@@ -63,11 +63,20 @@ def test_every_slider_changes_its_keys(read: SourceCase) -> None:
     assert case.operations[0].rpm == 120
     assert [part.segment_length for part in case.string.components] == [12, 12]
     assert SourceCase(source(read.text(found)), read.folder).case.model_dump() == case.model_dump()
-    turned = turning_at(case, 120)
+    turned = rates_at(case, 120, 0.03)
     for kind in ("rotate_off_bottom", "drill_rotating", "back_ream"):
         assert steady_rates(turned, kind).spin == pytest.approx(rad_per_s(120))
     assert steady_rates(turned, "trip_in").spin == 0
     assert steady_rates(turned, "back_ream").speed == pytest.approx(-0.1)  # the kind's own
+    assert {steady_rates(turned, kind).flow for kind in ("back_ream", "trip_in", "drill_sliding")} == {0.03}
+
+
+def test_flow_has_a_slider_where_the_case_says_how_its_mud_flows(read: SourceCase) -> None:
+    viscous = read.changed({"mud.viscosity": 0.03, "operations[0].flow": "1800 L/min"})
+    sliders = sliders_of(viscous, "si")
+    (flow,) = (slider for slider in sliders if slider.name == "flow")
+    assert (flow.value, flow.unit) == (1800, "L/min")
+    assert changes(viscous, read.raw, sliders, {"flow": 2400})["operations[0].flow"] == pytest.approx(0.04)
 
 
 def test_resolved_joints_keep_their_segments() -> None:

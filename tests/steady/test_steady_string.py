@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 
+from fctd import equilibrium
 from fctd.steady.balance import ATTEMPTS, balance
 from fctd.steady.continuation import CONVERGED, MAX_ITERATIONS, NOT_FINITE
 from fctd.steady.steady_string import Equilibrium, steady_string
+from tests.cases import make_case
 from tests.steady.buckled import level_case, problem_of
 
 
@@ -47,3 +49,16 @@ def test_an_iteration_that_found_no_balance_has_no_loads(code: int, status: str)
     # It says how the iterations ended, and nothing of what the string may do.
     assert "may" not in lost.message
     assert np.isnan(lost.without_loads().hookload)
+
+
+def test_a_pull_of_the_mud_that_is_mostly_yield_stress_is_noted() -> None:
+    """Where 0.4 of it, by which the law may be too high, is more than a hundredth of the string's weight."""
+    found = {}
+    for least in (2.0, 30.0):
+        mud = {"density": 1200.0, "rheology": {"plastic_viscosity": 0.03, "yield_point": least}}
+        case = make_case([[0, 0, 0], [1000, 0, 0]], mud=mud, bit={"end": "closed"})
+        found[least] = equilibrium(case, "trip_in", 900.0, speed=0.2)
+    assert not found[2.0].notes
+    (note,) = found[30.0].notes
+    assert note.code == "flow_law"
+    assert note.text == f"the pull of the mud along the string may be {0.4 * found[30.0].lift / 1e3:.0f} kN too large"

@@ -65,6 +65,7 @@ STUDIES: dict[str, str] = {
     "calibration": "validation.studies.calibration",
     "monitoring": "validation.studies.monitoring",
     "monitoring_f4": "validation.studies.monitoring_f4",
+    "pumps_on_and_off": "validation.studies.pumps_on_and_off",
     "sweep": "validation.studies.sweep",
     "ladder": "validation.studies.ladder.study",
 }
