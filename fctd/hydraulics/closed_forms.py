@@ -25,6 +25,11 @@ YIELDING: Final = 0.3
 REGIMES: Final = ("laminar", "transitional", "turbulent")
 # Reynolds number below which the laminar law alone is left, and one above all flow: powers stay within floats.
 SLOWEST, FASTEST = 1.0, 1e20
+# Of a wall that moves: the shear rate that it gives to the mud over speed and gap, and within how much of it the yield
+# stress turns its sign.  Against exact laminar flow, 400 random annuli with a ratio of radii above 0.45, they leave
+# errors of 1 % in the mean of a closed pipe, and of a tenth of the stress where flow and drag cancel.
+SHEARED, SMOOTH = 2.0, 0.3
+STRAIGHT: Final = 1e-4  # power of a velocity that is as good as that of a Newtonian mud
 # Indices for which the factors of eccentricity are fitted.
 FITTED = 0.4, 1.0
 
@@ -44,7 +49,10 @@ class Loss(NamedTuple):
 
 
 class _Wall(NamedTuple):
-    """Stress at the wall: signed [Pa], its rise above the laminar one, shear rate [1/s], Reynolds number and limits."""
+    """Stress at the wall: signed [Pa], its rise above the laminar one, shear rate [1/s], Reynolds number and limits.
+
+    yield_share : of the yield stress in the larger of the stresses of two walls.
+    """
 
     stress: Array
     rise: Array
@@ -82,8 +90,9 @@ def annulus(
 
     density [kg/m³]; speed : of the pipe, downwards [m/s]; eccentricity : offset over clearance, 0 to 1.
 
-    A moving pipe acts on the pressure by its clinging constant, exact in laminar Newtonian flow (Burkhardt 1961), and
-    drags mud along, for which other muds have their apparent viscosity at the sum of the shear rates of flow and drag.
+    A moving pipe acts on the pressure by its clinging constant (Burkhardt 1961), and shears the mud at both walls,
+    which takes stress off where flow and drag cancel.  It drags mud along, for which other muds than Newtonian ones
+    have their apparent viscosity at the sum of the shear rates of flow and drag.
     Turbulent flow has the ratio of lift and gradient that laminar flow in the same annulus has.  An eccentric pipe
     lowers the gradient by the factor of Haciislamoglu & Cartalos 1994, and what it bears of the shear is that of
     ``pull_square``; it drags mud along as a concentric one does.
@@ -92,9 +101,9 @@ def annulus(
     radius = filled(outer, wide, FULL) * wide
     widening = 2 * np.log(wide / radius)  # of area, its logarithm
     area = np.pi * radius**2 * np.expm1(widening)
-    velocity = np.asarray(flow) / area + clinging(radius / wide) * np.asarray(speed)
+    velocity = np.asarray(flow) / area + clinging(radius / wide, rheology.index) * np.asarray(speed)
     width = 2 * (wide - radius)
-    wall = _wall(velocity, width, rheology, density, slot=1)
+    wall = _wall(velocity, width, rheology, density, slot=1, speed=speed)
     gradient = 4 * wall.stress / width * _eccentric(radius / wide, eccentricity, rheology, wall)
     drag = 2 * np.asarray(speed) / (radius * widening)
     rate = wall.rate + np.abs(drag)
@@ -104,31 +113,55 @@ def annulus(
     return Loss(*np.broadcast_arrays(gradient, lift, wall.regime, wall.yield_share))
 
 
-def clinging(ratio: ArrayLike) -> Array:
+def clinging(ratio: ArrayLike, index: ArrayLike = 1.0) -> Array:
     """Share of a pipe's speed that counts as speed of the mud, for the ratio of radii of pipe and hole (0 to 1).
 
-    Exact in laminar flow of a Newtonian mud in a concentric annulus.
+    Exact for mud that the pipe alone moves, of a power law with an index, laminar and concentric; a Newtonian one is
+    exact in any laminar flow.
     """
     widening = -2 * np.log(np.asarray(ratio, float))
-    return np.asarray(1 / widening - 1 / np.expm1(widening))
+    power = 0.5 * (1 - 1 / np.asarray(index, float)) * widening  # velocity falls with a power of the radius
+    newtonian = np.abs(power) < STRAIGHT
+    exponent = np.where(newtonian, -1.0, power)
+    shape = _mean_power(exponent + widening) / _mean_power(widening) - 1
+    return np.where(newtonian, 1 / widening - 1 / np.expm1(widening), shape / np.expm1(-exponent))
 
 
-def _wall(velocity: Array, width: Array, rheology: Rheology, density: ArrayLike, slot: int) -> _Wall:
-    """Stress at walls that are `width` apart [m], of a round bore (slot 0) or a slot (slot 1, width twice its gap)."""
+def _mean_power(exponent: Array) -> Array:
+    """(1 − exp(−x))/x, 1 at 0."""
+    return np.divide(-np.expm1(-exponent), exponent, out=np.ones_like(exponent), where=exponent != 0)
+
+
+def _wall(
+    velocity: Array, width: Array, rheology: Rheology, density: ArrayLike, slot: int, speed: ArrayLike = 0.0
+) -> _Wall:
+    """Stress at walls that are `width` apart [m], of a round bore (slot 0) or a slot (slot 1, width twice its gap).
+
+    speed : of one of the walls [m/s].
+    """
     index, upper = rheology.index, rheology.upper_index
     shape = ((3 - slot) * index + 1) / ((4 - slot) * index) * (1 + 0.5 * slot)
-    rate = 8 * shape * np.abs(velocity) / width
+    rate, sheared = 8 * shape * velocity / width, SHEARED * 2 * np.abs(speed) / width
     yielding = ((4 - slot) / (3 - slot)) ** index * rheology.yield_stress
-    laminar = yielding + rheology.stress(rate) - rheology.yield_stress
-    sheared = np.where(laminar > 0, laminar, np.inf)
-    reynolds = 8 * np.asarray(density) * velocity**2 / sheared
+
+    def stress(at: Array) -> Array:
+        """Of a wall with a shear rate; the yield stress turns its sign smoothly where the other wall moves."""
+        size = np.hypot(at, SMOOTH * sheared)
+        turned = np.divide(at, size, out=np.zeros_like(size), where=size > 0)
+        return np.asarray(turned * yielding + np.sign(at) * rheology.consistency * np.abs(at) ** index)
+
+    laminar = 0.5 * (stress(rate + sheared) + stress(rate - sheared)) if np.any(sheared) else stress(rate)
+    against = np.where(laminar != 0, np.abs(laminar), np.inf)
+    reynolds = 8 * np.asarray(density) * velocity**2 / against
     limits = 3470 - 1370 * upper, 4270 - 1370 * upper
     number = np.clip(reynolds, SLOWEST, FASTEST)
     # Friction factors over the laminar one, 16 / number.
     transitional = (number / limits[0]) ** 2
     turbulent = (np.log10(upper) + 3.93) / 50 * number ** (1 - (1.75 - np.log10(upper)) / 7) / 16
     rise = (1 + (transitional**-8 + turbulent**-8) ** (-12 / 8)) ** (1 / 12)
-    return _Wall(np.sign(velocity) * laminar * rise, rise, rate, reynolds, limits, rheology.yield_stress / sheared)
+    most = yielding + rheology.consistency * (np.abs(rate) + sheared) ** index
+    share = np.where((rate != 0) | (sheared != 0), rheology.yield_stress / np.where(most > 0, most, np.inf), 0.0)
+    return _Wall(laminar * rise, rise, np.abs(rate), reynolds, limits, share)
 
 
 def _eccentric(ratio: Array, eccentricity: ArrayLike, rheology: Rheology, wall: _Wall) -> Array:

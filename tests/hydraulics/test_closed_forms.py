@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 
 from fctd.case.rheology import Rheology
 from fctd.hydraulics.closed_forms import LAMINAR, REGIMES, TRANSITIONAL, TURBULENT, Loss, annulus, bore, clinging
+from references.hydraulics.flow import Annulus, Mud
+from references.hydraulics.quadrature import solve
 
 INCH, FT, PSI, PPG, GPM, FANN = 0.0254, 0.3048, 6894.757, 119.8264, 6.30902e-5, 0.511
 PIPE, HOLE = 2.5 * INCH, 4.25 * INCH
@@ -82,7 +84,7 @@ def test_closed_pipe_pushes_mud_past_itself() -> None:
     newtonian = annulus(outer, hole, Rheology.newtonian(0.037), 1000.0, displaced, speed)
     assert newtonian.lift * 2000 == pytest.approx(25.6e3, rel=0.005)
     bingham = annulus(outer, hole, Rheology(6 * 0.4788, 0.037, 1.0), 15.5 * PPG, displaced, speed)
-    assert bingham.gradient * 6400 * FT / PSI == pytest.approx(91.0, abs=0.1)
+    assert bingham.gradient * 6400 * FT / PSI == pytest.approx(91.0, rel=0.002)
     assert (newtonian.regime.item(), bingham.regime.item()) == (LAMINAR, LAMINAR)
 
 
@@ -91,6 +93,32 @@ def test_turbulent_newtonian_flow_in_a_bore_is_blasiuss() -> None:
     found = bore(0.05, Rheology.newtonian(viscosity), density, np.pi * 0.05**2 * speed)
     friction = 0.0791 * (density * speed * 0.1 / viscosity) ** -0.25
     assert found.gradient == pytest.approx(2 * friction * density * speed**2 / 0.1, rel=0.01)
+
+
+@pytest.mark.parametrize("index", [0.4, 0.7, 1.0, 1 / 3])
+@pytest.mark.parametrize("ratio", [0.3, 0.6, 0.9])
+def test_clinging_constant_of_a_power_law(ratio: float, index: float) -> None:
+    """The mean velocity of mud that the pipe alone moves, by the trapezoidal rule: r τ is constant, γ ∝ r^(−1/n)."""
+    radius = np.linspace(ratio, 1.0, 20_001)
+    velocity = np.append(np.cumsum(0.5 * (radius[1:] ** (-1 / index) + radius[:-1] ** (-1 / index))[::-1])[::-1], 0.0)
+    mean = np.trapezoid(velocity / velocity[0] * radius, radius) * 2 / (1 - ratio**2)
+    assert clinging(ratio, index) == pytest.approx(mean, rel=1e-5)
+    assert clinging(ratio, 1 - 1e-9) == pytest.approx(float(clinging(ratio)), rel=1e-8)
+
+
+@pytest.mark.parametrize("mud", [MUD, Rheology(5.0, 0.1, 0.8), Rheology(0.0, 0.6, 0.5)])
+@pytest.mark.parametrize("ratio", [0.6, 0.85])
+def test_pressure_has_no_jump_where_flow_and_drag_cancel(mud: Rheology, ratio: float) -> None:
+    """From mud that a pipe alone moves to a closed pipe: exact to 0.4 of the stress at the walls, and 0.05 closed."""
+    exact, speed = Annulus(ratio * 0.1, 0.1), 0.5
+    flow = np.linspace(-float(clinging(ratio)) * exact.area * speed, exact.displaced * speed, 201)
+    found = annulus(exact.pipe, exact.hole, mud, 1e-6, flow, speed)
+    assert (np.diff(found.gradient) > 0).all()
+    assert np.diff(found.gradient).max() < 0.1 * found.gradient.max()
+    for k in range(0, 201, 20):
+        answer = solve(exact, Mud(*mud), float(flow[k]), speed)
+        full = 2 * max(abs(answer.pipe_stress), abs(answer.hole_stress)) / exact.gap
+        assert found.gradient[k] == pytest.approx(answer.gradient, abs=(0.05 if k == 200 else 0.4) * full)
 
 
 @dataclass(frozen=True)
