@@ -12,13 +12,14 @@ from pydantic import Field, PrivateAttr, field_validator, model_validator
 
 from fctd.case.doubts import warnings_of
 from fctd.case.drilling import BitSpec
-from fctd.case.errors import MISSING, InputError, Table, naming, nearest
+from fctd.case.errors import MISSING, InputError, Table, naming
 from fctd.case.file_names import FileName
 from fctd.case.fluids import TemperatureSpec, check_temperature
 from fctd.case.hole import WellboreSpec
 from fctd.case.input_file import read_toml
 from fctd.case.input_warnings import InputWarning
 from fctd.case.limits import LimitsSpec
+from fctd.case.operation_names import read_kind
 from fctd.case.operations import KINDS, Operation
 from fctd.case.raw_case import (
     apply_override,
@@ -71,17 +72,18 @@ class Case(Table):
     @field_validator("operations", mode="before")
     @classmethod
     def _fill_in_starts(cls, raw: Any) -> Any:
-        """Fill in the start depth of an operation that omits it: the end depth of the operation before."""
+        """Give an operation the kind that its name is of, and the start that it omits: the end of the one before."""
         if not isinstance(raw, list | tuple):
             return raw  # pydantic reports the wrong type
         filled = []
         end: object = MISSING
         for i, operation in enumerate(raw):
             if isinstance(operation, Mapping):
-                name = look_up(operation, "kind")
-                kind = KINDS.get(str(name))
-                if kind is None:
-                    raise InputError(nearest(name, KINDS, "kind"), key=f"[{i}].kind", value=name)
+                try:
+                    name = read_kind(look_up(operation, "kind"))
+                except InputError as error:
+                    raise error.at(f"[{i}].kind") from None
+                operation, kind = {**operation, "kind": name}, KINDS[name]
                 if end is not MISSING and look_up(operation, kind.start_key) is MISSING:
                     operation = {**operation, kind.start_key: end}
                 end = look_up(operation, kind.end_key)

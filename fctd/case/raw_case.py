@@ -14,6 +14,7 @@ from pydantic_core import ErrorDetails
 from fctd.case.errors import MISSING, InputError, join_key, naming
 from fctd.case.friction import pick, split_factor
 from fctd.case.input_file import read_toml
+from fctd.case.operation_names import kind_named
 from fctd.case.text import is_utf8
 
 # Keys of files: their names need not be UTF-8, and a typed one is relative to the current folder.
@@ -234,7 +235,8 @@ def _written_parts(path: Sequence[str | int], raw: object) -> Iterator[str | int
     """The parts of pydantic's path without the members of unions: the kind of a table, a type where no table stands."""
     place = raw
     for part in path:
-        of_union = place.get("kind") == part if isinstance(place, Mapping) else place is not MISSING
+        kind = place.get("kind") if isinstance(place, Mapping) else MISSING
+        of_union = part in (kind, kind_named(kind)) if isinstance(place, Mapping) else place is not MISSING
         if isinstance(part, int) or not of_union:
             yield part
             place = look_up(place, part)

@@ -10,6 +10,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from fctd.case.errors import InputError
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case
+from fctd.case.operation_names import USUAL, kinds_of, split_names
 from fctd.case.operations import KINDS
 from fctd.case.units import ROTATION, SPEED
 from fctd.cli.options import check_target, messages, read_quantity, screen
@@ -31,7 +32,7 @@ def _defaults(rate: str) -> str:
     return ", ".join(f"{name} {getattr(kind, rate):g}" for name, kind in KINDS.items() if getattr(kind, rate))
 
 
-KIND_HELP = f"Kind of operation: {', '.join(KINDS)}"
+KIND_HELP = f"Kind of operation: {', '.join(KINDS)}, also {', '.join(USUAL)}"
 Speed = Annotated[
     str | None,
     typer.Option(
@@ -75,8 +76,8 @@ def read_drive(speed: str | None, rpm: str | None, units: System = "si") -> dict
 
 def read_kinds(texts: Sequence[str], usual: Sequence[str] = ()) -> list[str]:
     """The kinds of operations of an option that may be repeated, with commas between them or "all"; else the usual."""
-    names = [name.strip() for text in texts for name in text.split(",")]
-    return list(dict.fromkeys(kind for name in names for kind in (KINDS if name == "all" else [name]))) or list(usual)
+    names = [name for text in texts for name in split_names(text)]
+    return kinds_of([kind for name in names for kind in (KINDS if name == "all" else [name])] or usual)
 
 
 def row_bar(quiet: bool) -> Progress:

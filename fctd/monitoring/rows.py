@@ -7,8 +7,8 @@ from typing import Any, Final
 import numpy as np
 import pandas as pd
 
-from fctd.case.errors import InputError, nearest
-from fctd.case.operations import KINDS
+from fctd.case.errors import InputError
+from fctd.case.operation_names import read_kind
 from fctd.case.tables.headers import no_unit
 from fctd.case.tables.rows import NOTHING, NULLS, Numbers, Rows
 from fctd.monitoring.quantities import BY_DEPTH, OVER_TIME, QUANTITIES, SERIES
@@ -79,6 +79,14 @@ def _seconds(rows: Rows, key: str, texts: list[str]) -> np.ndarray[Any, Any]:
     return seconds
 
 
+def _kind(row: object, name: object) -> str:
+    """The kind of operation of a row."""
+    try:
+        return read_kind(name)
+    except InputError as error:
+        raise error.at(f"row {row}, operation") from None
+
+
 class Cleaner:
     """Leaves out rows that cannot be used and counts why; takes a series in one piece or in several.
 
@@ -106,9 +114,7 @@ class Cleaner:
         if over_time:
             kept = self._in_order(kept)
         else:
-            for row, kind in kept["operation"].items():
-                if kind not in KINDS:
-                    raise InputError(nearest(kind, KINDS, "kind"), key=f"row {row}, operation", value=kind)
+            kept = kept.assign(operation=[_kind(row, name) for row, name in kept["operation"].items()])
         self.counts = +self.counts
         self.rows += len(table)
         return kept

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from fctd.case.load import Case, check_bit_depth, naming_file
+from fctd.case.operation_names import kinds_of
 from fctd.case.solver import RESOLVING
 from fctd.case.units import LENGTH, argument
 from fctd.mechanics import state
@@ -125,4 +126,5 @@ def equilibrium(
     """
     with naming_file(case):
         depth = argument(bit_depth, LENGTH, "bit_depth")
-        return Solver(case).solve(operation, steady_rates(case, operation, speed, rpm), depth)
+        (kind,) = kinds_of([operation])
+        return Solver(case).solve(kind, steady_rates(case, kind, speed, rpm), depth)
