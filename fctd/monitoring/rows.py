@@ -18,7 +18,10 @@ _TIME_OF_DAY: Final = re.compile(r"\d{1,2}:\d{2}")
 # More than this share of rows that go back in time is a series in another order.
 DISORDER: Final = 0.1
 FEW: Final = 20  # rows in which disorder is not judged
-DATES: Final = "a time such as 2007-10-23 08:07:08 (ISO 8601), or a number with its unit in the header"
+DATES: Final = (
+    "a time such as 2007-10-23 08:07:08 (ISO 8601), with its date here or in a column of dates, or a number with its "
+    "unit in the header"
+)
 
 
 class Converter:
@@ -39,7 +42,7 @@ class Converter:
         if first is not None and self._dated is None:
             self._dated = _DATE.search(first) is not None
         if first is not None and not self._dated and not rows.columns[time].unit:
-            raise no_unit(rows.columns[time], SERIES)
+            raise no_unit([rows.columns[time]], SERIES)
         keys = {column: time if field.key == "time" else field.key for column, field in QUANTITIES.items()}
         keys = {column: key for column, key in keys.items() if key in rows.columns}
         texts = {"operation", time} if self._dated or first is None else {"operation"}

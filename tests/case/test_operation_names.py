@@ -34,7 +34,9 @@ def test_the_words_of_legends_may_have_a_comma() -> None:
     assert kinds_of(split_names(text)) == ["trip_out", "drill_rotating", "drill_sliding", "rotate_off_bottom"]
 
 
-@pytest.mark.parametrize(("name", "near"), [("pickups", "the kind pick-up"), ("dance", "pick-up, slack-off"), (3, "SO")])
+@pytest.mark.parametrize(
+    ("name", "near"), [("pickups", "the kind pick-up"), ("dance", "pick-up, slack-off"), (3, "SO")]
+)
 def test_refused(name: object, near: str) -> None:
     with pytest.raises(InputError, match=near):
         read_kind(name)

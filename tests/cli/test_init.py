@@ -98,7 +98,9 @@ def test_columns_that_are_told(here: Path, cli: Command) -> None:
     rows = "".join(f"{k},{500 * k},{10 * k},45,90\n" for k in range(6))
     (here / "s.csv").write_text("Sta,Tiefe (m),Inc,Azi Grid,Azi True\n" + rows)
     assert "(for init: --columns 'azi=Azi Grid')" in cli("init", "s.csv", "--columns", "md=Tiefe (m)", code=2).err
-    told = ["--columns", "azi=azi grid", "--columns", "md=Tiefe (m)", "--columns", "md.unit=feet"]
+    slip = cli("init", "s.csv", "--columns", "md=Tiefe", "--columns", "azi=Azi Gird", code=2).err
+    assert 'columns.azi = "Azi Gird": expected the header "Azi Grid"' in slip
+    told = ["--columns", "azi=azi grid", "--columns", "md=Tiefe", "--columns", "md.unit=feet"]
     cli("init", "s.csv", *told)
     hole = fctd.load_case("my_well.toml").wellbore
     assert hole.trajectory[-1] == pytest.approx([2500 * 0.3048, np.radians(50), np.radians(45)])
