@@ -190,12 +190,12 @@ def _no_units(columns: Sequence[Column], form: TableForm) -> NoUnitError:
     """The error of several columns, with all that is to be said of them at once."""
     examples = [show(f"{column.header} ({column.field.example})") for column in columns[:_SHOWN]]
     expected = f"headers with their units, such as {', '.join(examples)}"
-    rigs = [column for column in columns if column.field.dimension in RIG_UNITS["field"]]
     if form.paste is not None:
-        units = {name: [of[column.field.dimension] for column in rigs] for name, of in RIG_UNITS.items()}
-        given = [(column.field.key, column.header, unit) for column, unit in zip(rigs, units["field"], strict=True)]
-        metric = ", ".join(dict.fromkeys(units["si"]))
-        expected += f", or the units by {form.paste(given)} (on a metric rig {metric} in place of these)"
+        rigs = [column for column in columns if column.field.dimension in RIG_UNITS["field"]]
+        field, metric = ([RIG_UNITS[name][column.field.dimension] for column in rigs] for name in ("field", "si"))
+        line = form.paste([(column.field.key, column.header, unit) for column, unit in zip(rigs, field, strict=True)])
+        others = ", ".join(dict.fromkeys(unit for unit in metric if unit not in field))
+        expected += f", or the units by {line} (on a metric rig {others} in place of these)"
     else:
         expected += _or("each unit", form.remedy(columns[0].field.key, [columns[0].header], columns[0].field.example))
     return NoUnitError(expected, key=columns[0].row, value=[column.header for column in columns])
