@@ -1,6 +1,7 @@
 """``fctd calibrate CASE MEASURED.csv``: unknowns of a case from measured rows."""
 
 from collections.abc import Iterator, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -35,6 +36,7 @@ from fctd.cli.options import (
     refuse_sources,
     screen,
     tell,
+    warn,
 )
 from fctd.cli.pictures import DRAWN, check_pictures
 from fctd.cli.steady import file_option, metadata_of_case
@@ -116,7 +118,7 @@ def calibrate_command(
 
         found = calibrate(
             case, measured, fits, priors=priors, setup=setup, loss=loss, order=order, starts=starts, seed=seed,
-            overrides=changes, scatter=scatter, progress=show,
+            overrides=changes, scatter=scatter, units=units, tell=partial(warn, measured), progress=show,
         )  # fmt: skip
         doing = "intervals"
         _ = found.intervals

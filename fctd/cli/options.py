@@ -118,6 +118,11 @@ def tell(case: Case, warnings: Sequence[InputWarning], *, strict: bool, units: S
     return told
 
 
+def warn(path: Path, text: str) -> None:
+    """Print what was assumed of a file."""
+    messages.print(f"warning: {printable(str(path))}: {printable(text)}", soft_wrap=True)
+
+
 def finish(acceptable: bool, codes: Iterable[str], strict: bool) -> None:
     """End a command with exit code 1 where its status is not acceptable, or where ``strict`` finds a note's code."""
     found = sorted(set(codes)) if strict else []
