@@ -218,9 +218,10 @@ def load_case(path: str | os.PathLike[str], overrides: Mapping[str, Any] | None 
     """The case of a TOML file, validated after the overrides; raises InputError for bad input.
 
     overrides: dotted keys ("operations[0].speed" or "operations.0.speed") to values as in a case
-    file; None deletes a key. The key "friction" sets the friction of every interval, or with {"cased": 0.2,
-    "open": 0.3} that of the intervals of these kinds; "0.3/0.2" in place of a factor is one along the hole and one
-    around it. The key "rotational_friction" sets the factor around the hole alone, in the same ways.
+    file; None deletes a key. A component or an interval may have its name in place of an index. The key "friction" sets
+    the friction of every interval, or with {"cased": 0.2, "open": 0.3}, as "friction.open" does, that of the intervals
+    of these kinds; "0.3/0.2" in place of a factor is one along the hole and one around it. The key
+    "rotational_friction" sets the factor around the hole alone, in the same ways.
     """
     path = Path(path)
     with naming(path):
