@@ -133,10 +133,29 @@ def join_key(*parts: str | int) -> str:
     return key
 
 
+# What people write for a key, in lower case without what stands between words.
+_WORDS: Final = {
+    "bit.weight_on_bit": "wob weightonbit",
+    "bit.torque": "tob bittorque torqueonbit",
+    "mud.density": "mw mudweight",
+    "rig.block_weight": "blockweight topdriveweight",
+    "friction": "ff cof frictionfactor",
+    "outer_diameter": "od",
+    "inner_diameter": "id",
+    "linear_mass": "ppf weight linearweight nominalweight",
+    "yield_strength": "grade",
+    "speed": "rop",
+}
+_KEY_OF: Final = {word: key for key, words in _WORDS.items() for word in words.split()}
+
+
 def known_keys(table: Mapping[Any, Any], keys: Collection[str], owner: str = "") -> dict[str, Any]:
     """The table without the keys that are None, or an InputError that names the nearest known key."""
     for key, value in table.items():
         if key not in keys:
+            meant = _KEY_OF.get(re.sub(r"[\W_]", "", str(key)).lower())
+            if meant is not None and (meant in keys or "." in meant):
+                raise InputError(f"the key {meant}", key=str(key), value=value)
             raise InputError(nearest(key, keys, "key") + owner, key=str(key), value=value)
     return {key: value for key, value in table.items() if value is not None}
 

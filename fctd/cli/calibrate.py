@@ -36,6 +36,7 @@ from fctd.cli.options import (
     refuse_sources,
     screen,
     tell,
+    units_option,
     warn,
 )
 from fctd.cli.pictures import DRAWN, check_pictures
@@ -47,7 +48,9 @@ from fctd.store.tables import write_table
 MISFIT = 2.0
 LOADS = {"hookload": "N", "torque": "N*m"}
 _MOST_ROWS = 3  # that are named beside a friction factor
-Units = Annotated[System, typer.Option("--units", help="Units of screen and picture; files are in SI units.")]
+Units = Annotated[
+    System, units_option("Units of screen and picture, and of rows that name none; files are in SI units.")
+]
 
 
 def calibrate_command(

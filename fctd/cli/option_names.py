@@ -22,7 +22,7 @@ def naming_options(command: Callable[P, R], others: Mapping[str, str] | None = N
 
     @wraps(command)
     def told(*given: P.args, **options: P.kwargs) -> R:
-        units: System = "field" if options.get("units") == "field" else "si"  # ``init`` calls SI units metric
+        units: System = "field" if options.get("units") == "field" else "si"
         try:
             return command(*given, **options)
         except InputError as error:

@@ -13,7 +13,7 @@ from fctd.case.load import Case
 from fctd.case.operation_names import USUAL, kinds_of, split_names
 from fctd.case.operations import KINDS
 from fctd.case.units import ROTATION, SPEED
-from fctd.cli.options import check_target, messages, read_quantity, screen
+from fctd.cli.options import check_target, messages, read_quantity, screen, units_option
 from fctd.cli.pictures import PICTURES, check_package, check_pictures
 from fctd.model.drillstring import lay_out
 from fctd.model.operations import rates_of_all
@@ -49,7 +49,7 @@ Rpm = Annotated[
 DEPTH_HELP = "Bit depth, '2450 m', td or shoe; bare in m, with --units field in ft"
 Units = Annotated[
     System,
-    typer.Option("--units", help="Units of tables, pictures and screen, and of bare depths and speeds of options."),
+    units_option("Units of tables, pictures and screen, and of bare depths and speeds of options."),
 ]
 ResolveBuckling = Annotated[
     bool | None,

@@ -18,11 +18,11 @@ from fctd.model.section import section_of
 from fctd.model.templates import TEMPLATES, Part, Template, TemplateName
 from fctd.model.torsion import torsional_period
 
-UnitSystem = Literal["metric", "field"]
+UnitSystem = Literal["si", "field"]
 
 # A unit for each dimension, and the digits after the point that are written.
 UNITS: dict[UnitSystem, dict[Dimension, tuple[str, int]]] = {
-    "metric": {
+    "si": {
         LENGTH: ("m", 2),
         DENSITY: ("kg/m^3", 0),
         FORCE: ("kN", 0),
@@ -180,7 +180,7 @@ class Plan:
             entry("kind", "trip_in"),
             entry("from_md", quantity(LENGTH, self.depth - RUN)),
             entry("to_md", end),
-            entry("speed", "0.3 m/s" if self.units == "metric" else "60 ft/min"),
+            entry("speed", "0.3 m/s" if self.units == "si" else "60 ft/min"),
         )
 
 
@@ -228,7 +228,7 @@ def aligned(line: str, comment: str) -> str:
 
 def _scaled(template: Template, units: UnitSystem) -> tuple[float, Template]:
     """What a template's metre is written as, 1 m or 3 ft [m], and the template with parts of such lengths."""
-    scale = 1.0 if units == "metric" else 3 * FOOT
+    scale = 1.0 if units == "si" else 3 * FOOT
     parts = (part._replace(length=part.length and part.length * scale) for part in template.string)
     return scale, template._replace(string=tuple(parts))
 
@@ -319,7 +319,7 @@ def sensible_shoe(stations: Array, units: UnitSystem) -> float:
     """A round depth [m] at which casing may be set: where the build ends, in the middle part of the hole."""
     depth, inclination = float(stations[-1, 0]), stations[:, 1]
     landed = float(stations[np.argmax(inclination >= LANDED * inclination.max()), 0])
-    unit = 10.0 if units == "metric" else 50 * FOOT
+    unit = 10.0 if units == "si" else 50 * FOOT
     first, last = np.ceil(SHALLOWEST_SHOE * depth / unit), np.floor(DEEPEST_SHOE * depth / unit)
     if last < max(first, 1):  # a hole too short for round depths
         return SHALLOWEST_SHOE * depth

@@ -138,7 +138,7 @@ def test_the_string_follows_the_survey(steepest: int, pipe: str, here: Path, cli
         (["bad.csv", "--columns", "depth=MD"], '--columns = "depth=MD": expected KEY=HEADER or KEY.unit=UNIT'),
         (["bad.csv", "--columns", "md.unit=km"], '--columns = "md.unit=km": expected a unit of m, ft or usft'),
         (["bad.csv", "--sheet", "A"], 'bad.csv: sheet = "A": expected no sheet for a text in columns'),
-        (["--units", "si"], "'si' is not one of 'metric', 'field'"),
+        (["--units", "ft"], "'ft' is not si (or metric: m, kN, kN·m) or field (ft"),
     ],
 )
 def test_refused(
