@@ -147,6 +147,14 @@ class Case(Table):
         return bottom if None in lengths else min(bottom, top + sum(length or 0.0 for length in lengths))
 
     @property
+    def end_as_written(self) -> str:
+        """The greatest bit depth that the string reaches, as the case has it where that is the end of its hole."""
+        written = look_up(self._written.raw, "wellbore", "intervals", -1, "to_md")
+        deepest = self.deepest
+        whole = deepest == self.wellbore.intervals[-1].to_md
+        return written if whole and isinstance(written, str) else f"{deepest:.10g} m"
+
+    @property
     def shoes(self) -> list[float]:
         """Depths [m] of the casing shoes: the ends of cased intervals (of all, without kinds) above the end of the
         hole; reads the survey."""
