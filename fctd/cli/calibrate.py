@@ -41,8 +41,8 @@ from fctd.cli.options import (
 )
 from fctd.cli.pictures import DRAWN, check_pictures
 from fctd.cli.steady import file_option, metadata_of_case
+from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, reworded, shown_unit
-from fctd.store.tables import write_table
 
 # Mean square of the residuals over the noise, by degree of freedom, beyond which the intervals are doubtful.
 MISFIT = 2.0

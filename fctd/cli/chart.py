@@ -76,13 +76,13 @@ from fctd.model.operations import rates_of_all
 from fctd.plots.loads import ChartLook
 from fctd.results.notes import meanings_of
 from fctd.results.status import SteadyStatus
+from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System
 from fctd.steady.chart_saver import ChartSaver
 from fctd.steady.equilibrium import Solver
 from fctd.steady.margin_table import margin_table
 from fctd.steady.torque_drag import Row, chart_rows, with_friction
 from fctd.store.limits import LimitReached
-from fctd.store.tables import write_table
 
 if TYPE_CHECKING:
     import pandas as pd

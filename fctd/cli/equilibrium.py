@@ -54,10 +54,10 @@ from fctd.results.buckling import BUCKLED
 from fctd.results.columns import COLUMNS, LOADS, SHAPES, SHARES
 from fctd.results.notes import as_metadata
 from fctd.results.profile import place_in_words
+from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, shown
 from fctd.steady.equilibrium import equilibrium
 from fctd.steady.steady_string import Equilibrium
-from fctd.store.tables import write_table
 
 if TYPE_CHECKING:
     import pandas as pd

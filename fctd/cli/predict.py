@@ -25,7 +25,7 @@ from fctd.cli.options import (
 )
 from fctd.cli.pictures import DRAWN, check_pictures
 from fctd.cli.steady import check_table, file_option, metadata_of_case
-from fctd.store.tables import write_table
+from fctd.results.table_files import write_table
 
 
 def predict_command(

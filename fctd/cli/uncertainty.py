@@ -16,9 +16,9 @@ from fctd.cli.options import Quiet, check_target, messages, print_written, read_
 from fctd.cli.pictures import DRAWN, check_pictures
 from fctd.cli.steady import Units, file_option
 from fctd.cli.sweep import SweepFile
+from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, in_field_units, long_in_field_units, shown
 from fctd.store.origin import versions
-from fctd.store.tables import write_table
 from fctd.sweep.dataset import identity_of, open_dataset
 from fctd.sweep.design import sample_of, samples_of
 from fctd.sweep.indices import WITH_UNIT
