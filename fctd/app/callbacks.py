@@ -219,9 +219,10 @@ def _measuring(app: Dash, backend: PageBackend) -> None:
     @_refusing(2, 0)
     def show(clicks: object, text: str | None, pathname: str, opened: Mapping[str, Any] | None) -> tuple[Any, ...]:
         session = backend.session(pathname)
-        count = backend.ask(session, "measured", text=text or "")["rows"]
+        found = backend.ask(session, "measured", text=text or "")
         session.keep(measured=text or "")
-        return counted(count, "row") if count else "", {**(opened or {}), "again": time.time()}
+        told = "; ".join([counted(found["rows"], "row"), *found["told"]]) if found["rows"] else ""
+        return told, {**(opened or {}), "again": time.time()}
 
     @app.callback(
         Output("measured", "value", allow_duplicate=True), Output("measured-told", "children", allow_duplicate=True),

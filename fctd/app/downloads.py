@@ -16,9 +16,9 @@ from fctd.case.errors import InputError
 from fctd.case.operations import KINDS
 from fctd.case.text import file_name
 from fctd.plots.loads import ChartLook
+from fctd.results.table_files import write_table
 from fctd.results.unit_systems import in_field_units, shown
 from fctd.store.origin import versions
-from fctd.store.tables import write_table
 
 # What a name of a file is for.
 FILES: Final = {

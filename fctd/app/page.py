@@ -19,6 +19,8 @@ CONFIG: Final[Any] = {
 EMPTY: Final[dict[str, Any]] = {"data": [], "layout": {"xaxis": {"visible": False}, "yaxis": {"visible": False}}}
 LIMITS: Final = {"label": "limits of string and rig", "value": SHOW_LIMITS}
 TICK: Final = 1000  # between two questions of a page about what goes on [ms]
+# A rig's sheet, as the box for measured rows shows it.
+SHEET: Final = "Depth (ft)\tPU (klbf)\tSO (klbf)\tROT (klbf)\tTQ (kft.lbf)\n5000\t175\t160\t166\t3.9"
 
 
 def layout() -> Any:
@@ -60,10 +62,10 @@ def _controls(kinds: Sequence[Mapping[str, str]]) -> list[Any]:
         ]),
         html.Details([
             html.Summary("Measured rows"),
-            html.P("Paste rows with headers, such as bit_depth_m, operation, hookload_kN, torque_kN_m, from a "
-                   "spreadsheet or a CSV file; or choose a file. A hookload is what the gauge reads, block included; "
-                   "the chart shows that of the string."),
-            dcc.Textarea(id="measured", spellCheck=False, rows=5),
+            html.P("Paste a rig's sheet with its headers, from a spreadsheet or a CSV file, or rows of bit depth, "
+                   "operation, hook load and torque; or choose a file. A weight is what the gauge reads, block "
+                   "included; the chart shows that of the string."),
+            dcc.Textarea(id="measured", spellCheck=False, rows=5, placeholder=SHEET),
             html.Div([
                 html.Button("show", id="show-measured"),
                 dcc.Upload(id="measured-file", children=html.Button("choose a file"), className="inline"),

@@ -4,7 +4,7 @@ This runs in the process of its own that worker.py is.
 """
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
@@ -143,19 +143,23 @@ class Well:
         """All rows of the chart for the sliders at values."""
         return chart_rows(self.moved(values), [kind for kind in KINDS if kind in operations] or [*USUAL], self.depths)
 
-    def check_measured(self, text: str) -> dict[str, int]:
-        """The number of measured rows of a text.  Raises InputError for one that cannot be read."""
-        found = self.measured(text)
-        return {"rows": 0 if found is None else len(found)}
+    def check_measured(self, text: str) -> dict[str, Any]:
+        """The number of measured rows of a text, and what is to be said of their units.
 
-    def measured(self, text: str) -> "pd.DataFrame | None":
-        """Measured rows of a text in columns, as in a file of them; None without any."""
+        Raises InputError for a text that cannot be read.
+        """
+        told: list[str] = []
+        found = self.measured(text, told.append)
+        return {"rows": 0 if found is None else len(found), "told": told}
+
+    def measured(self, text: str, tell: Callable[[str], None] | None = None) -> "pd.DataFrame | None":
+        """Measured rows of a text in columns, as in a file of them; None without any.  tell : see ``read_measured``."""
         if not text.strip():
             return None
         path = self.read.folder / "measured.csv"
         path.write_bytes(text.encode("utf-8", "replace"))
         try:
-            found = read_measured(path, self.case)
+            found = read_measured(path, self.case, self.units, tell)
         except InputError as error:
             raise InputError(error.expected, key=error.key, value=error.value, file="measured rows") from None
         if len(found) > MOST_MEASURED:

@@ -28,7 +28,10 @@ def read_depth(text: str, case: Case, key: str, bare: str = "m", *, given: str |
 
 
 def read_depths(text: str, case: Case, key: str, bare: str = "m") -> list[float]:
-    """Bit depths [m] of FROM:TO:STEP, TO included; see ``read_depth``.  Raises InputError, which names the key."""
+    """Bit depths [m] of FROM:TO:STEP, TO included, those below the top of the string; see ``read_depth``.
+
+    Raises InputError, which names the key.
+    """
     parts = text.split(":")
     if len(parts) != 3:
         raise InputError(
@@ -40,7 +43,10 @@ def read_depths(text: str, case: Case, key: str, bare: str = "m") -> list[float]
         raise InputError("depths that rise: TO at least FROM, and a STEP above 0", key=key, value=text)
     if (last - first) / step >= MOST_DEPTHS:
         raise InputError(f"at most {MOST_DEPTHS} depths", key=key, value=text)
-    return depths_between(first, last, step)
+    hanging = [depth for depth in depths_between(first, last, step) if depth > case.string.top_md]
+    if not hanging:
+        raise InputError(f"a depth below string.top_md, {case.string.top_md:g} m", key=key, value=text)
+    return hanging
 
 
 def depths_between(first: float, last: float, step: float) -> list[float]:

@@ -11,6 +11,7 @@ import numpy as np
 from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.load import Case, check_bit_depth, naming_file
+from fctd.case.operation_names import kinds_of
 from fctd.case.solver import RESOLVING
 from fctd.case.units import LENGTH, argument
 from fctd.mechanics import state
@@ -129,7 +130,8 @@ def equilibrium(
     """
     with naming_file(case):
         depth = argument(bit_depth, LENGTH, "bit_depth")
-        return Solver(case).solve(operation, steady_rates(case, operation, speed, rpm, flow), depth)
+        (kind,) = kinds_of([operation])
+        return Solver(case).solve(kind, steady_rates(case, kind, speed, rpm, flow), depth)
 
 
 def lie_along(case: Case, bit_depth: float) -> tuple[Array, Array]:

@@ -96,8 +96,8 @@ def test_the_rotation_turns_what_turns(well: Well) -> None:
 
 
 def test_measured_rows_are_points(well: Well) -> None:
-    assert well.check_measured(ROWS) == {"rows": 2}
-    assert well.check_measured(" ") == {"rows": 0}
+    assert well.check_measured(ROWS) == {"rows": 2, "told": []}
+    assert well.check_measured(" ") == {"rows": 0, "told": []}
     for text in (ROWS, ROWS.replace(",", "\t")):
         found = solved(well, measured=text)["loads"]
         k = place_of("measured", "hookload_N", "trip_out")
