@@ -5,8 +5,9 @@ from typing import Any, Final
 
 from dash import dcc, html
 
+from fctd.app.charts import EMPTY
 from fctd.app.downloads import FILES
-from fctd.app.well import LIMITS as SHOW_LIMITS
+from fctd.app.well import EXTRAS
 from fctd.case.operations import KINDS
 from fctd.case.text import counted
 from fctd.view.quantities import QUANTITIES
@@ -16,8 +17,6 @@ GRAPHS: Final = ("loads", "scene", "panels")
 CONFIG: Final[Any] = {
     "displaylogo": False, "responsive": True, "modeBarButtonsToRemove": ["sendChartToCloud", "lasso2d", "select2d"],
 }  # fmt: skip
-EMPTY: Final[dict[str, Any]] = {"data": [], "layout": {"xaxis": {"visible": False}, "yaxis": {"visible": False}}}
-LIMITS: Final = {"label": "limits of string and rig", "value": SHOW_LIMITS}
 TICK: Final = 1000  # between two questions of a page about what goes on [ms]
 
 
@@ -43,6 +42,7 @@ def layout() -> Any:
 
 
 def _controls(kinds: Sequence[Mapping[str, str]]) -> list[Any]:
+    extras = [{"label": label, "value": name} for name, label in EXTRAS.items()]
     return [
         _group("Well", [
             dcc.Upload(
@@ -53,7 +53,9 @@ def _controls(kinds: Sequence[Mapping[str, str]]) -> list[Any]:
             html.Div(id="warnings"),
             html.A("a page for another well", href="../../new", target="_blank", className="another"),
         ]),
-        _group("Operations", [dcc.Checklist(id="operations", options=[*kinds, LIMITS], value=[])]),
+        _group("Operations", [
+            dcc.Checklist(id="operations", options=[*kinds, *extras], value=[]),
+        ]),
         _group("Loads", [
             html.Div(id="sliders"),
             html.Button("back to the case", id="reset", className="quiet"),
@@ -61,8 +63,8 @@ def _controls(kinds: Sequence[Mapping[str, str]]) -> list[Any]:
         html.Details([
             html.Summary("Measured rows"),
             html.P("Paste rows with headers, such as bit_depth_m, operation, hookload_kN, torque_kN_m, from a "
-                   "spreadsheet or a CSV file; or choose a file. A hookload is what the gauge reads, block included; "
-                   "the chart shows that of the string."),
+                   "spreadsheet or a CSV file; or choose a file. A hookload is what the gauge reads, block included."
+                   ),
             dcc.Textarea(id="measured", spellCheck=False, rows=5),
             html.Div([
                 html.Button("show", id="show-measured"),

@@ -9,8 +9,8 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from fctd.arrays import Array
-from fctd.plots.page import plain
 from fctd.plots.palette import DARK, EDGE, PALETTE, QUIET
+from fctd.plots.traces import plain
 from fctd.plots.tracks import side_force_unit
 from fctd.results.buckling import MODES
 from fctd.results.unit_systems import System, reworded, shown
