@@ -20,7 +20,7 @@ from fctd.plots.facts import heading_of_chart, heading_of_profile
 from fctd.plots.loads import PLAIN, ChartLook
 from fctd.plots.palette import EDGE, LOOKS, QUIET
 from fctd.plots.traces import SHOE, SYMBOLS, buckled, layout_of, plain, traces_of
-from fctd.plots.tracks import TRACKS, SideForce, label_of, limits_near, limits_of_track, values_of
+from fctd.plots.tracks import TRACKS, SideForce, depth_ends, label_of, limits_near, limits_of_track, peaks_of, values_of
 from fctd.results.columns import COLUMNS
 from fctd.results.unit_systems import System, shown
 from fctd.steady.steady_string import Equilibrium
@@ -113,11 +113,16 @@ def profile_page(
                 figure.add_trace(_line(limit, md, f"{mode} limit", QUIET, dash), **place)
         figure.update_xaxes(title_text=f"{name},<br>{unit}", title_font_size=11, nticks=4, tickangle=0, **place)
         if answers:
-            figure.update_xaxes(range=limits_of_track(answers, column, units, force, near), **place)
+            ends = limits_of_track(answers, column, units, force, near)
+            figure.update_xaxes(range=ends, **place)
+            peaks = peaks_of(answers, column, units, force, ends)
+            most = max((peak for *_, peak in peaks), default=0.0)
+            for point, depth, peak in peaks:
+                figure.add_trace(_peak(point, depth, peak, ends[1], unit, named=peak == most), **place)
         for shoe in points[0].case.shoes:
             if shoe < points[0].bit_depth:
                 figure.add_hline(shoe * shown("md_m", units).factor, line=SHOE, **place)
-        figure.update_yaxes(autorange="reversed", exponentformat="none", **place)
+        figure.update_yaxes(range=depth_ends(points, units), exponentformat="none", **place)
     figure.update_yaxes(title_text=f"{COLUMNS['md_m'].label}, {shown('md_m', units).label}", row=1, col=1)
     named: set[str] = set()
     for trace in figure.data:  # the legend has each name once
@@ -130,6 +135,16 @@ def profile_page(
 def _line(value: NDArray[np.float64], depth: NDArray[np.float64], name: str, colour: str, dash: str) -> go.Scatter:
     look = {"color": colour, "dash": dash, "width": 1.2}
     return go.Scatter(x=value, y=depth, name=name, mode="lines", line=look, hoverinfo="skip")
+
+
+def _peak(point: Equilibrium, depth: float, value: float, edge: float, unit: str, *, named: bool) -> go.Scatter:
+    """A value that the axis cuts; named : whether it stands beside its mark."""
+    return go.Scatter(
+        x=[edge], y=[depth], name="beyond the axis", mode="markers+text" if named else "markers",
+        text=[f"{value:.3g}"], cliponaxis=False, textposition="middle left",
+        marker={"symbol": "triangle-right", "size": 9, "color": LOOKS[point.operation][0]},
+        hovertemplate=f"%{{y:.1f}}: %{{text}} {unit}<extra>{KINDS[point.operation].label}</extra>",
+    )  # fmt: skip
 
 
 def _with_heading(figure: go.Figure, title: str, lines: Sequence[str], height: int) -> go.Figure:

@@ -50,3 +50,6 @@ def test_a_profile_has_a_panel_for_every_quantity() -> None:
     assert "clearance" in drawn
     assert {KINDS[point.operation].label for point in points() if point.answered} <= drawn
     assert "a warning" in figure.layout.title.text
+    picture = plots.profile_figure(points(), "si")
+    assert [axis.range for axis in figure.select_xaxes()] == [ax.get_xlim() for ax in picture.axes]
+    assert {axis.range for axis in figure.select_yaxes()} == {picture.axes[0].get_ylim()}
