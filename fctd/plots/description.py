@@ -105,7 +105,8 @@ class Curve:
     def care(self) -> Flags:
         """Rows with loads that are not plain answers; their markers are open."""
         low, high = self.beyond
-        return np.isfinite(self.value) & (self.status != SteadyStatus.CONVERGED) & ~low & ~high
+        plain: Flags = self.status == SteadyStatus.CONVERGED
+        return np.isfinite(self.value) & ~plain & ~low & ~high
 
     @property
     def lost(self) -> tuple[Flags, Array]:

@@ -176,8 +176,9 @@ def _free(series: Sequence[Series], column: str) -> list[Array]:
 
 
 def _finite(parts: Sequence[Array]) -> Array:
-    values = np.concatenate(parts).astype(float)
-    return values[np.isfinite(values)]
+    values = np.concatenate(parts).astype(np.float64)
+    found: Array = values[np.isfinite(values)]
+    return found
 
 
 def _largest(series: Sequence[Series], columns: Sequence[str]) -> float:

@@ -218,4 +218,4 @@ def _wrapped(text: str) -> str:
 
 
 def _of(texts: Sequence[str], at: NDArray[np.bool_]) -> list[str]:
-    return [texts[k] for k in np.flatnonzero(at)]
+    return [texts[k] for k in np.flatnonzero(at).tolist()]

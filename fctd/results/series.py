@@ -38,7 +38,7 @@ def series_of(chart: Chart, units: System = "si") -> list[Series]:
 
     units : of depths in the names.
     """
-    columns = {str(name): np.asarray(chart[name]) for name in chart}
+    columns = {name: np.asarray(chart[name]) for name in map(str, chart)}
     if FRICTION_LABEL in columns:
         names = {label: reworded(str(label), units) for label in dict.fromkeys(columns[FRICTION_LABEL])}
         frictions = [names[label] for label in columns[FRICTION_LABEL]]
