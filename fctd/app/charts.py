@@ -39,6 +39,8 @@ def changes_of(rows: Sequence[Mapping[str, Any]], case: Case, units: System, loo
     for name, axis in layout.items():
         if name.startswith(("xaxis", "yaxis")):
             axis["gridcolor"] = "#e8e8e8"
+        if name.startswith("xaxis"):  # in two lines, as the panels are narrow
+            axis["title"]["text"] = axis["title"]["text"].replace(" (", "<br>(")
     return [(["data"], [_packed(trace) for trace in traces_of(described)]), (["layout"], layout)]
 
 

@@ -128,8 +128,9 @@ def slider(one: Mapping[str, Any], value: float) -> Any:
                 className="name",
             ),
             dcc.Slider(
-                id={"slider": name}, min=one["low"], max=one["high"], step=one["step"], value=value, marks=None,
-                updatemode="mouseup", allow_direct_input=False,
+                id={"slider": name}, min=one["low"], max=one["high"], step=one["step"], value=value,
+                # Where the case has it.
+                marks={one["value"]: "▴"}, updatemode="mouseup", allow_direct_input=False,
             ),
         ],
         className="slider",
@@ -145,7 +146,9 @@ def warned(texts: Sequence[str]) -> Any:
     """What is probably not meant in the case."""
     if not texts:
         return []
-    return html.Details([html.Summary(counted(len(texts), "warning")), html.Ul([html.Li(text) for text in texts])])
+    return html.Details(
+        [html.Summary(counted(len(texts), "warning")), html.Ul([html.Li(text) for text in texts])], open=True
+    )
 
 
 def _group(title: str, children: Sequence[Any]) -> Any:

@@ -66,9 +66,7 @@ def print_chart(rows: list[Row], name: str, units: System, load: Load) -> None:
     left_out = f"; {printed} of them above, all of them in a file by --out" if printed < len(rows) else ""
     screen.print(f"{counted(len(rows), 'row')}: {counts}{left_out}", soft_wrap=True)
     if load == "indicator":
-        screen.print(
-            "indicator: what the rig reads, block included; --load string shows the string alone", soft_wrap=True
-        )
+        screen.print("indicator: as the rig reads it, block included; --load string leaves it out", soft_wrap=True)
     depth = units_of["bit_depth_m"]
     for (operation, friction), of in series.items():
         name = f"{operation}, friction {friction}" if fan else operation

@@ -57,11 +57,9 @@ def test_what_is_no_option_is_refused(text: str) -> None:
         parse_frictions([text], "--friction")
 
 
-@pytest.mark.parametrize("text", ["0.4:0.1:0.1", "0.1:0.4:0", "0.1:0.4:-0.1", "0:1:0.001"])
+@pytest.mark.parametrize("text", ["0.4:0.1:0.1", "0.1:0.4:0", "0:1:0.001"])
 def test_a_fan_that_leads_nowhere_is_refused(text: str) -> None:
-    with pytest.raises(
-        InputError, match=r"expected a fan FROM:TO:STEP with TO at least FROM, a STEP above 0, and at most"
-    ):
+    with pytest.raises(InputError, match=r"expected a fan FROM:TO:STEP with TO at least FROM, a STEP above 0"):
         parse_frictions([text], "--friction")
 
 
