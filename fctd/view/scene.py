@@ -10,6 +10,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from fctd.arrays import Array
+from fctd.plots.loads import as_load, usual_load
 from fctd.plots.palette import DARK, EDGE, PALETTE, QUIET
 from fctd.plots.traces import plain
 from fctd.plots.tracks import lengths_of, side_force_unit
@@ -305,7 +306,7 @@ def caption_of(look: Look, one: Snapshot) -> str:
     load, torque = shown("hookload_N", look.units), shown("surface_torque_N_m", look.units)
     words = []
     if np.isfinite(one.hookload):
-        words += [f"hook load {one.hookload * load.factor:z.1f} {load.label}"]
+        words += [f"hook load {one.hookload * load.factor:z.1f} {load.label}{_on_indicator(look, one)}"]
         words += [f"torque {one.torque * torque.factor:z.2f} {torque.label}"]
     if len(one.offset):
         words += [f"{int(one.touching.sum())} of {len(one.offset)} points touch"]
@@ -313,6 +314,15 @@ def caption_of(look: Look, one: Snapshot) -> str:
         if round(stretch) > 0:
             words += [f"the bit {stretch:.1f} {look.depth.label} deeper by stretch"]
     return plain("; ".join([*words, *([reworded(one.status, look.units)] if one.status else [])]))
+
+
+def _on_indicator(look: Look, one: Snapshot) -> str:
+    """What the indicator reads of a steady string where the case says what the block weighs; else empty."""
+    case, load = look.strings.case, shown("hookload_N", look.units)
+    if look.strings.along != "bit depth" or usual_load([case]) == "string":
+        return ""
+    (read,) = as_load(case, one.operation, np.array([one.hookload]), "indicator")
+    return f" ({read * load.factor:z.1f} {load.label} on the indicator)"
 
 
 def unrolled(angle: Array) -> Array:
