@@ -74,7 +74,7 @@ from fctd.cli.steady import (
 )
 from fctd.model.depths import read_depths
 from fctd.model.operations import rates_of_all
-from fctd.plots.loads import ChartLook
+from fctd.plots.loads import ChartLook, usual_load
 from fctd.results.notes import meanings_of
 from fctd.results.status import SteadyStatus
 from fctd.results.table_files import write_table
@@ -111,8 +111,8 @@ def chart_command(
         typer.Option(
             "--friction",
             metavar="X",
-            help="Friction factor of every interval, 0.25, a list, 0.1,0.2,0.3, or by kind, cased=0.2,open=0.3; "
-            "may be repeated.",
+            help="Friction factor of every interval, 0.25, a list, 0.1,0.2,0.3, a fan, 0.1:0.4:0.1, or by kind, "
+            "cased=0.2,open=0.3; may be repeated.",
         ),
     ] = [],  # noqa: B006
     speed: Speed = None,
@@ -128,7 +128,7 @@ def chart_command(
         Path | None,
         file_option("--plot-profile", f"Profiles at the last possible depth, first friction, {PICTURE_HELP}."),
     ] = None,
-    load: ShownLoad = "string",
+    load: ShownLoad = None,
     side_force: ShownSideForce = "length",
     measured: Annotated[
         Path | None,
@@ -296,7 +296,7 @@ def _chart(
             if kept is not None:
                 kept.folder.clear()
         finally:
-            print_chart(rows, case.name, units)
+            print_chart(rows, case.name, units, asked.load or usual_load([case]))
             print_segments(case, last, units)
     print_written(written)
     acceptable = all(SteadyStatus(status).acceptable for status in {row["status"] for row in rows})
