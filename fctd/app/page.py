@@ -66,7 +66,7 @@ def _controls(kinds: Sequence[Mapping[str, str]]) -> list[Any]:
             html.Summary("Measured rows"),
             html.P("Paste a rig's sheet with its headers, from a spreadsheet or a CSV file, or rows of bit depth, "
                    "operation, hook load and torque; or choose a file. A weight is what the gauge reads, block "
-                   "included; the chart shows that of the string."),
+                   "included."),
             dcc.Textarea(id="measured", spellCheck=False, rows=5, placeholder=SHEET),
             html.Div([
                 html.Button("show", id="show-measured"),
