@@ -8,8 +8,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from fctd.arrays import Array
-from fctd.plots.palette import PALETTE
-from fctd.plots.style import DASHES, POINTS, RC, Sheet
+from fctd.plots.palette import DASHES, PALETTE
+from fctd.plots.style import LINE_STYLES, POINTS, RC, Sheet
 
 if TYPE_CHECKING:
     import plotly.graph_objects as go
@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 # Sizes [in]: of a panel, and of what stands beside and below it.
 WIDTH, HEIGHT, LEFT, BETWEEN, RIGHT, BELOW = 3.7, 4.6, 0.8, 0.3, 0.2, 0.55
 COLOURS = list(PALETTE.values())
-# Plotly's names of the dashes of pictures.
-PAGE_DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 
 
 class Curve(NamedTuple):
@@ -77,12 +75,13 @@ def panels_page(of: Panels) -> "go.Figure":
     from plotly.subplots import make_subplots
 
     from fctd.plots.page import with_heading
+    from fctd.plots.traces import stroke
 
     figure = make_subplots(cols=len(of.panels), shared_yaxes=True, horizontal_spacing=0.04)
     seen: set[str] = set()
     for k, panel in enumerate(of.panels, start=1):
         for curve in panel.curves:
-            look = {"color": COLOURS[curve.colour % len(COLOURS)], "dash": PAGE_DASHES[curve.dash % len(PAGE_DASHES)]}
+            look = stroke(COLOURS[curve.colour % len(COLOURS)], DASHES[curve.dash % len(DASHES)], 2.0)
             trace = go.Scatter(
                 x=curve.value, y=curve.depth, name=curve.name, legendgroup=curve.name, line=look,
                 mode="markers" if len(curve.depth) == 1 else "lines", showlegend=curve.name not in seen,
@@ -106,4 +105,4 @@ def _named(panels: Sequence[Panel]) -> dict[str, Curve]:
 
 
 def _look(curve: Curve) -> dict[str, Any]:
-    return {"color": COLOURS[curve.colour % len(COLOURS)], "linestyle": DASHES[curve.dash % len(DASHES)]}
+    return {"color": COLOURS[curve.colour % len(COLOURS)], "linestyle": LINE_STYLES[curve.dash % len(LINE_STYLES)]}
