@@ -96,6 +96,8 @@ def test_the_rotation_turns_what_turns(well: Well) -> None:
 
 def test_measured_rows_are_points(well: Well) -> None:
     assert well.check_measured(ROWS) == {"rows": 2, "told": []}
+    found = well.check_measured("Depth\tPU\tSO\n500\t150\t140\n")
+    assert (found["rows"], found["told"][0][:50]) == (2, 'headers without units are read as: "Depth" in m, "')
     assert well.check_measured(" ") == {"rows": 0, "told": []}
     for text in (ROWS, ROWS.replace(",", "\t")):
         loads, depths = drawn(solved(well, measured=text), f"measured, {UP}")

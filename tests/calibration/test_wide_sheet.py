@@ -48,20 +48,21 @@ def test_a_sheet_is_a_row_for_each_reading(headers: str, tmp_path: Path) -> None
 
 
 def test_units_that_no_header_names(tmp_path: Path) -> None:
-    """They are those of the command, which says so, or the sheet is refused; one that is named asks for all."""
+    """They are those of the command, which says so, or the sheet is refused; one that is named must be one of them."""
     told: list[str] = []
     path = tmp_path / "sheet.csv"
     path.write_text("MD,PU,SO,ROT\n900,500,450,470\n")
     (up, *_), _ = read_rows(path, well(), {}, measured=True, units="si", tell=told.append)
     assert up.hookload == (5e5, 5e5)
     assert told == [
-        'no header names a unit, so these are read: "MD" in m, "PU" in kN, "SO" in kN, "ROT" in kN; write the units '
-        "into the headers if they are others"
+        'headers without units are read as: "MD" in m, "PU" in kN, "SO" in kN, "ROT" in kN; write the units into them '
+        "if they are others"
     ]
     with pytest.raises(InputError, match=r'row 1 = .*"ROT".: expected headers with their units, such as "MD .m."'):
         read_rows(path, well(), {}, measured=True)
+    assert len(rows_of(tmp_path, "MD (ft),PU,SO\n900,500,450\n", "field")) == 2
     with pytest.raises(InputError, match="headers with their units"):
-        rows_of(tmp_path, "MD (ft),PU,SO\n900,500,450\n", "field")
+        rows_of(tmp_path, "MD (ft),PU,SO\n900,500,450\n", "si")
 
 
 def test_what_stands_beside_the_weights(tmp_path: Path) -> None:
