@@ -15,6 +15,7 @@ from fctd.case.drilling import BitSpec
 from fctd.case.errors import MISSING, InputError, Table, naming, nearest
 from fctd.case.file_names import FileName
 from fctd.case.fluids import TemperatureSpec, check_downwards
+from fctd.case.from_python import as_written
 from fctd.case.hole import WellboreSpec
 from fctd.case.input_file import read_toml
 from fctd.case.input_warnings import InputWarning
@@ -222,21 +223,33 @@ def check_bit_depth(md: float, top: float, bottom: float, key: str, value: objec
         )
 
 
-def load_case(path: str | os.PathLike[str], overrides: Mapping[str, Any] | None = None) -> Case:
-    """The case of a TOML file, validated after the overrides; raises InputError for bad input.
+def load_case(
+    source: str | os.PathLike[str] | Mapping[str, Any], overrides: Mapping[str, Any] | None = None
+) -> Case:
+    """The case of a TOML file or of a dict, validated after the overrides; raises InputError for bad input.
 
+    source : path of the file; or its tables, in which the names of files are relative to the current folder.
     overrides: dotted keys ("operations[0].speed" or "operations.0.speed") to values as in a case
     file; None deletes a key. The key "friction" sets the friction of every interval, or with {"cased": 0.2,
     "open": 0.3} that of the intervals of these kinds; "0.3/0.2" in place of a factor is one along the hole and one
     around it. The key "rotational_friction" sets the factor around the hole alone, in the same ways.
+
+    In a dict and in overrides the value of wellbore.stations may be a DataFrame, whose columns are named as those of a
+    survey file are, and other lists of tables, such as wellbore.intervals, DataFrames with a row for each.
     """
-    path = Path(path)
+    path = None if isinstance(source, Mapping) else _path(source)
     with naming(path):
-        raw = read_raw(path)
+        raw = read_raw(path) if path is not None else as_written(source)
         for key, value in (overrides or {}).items():
-            apply_override(raw, key, value)
-        case = make_case(raw, path.parent.absolute())
-    return case.model_copy(update={"file": path})
+            apply_override(raw, key, as_written(value, key))
+        case = make_case(raw, (Path() if path is None else path.parent).absolute())
+    return case if path is None else case.model_copy(update={"file": path})
+
+
+def _path(source: object) -> Path:
+    if not isinstance(source, str | os.PathLike):
+        raise InputError("the path of a case file, or a dict of its tables", key="source", value=source)
+    return Path(source)
 
 
 def make_case(raw: dict[str, Any], folder: Path | None, like: Case | None = None) -> Case:
