@@ -7,7 +7,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from fctd.case.errors import InputError
+from fctd.case.errors import InputError, Table
 from fctd.case.surveys.form import KEYS, SURVEY
 from fctd.case.surveys.stations import UNITS
 from fctd.case.tables.rows import Numbers
@@ -18,12 +18,14 @@ _FORM: Final = replace(SURVEY, remedy=lambda *_: "")
 
 
 def as_written(value: Any, key: str = "") -> Any:
-    """A copy of a value as TOML would hold it: tables are dicts, arrays lists.
+    """A copy of a value as TOML would hold it: tables are dicts, arrays lists, and a case the keys that it was given.
 
     A DataFrame under the key ``stations`` is the stations, its columns named as those of a survey file are
     ("md_m", "inc_deg", "azi_deg"); another one is a list of tables, a row each, in which an empty cell is no key.
     Raises InputError for stations that cannot be read.
     """
+    if isinstance(value, Table):
+        value = value.model_dump(exclude_unset=True, exclude={"file"}, by_alias=True)
     if isinstance(value, Mapping):
         return {name: as_written(of, str(name)) for name, of in value.items()}
     if is_frame(value):

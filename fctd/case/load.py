@@ -1,5 +1,6 @@
 """The case: `load_case` reads a TOML file, applies overrides and validates; every float of a `Case` is SI."""
 
+import hashlib
 import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -15,6 +16,7 @@ from fctd.case.drilling import BitSpec
 from fctd.case.errors import MISSING, InputError, Table, naming, nearest
 from fctd.case.file_names import FileName
 from fctd.case.fluids import TemperatureSpec, check_downwards
+from fctd.case.friction import FrictionChoice, changed, friction_sets
 from fctd.case.from_python import as_written
 from fctd.case.hole import WellboreSpec
 from fctd.case.input_file import read_toml
@@ -165,6 +167,19 @@ class Case(Table):
         return [interval.to_md for interval in cased if interval.to_md < bottom]
 
     @property
+    def digest(self) -> str:
+        """A hash of all that the case says, with stations and caliper in place of the names of their files.
+
+        It reads survey and caliper; the same well has the same one on every machine, whatever its file is called.
+        """
+        of_files = {"survey": True, "columns": True, "sheet": True, "stations": True, "caliper": {"log": True}}
+        told = self.model_dump_json(exclude={"file": True, "wellbore": of_files})
+        caliper = self.wellbore.calipers
+        parts = [told.encode(), self.wellbore.trajectory.tobytes()]
+        parts += [] if caliper is None else [caliper.md.tobytes(), caliper.radii.tobytes()]
+        return hashlib.sha256(b"\0".join(parts)).hexdigest()[:16]
+
+    @property
     def warnings(self) -> tuple[InputWarning, ...]:
         """Probable mistakes of the case and of its operations (`doubts`); reads the survey."""
         return warnings_of(self)
@@ -203,6 +218,18 @@ class Case(Table):
                 check_bit_depth(md, top, bottom, f"operations[{i}].{key}", f"{md:g} m")
 
 
+def with_friction(case: Case, friction: FrictionChoice | None) -> Case:
+    """The case with one kinetic friction factor in every interval, or with factors by kind; None for its own.
+
+    Static factors are scaled along.  Raises InputError, which names the key ``friction``.
+    """
+    if friction is None:
+        return case
+    (chosen,), old = friction_sets([friction]), case.wellbore.intervals
+    wellbore = case.wellbore.model_copy(update={"intervals": changed(old, chosen.of(old))})
+    return case.model_copy(update={"wellbore": wellbore})
+
+
 @contextmanager
 def naming_file(case: Case) -> Iterator[None]:
     """Add the case's file to an InputError that is raised inside; InputError for what is no case, such as a path."""
@@ -224,11 +251,12 @@ def check_bit_depth(md: float, top: float, bottom: float, key: str, value: objec
 
 
 def load_case(
-    source: str | os.PathLike[str] | Mapping[str, Any], overrides: Mapping[str, Any] | None = None
+    source: str | os.PathLike[str] | Mapping[str, Any] | Case, overrides: Mapping[str, Any] | None = None
 ) -> Case:
     """The case of a TOML file or of a dict, validated after the overrides; raises InputError for bad input.
 
-    source : path of the file; or its tables, in which the names of files are relative to the current folder.
+    source : path of the file; or its tables, in which the names of files are relative to the current folder; or a case,
+    of which the overrides make another one.
     overrides: dotted keys ("operations[0].speed" or "operations.0.speed") to values as in a case
     file; None deletes a key. The key "friction" sets the friction of every interval, or with {"cased": 0.2,
     "open": 0.3} that of the intervals of these kinds; "0.3/0.2" in place of a factor is one along the hole and one
@@ -237,7 +265,7 @@ def load_case(
     In a dict and in overrides the value of wellbore.stations may be a DataFrame, whose columns are named as those of a
     survey file are, and other lists of tables, such as wellbore.intervals, DataFrames with a row for each.
     """
-    path = None if isinstance(source, Mapping) else _path(source)
+    path = None if isinstance(source, Mapping | Case) else _path(source)
     with naming(path):
         raw = read_raw(path) if path is not None else as_written(source)
         for key, value in (overrides or {}).items():
@@ -248,7 +276,7 @@ def load_case(
 
 def _path(source: object) -> Path:
     if not isinstance(source, str | os.PathLike):
-        raise InputError("the path of a case file, or a dict of its tables", key="source", value=source)
+        raise InputError("the path of a case file, a dict of its tables, or a case", key="source", value=source)
     return Path(source)
 
 

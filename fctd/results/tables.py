@@ -15,7 +15,7 @@ from fctd.case.input_file import check_regular
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case
 from fctd.case.text import counted
-from fctd.results.display import MAIN, html_table, load_rows
+from fctd.results.display import MAIN, Picture, html_table, load_rows, picture
 from fctd.results.notes import Note, as_metadata, from_metadata
 from fctd.results.status import RunStatus
 from fctd.results.unit_systems import System, in_field_units
@@ -71,6 +71,10 @@ class SimulationResult:
         loads = {load.name: float(self.history[load.name].iloc[-1]) for load in MAIN} if len(self.history) else {}
         rows = {"status": str(self.status), "records": str(len(self.history)), **load_rows(loads)}
         return html_table(f"{self.case.name}{self._end}", rows)
+
+    def plot(self, units: System = "si") -> Picture:
+        """Hook load, torque, rotation and depth over time, and where the string touched."""
+        return picture("run_figure", self, units)
 
     @property
     def _end(self) -> str:

@@ -158,5 +158,5 @@ def test_limits_are_drawn_where_they_are_asked_for_and_no_slider_moves(well: Wel
     assert not np.isfinite(found[(*KINDS, LIMITS), True]).any()
     assert not np.isfinite(found[tuple(KINDS), False]).any()
     drawn = found[(*KINDS, LIMITS), False]
-    table = fctd.margin_table(well.case, "trip_out", [well.depths[0], well.depths[-1]])
+    table = fctd.limits_of(well.case, "trip_out", [well.depths[0], well.depths[-1]])
     assert drawn[[0, LIMIT_DEPTHS - 1]] == pytest.approx(table["hookload_N"] / 1e3, rel=1e-5)

@@ -45,18 +45,19 @@ def test_tables_of_pandas_are_stations_and_lists_of_tables() -> None:
     assert (found.wellbore.trajectory == expected.wellbore.trajectory).all()
     assert found.wellbore.intervals == expected.wellbore.intervals
     assert found.string == expected.string
-    assert load_case(raw, {"wellbore.stations": FEET, "operations": None}).wellbore.trajectory[-1, 0] == pytest.approx(914.4, rel=1e-14)
+    shorter = load_case(raw, {"wellbore.stations": FEET, "operations": None})
+    assert shorter.depths[1] == pytest.approx(914.4, rel=1e-14)
 
 
 def test_columns_are_named_as_in_survey_files() -> None:
-    assert stations_of(FEET) == [[0, 0, 30], [pytest.approx(304.83048, rel=1e-14), 1.5, 30], [914.4, 40, 30]]
+    np.testing.assert_allclose(stations_of(FEET), [[0, 0, 30], [304.83048, 1.5, 30], [914.4, 40, 30]], rtol=1e-14)
 
 
 @pytest.mark.parametrize(
     ("frame", "message"),
     [
         (FEET.rename(columns={"Measured Depth (ft)": "MD"}), 'expected a header with its unit, such as "MD (m)"'),
-        (FEET.drop(columns="Incl"), "column inc is missing"),
+        (FEET.drop(columns="Incl"), "column inc_deg is missing: expected it among the headers"),
         (FEET.assign(Incl=[0, np.nan, 1]), 'row 2, Incl = "nan": expected a finite number'),
     ],
 )
@@ -78,5 +79,5 @@ def test_values_are_copies() -> None:
 
 @pytest.mark.parametrize("source", [None, 3, FEET])
 def test_what_is_neither_path_nor_dict_is_refused(source: Any) -> None:
-    with pytest.raises(InputError, match="expected the path of a case file, or a dict of its tables"):
+    with pytest.raises(InputError, match="expected the path of a case file, a dict of its tables, or a case"):
         load_case(source)
