@@ -59,7 +59,7 @@ def test_samples_tell_percentiles_and_influences(swept: fctd.Swept) -> None:
     pulled = found.percentiles.query("operation == 'trip_out' and column == 'hookload_N' and bit_depth_m == 800")
     loads = swept.rows.query("operation == 'trip_out' and bit_depth_m == 800")["hookload_N"]
     assert pulled.set_index("percentile")["value"][50] == pytest.approx(loads.median(), rel=0.01)
-    assert set(found.indices["parameter"]) == {"friction", "mud.density"}
+    assert {"friction", "mud.density"} <= set(found.indices["parameter"])
     assert "hookload_N" in found._repr_html_()
 
 
