@@ -264,6 +264,10 @@ def load_case(
 
     In a dict and in overrides the value of wellbore.stations may be a DataFrame, whose columns are named as those of a
     survey file are, and other lists of tables, such as wellbore.intervals, DataFrames with a row for each.
+
+        >>> case = fctd.load_case("examples/my_well.toml", {"mud.density": "1.3 sg"})
+        >>> case.mud.density
+        1300.0
     """
     path = None if isinstance(source, Mapping | Case) else _path(source)
     with naming(path):

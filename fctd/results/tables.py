@@ -83,13 +83,14 @@ class SimulationResult:
         last = self.history.iloc[-1]
         return f", {last['operation']} at {last['bit_depth_m']:.1f} m"
 
-    def save(self, folder: Path, csv: bool = False, units: System = "si") -> list[Path]:
+    def save(self, folder: str | os.PathLike[str], csv: bool = False, units: System = "si") -> list[Path]:
         """Write the tables of ``TABLES`` as the results in ``folder``; returns the files written.
 
         They take the place of an earlier run's tables all at once; other files in the folder stay.  units : of the CSV
         files; the Parquet files are SI, as ``open_result`` reads them.  Raises InputError where the folder cannot be
         written.
         """
+        folder = Path(folder)
         metadata = {
             "case": self.case.model_dump(mode="json"),
             "status": self.status,

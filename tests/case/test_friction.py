@@ -148,7 +148,7 @@ def test_a_case_with_other_friction_has_its_static_factors_scaled_along() -> Non
         {"to_md": 500.0, "diameter": 0.2159, "friction": 0.2, "static_friction": 0.3, "kind": "cased"},
         {"to_md": 1000.0, "diameter": 0.2159, "friction": 0.25, "kind": "open"},
     ]
-    case = make_case(wellbore={"intervals": rows})
+    case = make_case(wellbore={"intervals": rows}, contact={"friction_law": "karnopp"})
     found = with_friction(case, {"cased": 0.4, "open": "0.3/0.1"}).wellbore.intervals
     assert [(i.friction, i.friction_around, i.static_friction) for i in found] == [
         (0.4, 0.4, pytest.approx(0.6)),
