@@ -62,7 +62,7 @@ def limits() -> Figure:
     rig = {"block_weight": "200 kN", "hoist_capacity": "2000 kN"}
     case = fctd.load_case(WELL, {f"rig.{key}": value for key, value in rig.items()})
     kinds, depths = ["trip_in", "trip_out", "rotate_off_bottom"], [*range(1500, 3001, 250)]
-    look = ChartLook(margins=fctd.margin_table(case, kinds, depths))
+    look = ChartLook(margins=fctd.limits_of(case, kinds, depths))
     return plots.chart_figure(fctd.torque_drag(case, kinds, depths), "si", case, look)
 
 

@@ -155,7 +155,7 @@ def test_limits_are_drawn_where_they_are_asked_for_and_no_slider_moves(well: Wel
     assert not len(found[(*KINDS, LIMITS), True])
     assert not len(found[tuple(KINDS), False])
     yields = found[(*KINDS, LIMITS), False][:LIMIT_DEPTHS]
-    table = fctd.margin_table(well.case, "trip_out", [well.depths[0], well.depths[-1]])
+    table = fctd.limits_of(well.case, "trip_out", [well.depths[0], well.depths[-1]])
     expected = table.loc[table["limit"] == "yield", "hookload_N"] / 1e3
     assert yields[[0, -1]] == pytest.approx(expected.to_numpy(), rel=1e-5)
 
