@@ -113,7 +113,7 @@ def hydraulics() -> Figure:
     case = fctd.load_case(ROOT / "examples" / "pumped_well.toml")
     flows, depths = [1600 / 6e4, 2000 / 6e4, 2400 / 6e4], in_steps(case.shoes[-1], case.deepest, 50.0)
     last = circulation(case, flows[-1], depths[-1])
-    table = fctd.pressure_losses(case, flows, depths)
+    table = fctd.hydraulics_of(case, flows, depths)
     return plots.panels_figure(losses_panels(table, last, "si", ["API RP 13D, concentric"]))
 
 

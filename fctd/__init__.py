@@ -9,7 +9,7 @@
     rows = fctd.torque_drag(case, operation=["trip_in", "trip_out"], bit_depths=range(1750, 2451, 10))
     left = fctd.limits_of(case, bit_depths="td")
     known = fctd.run_uncertainty(fctd.run_sweep("sweep.toml"))
-    lost = fctd.pressure_losses(case, flow="2000 L/min")
+    lost = fctd.hydraulics_of(case, flow="2000 L/min")
     trips = fctd.surge_pressures(case, speeds=[0.5])
     found = fctd.monitor(case, "readings.csv")
     finer = fctd.refine(case, tolerance=0.01).case
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from fctd.calibration.result import Calibration
     from fctd.case.errors import InputError
     from fctd.case.load import Case, load_case
-    from fctd.hydraulics.pressures import pressure_losses
+    from fctd.hydraulics.pressures import hydraulics_of
     from fctd.hydraulics.surge import fastest_trips, surge_pressures
     from fctd.model.first_case import new_case
     from fctd.model.wellbore import Contacts, Wellbore, build_wellbore, find_contacts
@@ -66,6 +66,7 @@ _HOMES = {
     "equilibrium": "fctd.steady.equilibrium",
     "fastest_trips": "fctd.hydraulics.surge",
     "find_contacts": "fctd.model.wellbore",
+    "hydraulics_of": "fctd.hydraulics.pressures",
     "lie_along": "fctd.steady.equilibrium",
     "limits_of": "fctd.steady.margin_table",
     "load_case": "fctd.case.load",
@@ -73,7 +74,6 @@ _HOMES = {
     "new_case": "fctd.model.first_case",
     "open_result": "fctd.results.tables",
     "predict": "fctd.calibration.calibrate",
-    "pressure_losses": "fctd.hydraulics.pressures",
     "refine": "fctd.steady.refine",
     "run_sweep": "fctd.sweep.swept",
     "run_uncertainty": "fctd.sweep.swept",
@@ -103,6 +103,7 @@ __all__ = [
     "equilibrium",
     "fastest_trips",
     "find_contacts",
+    "hydraulics_of",
     "lie_along",
     "limits_of",
     "load_case",
@@ -110,7 +111,6 @@ __all__ = [
     "new_case",
     "open_result",
     "predict",
-    "pressure_losses",
     "refine",
     "run_sweep",
     "run_uncertainty",

@@ -176,7 +176,7 @@ class Circulation:
         return np.where(deep, pressure / (GRAVITY * np.where(deep, laid.depth, 1.0)), np.nan)
 
     def summary(self) -> Row:
-        """The row of ``pressure_losses``."""
+        """The row of ``hydraulics_of``."""
         area = self.laid.case.bit.nozzle_area
         jets = self.flow / area if area else np.nan
         drop, standpipe = self.circuit.bit_drop, self.standpipe
@@ -285,7 +285,7 @@ def circulations(
     return found
 
 
-def pressure_losses(
+def hydraulics_of(
     case: Case,
     flow: float | str | Sequence[float | str],
     bit_depths: Sequence[float | str] = (),

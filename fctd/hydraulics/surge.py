@@ -104,7 +104,7 @@ def surge_pressures(
     """A row for every operation, end, speed and bit depth, SI: what a trip at constant speed adds to the pressure.
 
     speeds [m/s], bit_depths [m], or texts with units; without depths that of the hole.  operation : trip_in or
-    trip_out; end : "open", "closed" or "float", by default that of the case.  eccentricity : see ``pressure_losses``.
+    trip_out; end : "open", "closed" or "float", by default that of the case.  eccentricity : see ``hydraulics_of``.
 
     Columns: operation, end, speed_m_s, bit_depth_m, surge_Pa at the bit (negative for a swab), shoe_surge_Pa at the
     last end of an interval above the bit, density_bit_kg_m3 (equivalent, of mud at rest and surge), into_bore_m3_s

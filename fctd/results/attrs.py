@@ -28,7 +28,9 @@ def attrs_of(
     asked for, see ``InputWarning``; version : of this program.  kinds, drive, frictions : operations, their speed, rpm
     and flow where they are given, and the sets of friction factors.
     """
-    rates = {name: None if of is None else argument(of, _DIMENSIONS[name], name) for name, of in drive.items()}
+    rates: dict[str, Any] = {
+        name: None if of is None else argument(of, _DIMENSIONS[name], name) for name, of in drive.items()
+    }
     warnings = warnings_of(case, kinds, **rates, frictions=frictions)
     return {
         "units": units,

@@ -142,7 +142,7 @@ def equilibrium(
 def lie_along(case: Case, bit_depth: float) -> tuple[Array, Array]:
     """Where a case's string lies with the bit at a depth [m]: distances from the bit (n,) [m], falling, and ``lie_of``.
 
-    For the ``eccentricity`` of ``pressure_losses``, ``surge_pressures`` and ``fastest_trips``.  Raises InputError where
+    For the ``eccentricity`` of ``hydraulics_of``, ``surge_pressures`` and ``fastest_trips``.  Raises InputError where
     string and hole do not fit, or no steady string is found.
     """
     laid = Solver(case).lay_out(bit_depth)
