@@ -303,6 +303,11 @@ def hydraulics_of(
     pump_power_W, impact_force_N, jet_speed_m_s, lift_N (that the flow takes off a vertical string), and reason.
 
     Raises InputError for unusable input, and where string and hole fit at none of the depths.
+
+        >>> case = fctd.load_case("examples/pumped_well.toml")
+        >>> lost = fctd.hydraulics_of(case, "2000 L/min")
+        >>> round(lost["standpipe_Pa"][0] / 1e5)
+        186
     """
     import pandas as pd  # slow to import
 

@@ -110,6 +110,11 @@ def surge_pressures(
     last end of an interval above the bit, density_bit_kg_m3 (equivalent, of mud at rest and surge), into_bore_m3_s
     (through the bit), regime (the most turbulent along the annulus), lift_N (of a vertical string), and
     reason.  Raises InputError for unusable input, and where string and hole fit at none of the depths.
+
+        >>> case = fctd.load_case("examples/pumped_well.toml")
+        >>> run_in = fctd.surge_pressures(case, ["0.5 m/s"], [3000], "trip_in", "closed")
+        >>> round(float(run_in["surge_Pa"].iloc[0]) / 1e5, 1)
+        11.5
     """
     import pandas as pd  # slow to import
 
@@ -143,6 +148,10 @@ def fastest_trips(
     Columns: operation, end, bit_depth_m, fastest_m_s (0 where none is possible), md_m (where the window ends, NaN where
     the hoist sets the speed), time_s (of the trip between the first depth and this one, with the connections of
     [rig]), and reason.  Raises InputError, also for a case without a window.
+
+        >>> case = fctd.load_case("examples/pumped_well.toml")
+        >>> round(float(fctd.fastest_trips(case, [3000], "trip_out", "closed")["fastest_m_s"].iloc[0]), 2)
+        0.64
     """
     import pandas as pd  # slow to import
 

@@ -144,6 +144,11 @@ def lie_along(case: Case, bit_depth: float) -> tuple[Array, Array]:
 
     For the ``eccentricity`` of ``hydraulics_of``, ``surge_pressures`` and ``fastest_trips``.  Raises InputError where
     string and hole do not fit, or no steady string is found.
+
+        >>> case = fctd.load_case("examples/pumped_well.toml")
+        >>> above, share = fctd.lie_along(case, 3000.0)
+        >>> bool(share[-1] > share[0])  # beside the bit it lies farther aside than in the vertical hole at the top
+        True
     """
     laid = Solver(case).lay_out(bit_depth)
     share = lie_of(laid)

@@ -69,7 +69,7 @@ def test_what_stands_beside_the_weights(tmp_path: Path) -> None:
     """Rotation is that of the rotating string, speed that of the others; a torque without a weight is a reading."""
     text = "name,day,Depth (m),PU (kN),SO (kN),TQ (kN.m),RPM,Speed (m/min),Remark\nA,1 May,900,500,,3,80,12,late\n"
     up, turning = rows_of(tmp_path, text)
-    assert (up.id, up.day, up.rates) == ("A, pick-up", "1 May", (pytest.approx(-0.2), 0.0))
+    assert (up.id, up.day, up.rates) == ("A, pick-up", "1 May", (pytest.approx(-0.2), 0.0, 0.0))
     assert (turning.id, turning.operation, turning.hookload) == ("A, rotating", "rotate_off_bottom", None)
     assert turning.rates.spin == pytest.approx(80 * np.pi / 30)
 
