@@ -41,7 +41,7 @@ DEPTH: Final = replace(
     quantity=Quantity(dimension=LENGTH, at_least=0.0, at_most=DEEPEST),
 )
 HOOKLOAD: Final = replace(HOOK_LOAD, key="hookload", quantity=ANY_FORCE)
-TORQUE_WORDS: Final = "rotating rot free off bottom btm"  # that may stand beside the name of a torque
+TORQUE_WORDS: Final = "rotating rot rob free off bottom btm"  # that may stand beside the name of a torque
 OPERATION: Final = Field("operation", "operation, kind")
 NAME: Final = Field("id", "id, name, row")
 

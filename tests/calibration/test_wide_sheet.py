@@ -28,7 +28,7 @@ SHEET = "{}\n1000,125,123,124,2\n2000,158,-,155,\n3000,,,,\n"
     [
         "Depth (ft),PU (klbs),SO (klbs),ROT (klbs),TQ (kft-lbs)",
         "MD_ft,PickUp_Klbs,Slackoff_Klbs,Rotating_Klbs,Rot_Torque_kft_lbf",
-        "Bit Depth [ft],P/U Wt. (klb),S/O Wt. (klb),Free rotating weight (klbf),Off Bottom Torque (kft.lbf)",
+        "Bit Depth [ft],P.U. Wt. (klb),S/O Wt. (klb),Free rot weight (klbf),ROB Torque (kft.lbf)",
         "Measured Depth,Pick-up,Slack-off,Rotating,Torque\n(ft),(klbf),(klbf),(klbf),(kft.lbf)",
         "DEPTH,PU,SO,ROT,TQ",
     ],
