@@ -65,7 +65,10 @@ def _controls(kinds: Sequence[Mapping[str, str]]) -> list[Any]:
             html.P("Paste rows with headers, such as bit_depth_m, operation, hookload_kN, torque_kN_m, from a "
                    "spreadsheet or a CSV file; or choose a file. A hookload is what the gauge reads, block included."
                    ),
-            dcc.Textarea(id="measured", spellCheck=False, rows=5),
+            dcc.Textarea(
+                id="measured", spellCheck=False, rows=5,
+                placeholder="bit_depth_m,operation,hookload_kN,torque_kN_m\n1500,trip_out,790,\n1500,rotate_off_bottom,,9.5",
+            ),
             html.Div([
                 html.Button("show", id="show-measured"),
                 dcc.Upload(id="measured-file", children=html.Button("choose a file"), className="inline"),

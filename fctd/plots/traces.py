@@ -73,7 +73,8 @@ def layout_of(described: Description) -> dict[str, Any]:
             k = str(number) if number > 1 else ""
             layout[f"xaxis{k}"] = {
                 "title": {"text": panel.label}, "range": [panel.limits.low, panel.limits.high],
-                "domain": list(DOMAINS[col]), "anchor": f"y{k}", "side": "top", "nticks": 6, "zeroline": False,
+                "domain": list(DOMAINS[col]), "anchor": f"y{k}", "side": "top", "nticks": 5, "tickangle": 0,
+                "zeroline": False,
             }  # fmt: skip
             layout[f"yaxis{k}"] = {
                 "range": [depth.lower, depth.upper], "domain": [bottom, min(bottom + height, 1.0)], "anchor": f"x{k}",
