@@ -183,7 +183,7 @@ class Case(Table):
         It reads survey and caliper; the same well has the same one on every machine, whatever its file is called.
         """
         of_files: Any = {"survey": True, "columns": True, "sheet": True, "stations": True, "caliper": {"log": True}}
-        told = self.model_dump_json(exclude={"file": True, "wellbore": of_files})
+        told = self.model_dump_json(exclude={"file": True, "wellbore": of_files}, warnings=False)
         caliper = self.wellbore.calipers
         parts = [told.encode(), self.wellbore.trajectory.tobytes()]
         parts += [] if caliper is None else [caliper.md.tobytes(), caliper.radii.tobytes()]
