@@ -190,7 +190,7 @@ def _draw_panel(ax: Axes, panel: Panel, marks: tuple[Mark, ...], ticks: int) -> 
         ax.axvspan(panel.limits.low, panel.spent, **SPENT)
         ax.axvline(panel.spent, color=QUIET, linewidth=1, zorder=1)
         ax.annotate(
-            "slack-off is spent", (0, 1), (3, -3), xycoords="axes fraction", textcoords="offset points", va="top",
+            "slack-off is spent", (0, 0), (8, 2), xycoords="axes fraction", textcoords="offset points", va="bottom",
             fontsize=SMALL, color=DARK, bbox={"facecolor": "white", "linewidth": 0, "pad": 1}, zorder=1.2,
         )  # fmt: skip
     for mark in marks:

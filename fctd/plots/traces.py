@@ -107,8 +107,8 @@ def _mark(layout: dict[str, Any], described: Description, panel: Panel, k: str, 
             "y1": 1, "fillcolor": SHADE, "line": {"width": 0}, "layer": "below",
         })  # fmt: skip
         layout["annotations"].append({
-            "text": "slack-off is spent", "xref": f"x{k}", "yref": f"y{k} domain", "x": panel.limits.low, "y": 1,
-            "xanchor": "left", "yanchor": "top", "showarrow": False,
+            "text": "slack-off is spent", "xref": f"x{k}", "yref": f"y{k} domain", "x": panel.limits.low, "y": 0,
+            "xanchor": "left", "yanchor": "bottom", "xshift": 10, "showarrow": False,
         })  # fmt: skip
 
 
