@@ -114,6 +114,9 @@ class Case(Table):
         check_downwards(self.wellbore.window, "wellbore.window")
         if self.mud.float and self.bit.end not in (None, "float"):
             raise InputError('"float", or mud.float = false', key="bit.end", value=self.bit.end)
+        pumping = [i for i, operation in enumerate(self.operations) if operation.flow]
+        if pumping and self.end == "closed":
+            raise InputError("0 with bit.end closed", key=f"operations[{pumping[0]}].flow")
         if self.mud.packer_bore is not None and self.end != "open":
             raise InputError('"open" beside mud.packer_bore', key="bit.end", value=self.end)
         self._check_fittings()

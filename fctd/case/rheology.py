@@ -115,7 +115,11 @@ class ConsistencyNumber(Quantity):
 
     @property
     def expected(self) -> str:
-        return "a consistency such as 0.5, '0.5 Pa*s^n' or '1 lbf*s^n/(100 ft^2)'"
+        return "a consistency of 0 to 200 Pa*s^n, such as 0.5, '0.5 Pa*s^n' or '1 lbf*s^n/(100 ft^2)'"
+
+    @property
+    def bounded(self) -> str:
+        return self.expected
 
     def read(self, value: object) -> float:
         return super().read(_TO_THE_INDEX.sub("", value) if isinstance(value, str) else value)

@@ -359,7 +359,7 @@ PositiveFlow = Annotated[float, Quantity(dimension=FLOW, above=0.0, at_most=1.0,
 YieldStress = Annotated[float, Quantity(dimension=YIELD_STRESS, at_least=0.0, at_most=200.0)]
 FlowIndex = Annotated[float, Number(noun="a flow index", at_least=0.1, at_most=1.0)]
 NozzleDiameter = Annotated[
-    float, Quantity(dimension=LENGTH, above=0.0, at_most=0.2,
+    float, Quantity(dimension=LENGTH, above=0.0, at_most=0.06,
                     likely_units=(LikelyUnit(4, 48, "/32 in"), LikelyUnit(4, 48, " mm")))
 ]  # fmt: skip
 FlowArea = Annotated[

@@ -82,7 +82,9 @@ def hydraulics_command(
     penetration: Annotated[
         str | None,
         typer.Option(
-            "--penetration", metavar="V", help="Rate of penetration, '20 m/h', whose cuttings weigh in the annulus."
+            "--penetration",
+            metavar="V",
+            help="Rate of penetration, '20 m/h', bare in m/h or ft/h; cuttings weigh in the annulus.",
         ),
     ] = None,
     cuttings_size: Annotated[
@@ -119,10 +121,16 @@ def hydraulics_command(
     cuttings = None
     if penetration is not None:
         read: list[tuple[str, Dimension, str]] = [
-            (penetration, SPEED, "--penetration"), (cuttings_size, LENGTH, "--cuttings-size"),
+            (_with_unit(penetration, "ft/h" if units == "field" else "m/h"), SPEED, "--penetration"),
+            (cuttings_size, LENGTH, "--cuttings-size"),
             (cuttings_density, DENSITY, "--cuttings-density"),
         ]  # fmt: skip
         cuttings = Cuttings(*(read_quantity(text, dimension, key, units) for text, dimension, key in read))
+        if cuttings.size <= 0:
+            raise InputError("a size above 0", key="--cuttings-size", value=cuttings_size)
+        if cuttings.density <= case.mud.densest:
+            heavier = f"a density above the mud's, {case.mud.densest:g} kg/m^3"
+            raise InputError(heavier, key="--cuttings-density", value=cuttings_density)
     warnings = warnings_of(case, flow=pumped[0])
     told = tell(case, warnings, strict=strict, units=units)
     with row_bar(quiet) as bar:
@@ -146,11 +154,16 @@ def hydraulics_command(
         if plot is not None:
             from fctd.plots.flow import losses_panels
 
-            lines = [_facts_line(solved[-1], units), *(f"warning {text}" for text in told)]
+            lines = [_facts_line(solved[-1], pumped, units), *(f"warning {text}" for text in told)]
             written += draw_panels(plot, losses_panels(table, solved[-1], units, lines))
     finally:
         _print(case, table, solved, units)
     print_written(written)
+
+
+def _with_unit(text: str, unit: str) -> str:
+    """A text with a unit where it is a bare number."""
+    return f"{text} {unit}" if text.strip().replace(".", "", 1).isdigit() else text
 
 
 def read_eccentricity(text: str | None, case: Case) -> Eccentricity:
@@ -168,10 +181,8 @@ def _flows(texts: Sequence[str], case: Case, units: System) -> list[float]:
     """The flows of ``--flow`` [m³/s], a bare number in gpm or L/min; else the largest of the operations."""
     found = []
     for text in (part.strip() for given in texts for part in given.split(",")):
-        bare = text.replace(".", "", 1).isdigit()
-        value = f"{text} {'gpm' if units == 'field' else 'L/min'}" if bare else text
         try:
-            found.append(PUMPED.parse(value))
+            found.append(PUMPED.parse(_with_unit(text, "gpm" if units == "field" else "L/min")))
         except InputError as error:
             raise InputError(error.expected, key="--flow", value=text) from None
     largest = max((operation.flow for operation in case.operations), default=0.0)
@@ -271,10 +282,12 @@ def _fact(words: str, row: dict[str, Any], column: str, units: System, more: str
     return words, number(row[column] * unit.factor), unit.label + more
 
 
-def _facts_line(one: Circulation, units: System) -> str:
-    flow, depth = one.flow, one.laid.string.bit_depth
+def _facts_line(one: Circulation, flows: Sequence[float], units: System) -> str:
+    depth = one.laid.string.bit_depth
+    pumped = [number(flow * shown("flow_m3_s", units).factor) for flow in flows]
+    listed = f"{', '.join(pumped)} {shown('flow_m3_s', units).label}"
     nozzles = counted(len(one.laid.case.bit.nozzles), "nozzle")
-    return f"{_in(flow, 'flow_m3_s', units)}, bit at {_in(depth, 'bit_depth_m', units)}, {nozzles}; API RP 13D"
+    return f"{listed}, bit at {_in(depth, 'bit_depth_m', units)}, {nozzles}; API RP 13D"
 
 
 def _in(value: float, column: str, units: System) -> str:

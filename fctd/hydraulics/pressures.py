@@ -15,12 +15,13 @@ from fctd.case.errors import InputError
 from fctd.case.load import Case, check_bit_depth, naming_file
 from fctd.case.rheology import Rheology
 from fctd.case.rig import MudSpec
-from fctd.case.units import FLOW, FLOW_UNITS, LENGTH, Number, Quantity, argument
+from fctd.case.units import FLOW, FLOW_UNITS, Number, Quantity
 from fctd.hydraulics.channel import Channel, channel_of
 from fctd.hydraulics.circuit import Circuit, circulate
 from fctd.hydraulics.closed_forms import REGIMES, bore
 from fctd.hydraulics.cuttings import Cuttings, share_of_cuttings, transport_ratio
 from fctd.mechanics.topdrive import GRAVITY
+from fctd.model.depths import depths_of
 from fctd.model.drillstring import String, lay_out
 from fctd.model.fluids import SAME_PLACE, depth_at
 from fctd.model.pieces import TO_MD
@@ -288,7 +289,7 @@ def circulations(
 def hydraulics_of(
     case: Case,
     flow: float | str | Sequence[float | str],
-    bit_depths: Sequence[float | str] = (),
+    bit_depths: float | str | Sequence[float | str] = (),
     eccentricity: Eccentricity = None,
     cuttings: Cuttings | None = None,
 ) -> pd.DataFrame:
@@ -314,7 +315,7 @@ def hydraulics_of(
     with naming_file(case):
         given = [flow] if isinstance(flow, str | float | int) else list(flow)
         flows = [_flow(one) for one in given]
-        depths = [argument(depth, LENGTH, "bit_depths") for depth in bit_depths] or [case.deepest]
+        depths = depths_of(bit_depths, case, "bit_depths") if np.size(bit_depths) else [case.deepest]
         found = circulations(case, flows, depths, eccentricity, cuttings)
         return pd.DataFrame([of.summary() if isinstance(of, Circulation) else of for of in found])
 

@@ -10,14 +10,17 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from fctd.arrays import Array
+from fctd.case import units
 from fctd.case.errors import InputError
 from fctd.case.load import Case, check_bit_depth, naming_file
+from fctd.case.operation_names import kinds_of
 from fctd.case.operations import KINDS
-from fctd.case.units import LENGTH, SPEED, argument
+from fctd.case.units import SPEED, argument
 from fctd.hydraulics.circuit import Circuit, circulate
 from fctd.hydraulics.closed_forms import REGIMES
 from fctd.hydraulics.pressures import Eccentricity, Laid, Progress, Row, check_flows, lay
 from fctd.mechanics.topdrive import GRAVITY
+from fctd.model.depths import depths_of
 from fctd.model.fluids import depth_at
 from fctd.model.string_in_hole import check_end
 
@@ -95,7 +98,7 @@ def trips_at(
 def surge_pressures(
     case: Case,
     speeds: Sequence[float | str],
-    bit_depths: Sequence[float | str] = (),
+    bit_depths: float | str | Sequence[float | str] = (),
     operation: str | Sequence[str] = TRIPS,
     end: str | Sequence[str] = (),
     eccentricity: Eccentricity = None,
@@ -120,6 +123,9 @@ def surge_pressures(
 
     with naming_file(case):
         rates = [argument(speed, SPEED, "speeds") for speed in speeds]
+        for k, rate in enumerate(rates):
+            if not 0 <= rate <= units.FASTEST:
+                raise InputError(f"a speed of 0 to {units.FASTEST:g} m/s", key=f"speeds[{k}]", value=speeds[k])
         asked = _asked(case, bit_depths, operation, end, eccentricity)
         rows: list[Row] = []
         for trips, depth, reason in _laid(case, *asked, progress):
@@ -133,7 +139,7 @@ def surge_pressures(
 
 def fastest_trips(
     case: Case,
-    bit_depths: Sequence[float | str] = (),
+    bit_depths: float | str | Sequence[float | str] = (),
     operation: str | Sequence[str] = TRIPS,
     end: str | Sequence[str] = (),
     eccentricity: Eccentricity = None,
@@ -183,13 +189,13 @@ def _time(case: Case, depth: Array, speed: Array) -> Array:
 
 
 def _asked(
-    case: Case, bit_depths: Sequence[float | str], operation: str | Sequence[str], end: str | Sequence[str],
+    case: Case, bit_depths: float | str | Sequence[float | str], operation: str | Sequence[str], end: str | Sequence[str],
     eccentricity: Eccentricity,
 ) -> tuple[list[float], list[str], list[str], Eccentricity]:  # fmt: skip
     """Depths [m], operations, ends and eccentricity that are asked for, checked."""
     check_flows(case.mud)
-    depths = [argument(depth, LENGTH, "bit_depths") for depth in bit_depths] or [case.deepest]
-    kinds = [operation] if isinstance(operation, str) else list(operation)
+    depths = depths_of(bit_depths, case, "bit_depths") if np.size(bit_depths) else [case.deepest]
+    kinds = kinds_of(operation)
     ends = [end] if isinstance(end, str) else list(end) or [case.end]
     for key, given, known in (("operation", kinds, TRIPS), ("end", ends, ENDS)):
         for one in given:

@@ -114,7 +114,7 @@ def test_motion_that_changes_has_the_viscosity_at_a_hundred_per_second() -> None
             "mud.rheology.yield_point = 3: expected plastic_viscosity and yield_point, or consistency and index, not",
         ),
         ({"rheology": {"plastic_viscosity": 20, "yield_point": 3}}, "(20 looks like '20 mPa*s')"),
-        ({"rheology": {"consistency": "1 m", "index": 0.6}}, "expected a consistency such as 0.5, '0.5 Pa*s^n'"),
+        ({"rheology": {"consistency": "1 m", "index": 0.6}}, "expected a consistency of 0 to 200 Pa*s^n, such as 0.5"),
     ],
 )  # fmt: skip
 def test_wrong_curves_are_refused_in_a_sentence(mud: dict[str, Any], sentence: str) -> None:

@@ -48,7 +48,7 @@ def test_pictures(cli: Command, tmp_path: Path, suffix: str) -> None:
     ("options", "told"),
     [
         (["--end", "shut"], '--end = "shut": expected "open" or "closed" or "float"'),
-        (["--operation", "ream"], '--operation = "ream": expected "trip_in" or "trip_out"'),
+        (["--operation", "ream"], '--operation = "ream": expected the kind back_ream'),
         (["--speed", "fast"], '--speed = "fast": expected a speed'),
         (["--set", "wellbore.window=[]", "--trips", "trips.csv"], "expected a case with a [[wellbore.window]]"),
         (["--set", "wellbore.window[0].pore=1600"], "expected more than pore, 1600 kg/m^3"),

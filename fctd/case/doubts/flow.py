@@ -8,9 +8,20 @@ from fctd.case.input_warnings import InputWarning
 from fctd.case.operations import Operation
 from fctd.case.rig import MudSpec
 
+# Misfits of a curve through readings of a viscometer that are worth a doubt: degrees, and share of the largest reading.
+ODD_READING, ODD_SHARE = 3.0, 0.1
+
 
 def of_flow(mud: MudSpec, bit: BitSpec, operations: Sequence[Operation], flow: float | None) -> Doubts:
     """Flow without a flow curve of the mud or without nozzles; flow [m³/s] : asked for beside the operations'."""
+    rows = [(f"mud.{side}[{i}]", row) for side in ("inside", "outside") for i, row in enumerate(getattr(mud, side))]
+    for where, of in (("mud", mud), *rows):
+        if of.fit is None or of.fann is None:
+            continue
+        worst, allowed = max(map(abs, of.fit.misfit)), max(ODD_READING, ODD_SHARE * max(of.fann.values()))
+        if worst > allowed:
+            text = f"readings that the curve through them misses by up to {worst:.1f} degrees"
+            yield InputWarning("fann_misfit", f"{where}.fann", text, "check the readings: no mud flows so")
     flows = [(f"operations[{i}].flow", operation.flow) for i, operation in enumerate(operations)]
     pumped = [where for where, one in flows if one] or (["flow"] if flow else [])
     if not pumped:

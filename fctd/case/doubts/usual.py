@@ -59,6 +59,15 @@ MUD: Final = Usual(
     "mud_density", "a mud", "kg/m^3", 600, 2600, "0.6 to 2.6 sg",
     (LikelyUnit(0.6, 2.6, " sg"), LikelyUnit(5, 22, " ppg"), LikelyUnit(37, 165, " lb/ft^3")),
 )  # fmt: skip
+WINDOW: Final = Usual(
+    "window",
+    "a density of the window",
+    "kg/m^3",
+    500,
+    3000,
+    "0.5 to 3 sg",
+    (LikelyUnit(0.5, 3, " sg"), LikelyUnit(5, 25, " ppg")),
+)
 A_TURN: Final = Usual("angle", "an angle", "rad", 0, 2 * math.pi, "up to a turn", (LikelyUnit(6.28, 360, " deg"),))
 USUAL: Final = {
     "string.components.toolface": A_TURN,
@@ -115,6 +124,15 @@ USUAL: Final = {
     "rig.torque_offset": Usual(
         "rig_load", "a torque offset", "N*m", 5, 50e3, "0.005 to 50 kN·m", (LikelyUnit(0.1, 4.99, " kN*m"),)
     ),
+    "rig.surface_bore": Usual(
+        "surface_bore", "a bore of surface lines", "m", 0.03, 0.25, "1.5 to 10 in", (LikelyUnit(1.5, 10, " in"),)
+    ),
+    "string.components.pressure_drop": Usual(
+        "pressure_drop", "a pressure drop of a tool", "Pa", 1e4, 5e7, "0.1 to 500 bar",
+        (LikelyUnit(10, 7000, " psi"), LikelyUnit(1, 500, " bar")),
+    ),
+    "wellbore.window.pore": WINDOW,
+    "wellbore.window.fracture": WINDOW,
 }  # fmt: skip
 
 
