@@ -176,7 +176,7 @@ def _asked(
     eccentricity: float,
 ) -> tuple[list[float], list[str], list[str], float]:  # fmt: skip
     """Depths [m], operations, ends and eccentricity that are asked for, checked."""
-    check_flows(case.mud)
+    check_flows(case)
     depths = [argument(depth, LENGTH, "bit_depths") for depth in bit_depths] or [case.deepest]
     kinds = [operation] if isinstance(operation, str) else list(operation)
     ends = [end] if isinstance(end, str) else list(end) or [case.end]
