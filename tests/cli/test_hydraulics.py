@@ -55,7 +55,7 @@ def test_pictures(cli: Command, tmp_path: Path, depths: str, suffix: str) -> Non
         (["--flow", "fast"], '--flow = "fast": expected a flow rate'),
         (["--set", "operations[0].flow=0"], "--flow is missing: expected a flow such as '2000 L/min'"),
         (["--eccentricity", "2"], "--eccentricity = 2.0: expected a share"),
-        (["--set", "bit.end=closed"], 'pumped_well.toml: bit.end = "closed": expected "open" or "float" with a flow through it'),
+        (["--set", "bit.end=closed"], 'pumped_well.toml: bit.end = "closed": expected "open" or "float"'),
         (["--set", "bit.nozzles=[14]"], "14 looks like '14/32 in' or '14 mm'"),
         (["--set", "mud.fann.600=30"], "expected more than 40, the reading at 300 rev/min"),
         (["--depths", "9 km"], "--depths"),
