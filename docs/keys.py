@@ -11,6 +11,7 @@ from pydantic_core import PydanticUndefined
 from fctd.case import units
 from fctd.case.errors import Expects, Table
 from fctd.case.load import Case
+from fctd.case.operation_names import names_of
 from fctd.case.operations import KINDS
 from fctd.case.units import Quantity
 
@@ -39,6 +40,11 @@ OPERATIONS = """## The operations
 `[[operations]]` are a list in the order of the run. `ramp_time` [s] is the time in which feed and rotation rise at the
 start of an operation; `speed` [m/s] and `rpm` [rev/min] are positive, and the kind sets the direction. From the second
 operation on you may leave out `from_md` or `at_md`: an operation starts where the one before it ends.
+
+A kind has other names too, which files, tables and options take in its place, in any case of letters:
+
+| kind | names |
+|---|---|
 """
 
 
@@ -46,7 +52,10 @@ def page() -> str:
     """The whole page as Markdown: a section for each table of the case."""
     parts = [HEAD]
     parts += [_section(heading, table) for heading, table in _tables(Case)]
-    parts.append(OPERATIONS)
+    parts.append(
+        OPERATIONS
+        + "".join(f"| `{kind}` | {', '.join(f'`{name}`' for name in names_of(kind)[1:])} |\n" for kind in KINDS)
+    )
     parts += [_section(f'[[operations]], kind = "{kind}"', model) for kind, model in KINDS.items()]
     parts.append(UNITS + "".join(map(_units, _dimensions())))
     return "\n".join(parts)

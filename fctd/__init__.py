@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from fctd.monitoring.monitor import Monitored, monitor
     from fctd.results.tables import SimulationResult, open_result
     from fctd.simulation.simulate import Simulation, simulate
-    from fctd.steady.equilibrium import equilibrium
+    from fctd.steady.equilibrium import equilibrium, lie_along
     from fctd.steady.margin_table import margin_table
     from fctd.steady.refine import Refinement, refine
     from fctd.steady.steady_string import Equilibrium
@@ -52,6 +52,7 @@ _HOMES = {
     "equilibrium": "fctd.steady.equilibrium",
     "fastest_trips": "fctd.hydraulics.surge",
     "find_contacts": "fctd.model.wellbore",
+    "lie_along": "fctd.steady.equilibrium",
     "load_case": "fctd.case.load",
     "margin_table": "fctd.steady.margin_table",
     "monitor": "fctd.monitoring.monitor",
@@ -79,6 +80,7 @@ __all__ = [
     "equilibrium",
     "fastest_trips",
     "find_contacts",
+    "lie_along",
     "load_case",
     "margin_table",
     "monitor",

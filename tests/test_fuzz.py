@@ -49,14 +49,14 @@ def test_wrong_readings_of_an_offices_file_are_seen(tmp_path: Path) -> None:
     content = b"md_ft,inc_deg,azi_deg\n0,0,0\n1000,1,2\n"
     stations = np.array([[0, 0, 0], [304.8, 1, 2]])
     right = offices.Office(content, stations, "ft", said=True)
-    assert offices.amiss(right, "metric", tmp_path) == ("read", "")
+    assert offices.amiss(right, "si", tmp_path) == ("read", "")
     for wrong in (replace(right, stations=stations * [1 / 0.3048, 1, 1]), replace(right, stations=stations[:1])):
-        assert "meant is" in offices.amiss(wrong, "metric", tmp_path)[1]
-    assert "nobody" in offices.amiss(replace(right, stations=None), "metric", tmp_path)[1]
+        assert "meant is" in offices.amiss(wrong, "si", tmp_path)[1]
+    assert "nobody" in offices.amiss(replace(right, stations=None), "si", tmp_path)[1]
     unitless = replace(right, content=content.replace(b"md_ft", b"md"))
-    assert "and names ft" in offices.amiss(unitless, "metric", tmp_path)[1]
-    assert offices.amiss(replace(unitless, said=False), "metric", tmp_path) == ("read", "")
-    assert offices.amiss(replace(right, content=b"junk"), "metric", tmp_path) == ("refused", "")
+    assert "and names ft" in offices.amiss(unitless, "si", tmp_path)[1]
+    assert offices.amiss(replace(unitless, said=False), "si", tmp_path) == ("read", "")
+    assert offices.amiss(replace(right, content=b"junk"), "si", tmp_path) == ("refused", "")
 
 
 def test_a_short_run_of_a_plausible_well() -> None:

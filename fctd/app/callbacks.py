@@ -10,7 +10,7 @@ from dash import ALL, ClientsideFunction, Dash, Input, Output, State, no_update
 from dash.exceptions import PreventUpdate
 
 from fctd.app import page
-from fctd.app.charts import FONT
+from fctd.app.charts import EMPTY, FONT
 from fctd.app.pool import Pool
 from fctd.app.runs import Runs, target_of
 from fctd.app.sessions import Session, Sessions
@@ -219,9 +219,10 @@ def _measuring(app: Dash, backend: PageBackend) -> None:
     @_refusing(2, 0)
     def show(clicks: object, text: str | None, pathname: str, opened: Mapping[str, Any] | None) -> tuple[Any, ...]:
         session = backend.session(pathname)
-        count = backend.ask(session, "measured", text=text or "")["rows"]
+        found = backend.ask(session, "measured", text=text or "")
         session.keep(measured=text or "")
-        return counted(count, "row") if count else "", {**(opened or {}), "again": time.time()}
+        told = "; ".join([counted(found["rows"], "row"), *found["told"]]) if found["rows"] else ""
+        return told, {**(opened or {}), "again": time.time()}
 
     @app.callback(
         Output("measured", "value", allow_duplicate=True), Output("measured-told", "children", allow_duplicate=True),
@@ -296,11 +297,11 @@ def _running(app: Dash, backend: PageBackend) -> None:
     def streamed(kept: Sequence[Any] | None, colour: str, pathname: str) -> tuple[Any, ...]:
         session = backend.session(pathname)
         if not kept or not kept[0]:
-            return page.EMPTY, no_update, True, page.EMPTY, "", ""
+            return EMPTY, no_update, True, EMPTY, "", ""
         target = str(target_of(session.folder))
         found = backend.pool.ask("records", target=target, shown_units=backend.units, colour=colour)
         told = "; ".join(filter(None, [found["last"], found["status"]])) or no_update
-        string = found["string"] or {"figure": page.EMPTY, "where": "", "words": ""}
+        string = found["string"] or {"figure": EMPTY, "where": "", "words": ""}
         curves, empty = time_figure(found, backend.units), not found["records"]
         return curves, told, empty, string["figure"], string["where"], string["words"]
 

@@ -17,7 +17,7 @@ from fctd.case.input_file import LARGEST_FILE, tables_of
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case, make_case
 from fctd.case.raw_case import look_up, set_key, split_key
-from fctd.case.surveys.workbook import ZIP, check_workbook
+from fctd.case.tables.workbook import ZIP, check_workbook
 from fctd.case.xml_file import has_doctype
 from fctd.model.layouts import segments_in_hole
 from fctd.model.new_case import UnitSystem, from_survey, read_survey

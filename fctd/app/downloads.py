@@ -11,14 +11,14 @@ from typing import Any, Final
 import numpy as np
 import pandas as pd
 
-from fctd.app.well import LIMITS, USUAL, Well
+from fctd.app.well import LIMITS, USUAL, Well, load_of
 from fctd.case.errors import InputError
 from fctd.case.operations import KINDS
 from fctd.case.text import file_name
 from fctd.plots.loads import ChartLook
+from fctd.results.table_files import write_table
 from fctd.results.unit_systems import in_field_units, shown
 from fctd.store.origin import versions
-from fctd.store.tables import write_table
 
 # What a name of a file is for.
 FILES: Final = {
@@ -50,7 +50,7 @@ def file(
     kinds = [kind for kind in KINDS if kind in operations] or [*USUAL]
     at = depth / shown("bit_depth_m", well.units).factor
     try:
-        _write(well, path, values, kinds, operation, at, colour, measured, LIMITS in operations)
+        _write(well, path, values, kinds, operation, at, colour, measured, operations)
         content = path.read_bytes()
     except ModuleNotFoundError as error:
         raise InputError(f"the package {error.name} beside fctd", key=name) from None
@@ -64,7 +64,7 @@ def file(
 
 def _write(
     well: Well, path: Path, values: Mapping[str, object], kinds: list[str], operation: str, depth: float, colour: str,
-    measured: str, limits: bool,
+    measured: str, asked: Sequence[str],
 ) -> None:  # fmt: skip
     case, units, name = well.moved(values), well.units, path.name
     if name == "case.toml":
@@ -86,8 +86,8 @@ def _write(
         else:
             from fctd import plots
 
-            margins = well.margins_of(case, kinds) if limits else None
-            look = ChartLook(measured=well.measured(measured), margins=margins)
+            margins = well.margins_of(case, kinds) if LIMITS in asked else None
+            look = ChartLook(load_of(asked), measured=well.measured(measured), margins=margins)
             if path.suffix == ".html":
                 plots.save_page(plots.chart_page(chart, units, case, look), path)
             else:

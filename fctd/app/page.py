@@ -5,8 +5,9 @@ from typing import Any, Final
 
 from dash import dcc, html
 
+from fctd.app.charts import EMPTY
 from fctd.app.downloads import FILES
-from fctd.app.well import LIMITS as SHOW_LIMITS
+from fctd.app.well import EXTRAS
 from fctd.case.operations import KINDS
 from fctd.case.text import counted
 from fctd.view.quantities import QUANTITIES
@@ -16,9 +17,9 @@ GRAPHS: Final = ("loads", "scene", "panels")
 CONFIG: Final[Any] = {
     "displaylogo": False, "responsive": True, "modeBarButtonsToRemove": ["sendChartToCloud", "lasso2d", "select2d"],
 }  # fmt: skip
-EMPTY: Final[dict[str, Any]] = {"data": [], "layout": {"xaxis": {"visible": False}, "yaxis": {"visible": False}}}
-LIMITS: Final = {"label": "limits of string and rig", "value": SHOW_LIMITS}
 TICK: Final = 1000  # between two questions of a page about what goes on [ms]
+# A rig's sheet, as the box for measured rows shows it.
+SHEET: Final = "Depth (ft)\tPU (klbf)\tSO (klbf)\tROT (klbf)\tTQ (kft.lbf)\n5000\t175\t160\t166\t3.9"
 
 
 def layout() -> Any:
@@ -43,6 +44,7 @@ def layout() -> Any:
 
 
 def _controls(kinds: Sequence[Mapping[str, str]]) -> list[Any]:
+    extras = [{"label": label, "value": name} for name, label in EXTRAS.items()]
     return [
         _group("Well", [
             dcc.Upload(
@@ -53,17 +55,19 @@ def _controls(kinds: Sequence[Mapping[str, str]]) -> list[Any]:
             html.Div(id="warnings"),
             html.A("a page for another well", href="../../new", target="_blank", className="another"),
         ]),
-        _group("Operations", [dcc.Checklist(id="operations", options=[*kinds, LIMITS], value=[])]),
+        _group("Operations", [
+            dcc.Checklist(id="operations", options=[*kinds, *extras], value=[]),
+        ]),
         _group("Loads", [
             html.Div(id="sliders"),
             html.Button("back to the case", id="reset", className="quiet"),
         ]),
         html.Details([
             html.Summary("Measured rows"),
-            html.P("Paste rows with headers, such as bit_depth_m, operation, hookload_kN, torque_kN_m, from a "
-                   "spreadsheet or a CSV file; or choose a file. A hookload is what the gauge reads, block included; "
-                   "the chart shows that of the string."),
-            dcc.Textarea(id="measured", spellCheck=False, rows=5),
+            html.P("Paste a rig's sheet with its headers, from a spreadsheet or a CSV file, or rows of bit depth, "
+                   "operation, hook load and torque; or choose a file. A weight is what the gauge reads, block "
+                   "included."),
+            dcc.Textarea(id="measured", spellCheck=False, rows=5, placeholder=SHEET),
             html.Div([
                 html.Button("show", id="show-measured"),
                 dcc.Upload(id="measured-file", children=html.Button("choose a file"), className="inline"),
@@ -126,8 +130,9 @@ def slider(one: Mapping[str, Any], value: float) -> Any:
                 className="name",
             ),
             dcc.Slider(
-                id={"slider": name}, min=one["low"], max=one["high"], step=one["step"], value=value, marks=None,
-                updatemode="mouseup", allow_direct_input=False,
+                id={"slider": name}, min=one["low"], max=one["high"], step=one["step"], value=value,
+                # Where the case has it.
+                marks={one["value"]: "▴"}, updatemode="mouseup", allow_direct_input=False,
             ),
         ],
         className="slider",
@@ -143,7 +148,9 @@ def warned(texts: Sequence[str]) -> Any:
     """What is probably not meant in the case."""
     if not texts:
         return []
-    return html.Details([html.Summary(counted(len(texts), "warning")), html.Ul([html.Li(text) for text in texts])])
+    return html.Details(
+        [html.Summary(counted(len(texts), "warning")), html.Ul([html.Li(text) for text in texts])], open=True
+    )
 
 
 def _group(title: str, children: Sequence[Any]) -> Any:

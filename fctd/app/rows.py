@@ -11,6 +11,8 @@ from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.model.operations import rates_of_all
 from fctd.model.wellbore import Wellbore
+from fctd.results.buckling import UNKNOWN
+from fctd.results.columns import IN_CHART, SHAPES
 from fctd.results.status import SteadyStatus
 from fctd.steady.batch import Row, solve_batch
 from fctd.steady.equilibrium import Solver
@@ -36,8 +38,7 @@ class Rows:
         return Solver(case, hole, self._own)
 
     def solve(self, case: Case, hole: Wellbore, kinds: Sequence[str], depths: Sequence[float]) -> list[dict[str, Any]]:
-        """A row for each operation and bit depth [m]: operation, bit_depth_m, hookload_N, surface_torque_N_m, status,
-        buckling and reason, as in the table of ``fctd.torque_drag``."""
+        """A row for each operation and bit depth [m], with those columns of ``fctd.torque_drag`` that a chart draws."""
         rates, solver = rates_of_all(case, kinds), self.solver(case, hole)
         laid: dict[float, LaidString | str] = {}
         for depth in depths:
@@ -76,13 +77,13 @@ class Rows:
 
 
 def _row(kind: str, depth: float, point: Equilibrium | str) -> dict[str, Any]:
-    row: dict[str, Any] = {"operation": kind, "bit_depth_m": depth}
-    if isinstance(point, str):
-        lost = {"hookload_N": float("nan"), "surface_torque_N_m": float("nan"), "buckling": "unknown"}
-        return row | lost | {"status": str(SteadyStatus.NOT_POSSIBLE), "reason": point}
-    known = point.answered
+    found = None if isinstance(point, str) else point
+    answer = found if found is not None and found.answered else None
+    row: dict[str, Any] = {"operation": kind, "friction": float("nan"), "bit_depth_m": depth}
+    row |= {load.name: float("nan") if answer is None else load.value(answer) for load in IN_CHART}
+    row |= {end.name: float("nan") if found is None else end.value(found) for end in SHAPES}
+    if found is None:
+        return row | {"buckling": UNKNOWN.mode, "status": str(SteadyStatus.NOT_POSSIBLE), "reason": str(point)}
     return row | {
-        "hookload_N": point.hookload if known else float("nan"),
-        "surface_torque_N_m": point.surface_torque if known else float("nan"),
-        "buckling": point.buckling.mode, "status": str(point.status), "reason": point.message or "none",
+        "buckling": found.buckling.mode, "status": str(found.status), "reason": found.message or "none",
     }  # fmt: skip

@@ -24,7 +24,7 @@ MEMORY: Final = "1 GiB"
 KEPT_EVERY: Final = "1 s"
 # A page that is loaded again asks within this time [s]; one that is hidden asks once a minute.
 CLOSED_FOR, SILENT_FOR = 5.0, 180.0
-LOG_LINES: Final = 4
+LOG_LINES: Final = 8
 NOTHING: Final = "the run ended before anything was recorded"
 
 

@@ -68,7 +68,7 @@ def changes_of(
     marker = next(trace for trace in panel_traces(look, quantity) if trace["name"] == "angle")["marker"]
     panels.append((["data", PANELS.index("angle"), "marker"], marker | {"color": packed(drawn.values_touching)}))
     layout = panel_layout(look)
-    panels += [(["layout", axis, "range"], layout[axis]["range"]) for axis in AXES]
+    panels += [(["layout", axis, name], layout[axis][name]) for axis in AXES for name in ("range", "title")]
     return scene, panels, _words(look, strings)
 
 

@@ -184,4 +184,4 @@ def _steered(backend: PageBackend) -> "Answer | None":
 
 def _first(units: System) -> Source:
     """A well to begin with."""
-    return Source(from_template(TEMPLATES["build-hold"], "a first well", "metric" if units == "si" else "field").text())
+    return Source(from_template(TEMPLATES["build-hold"], "a first well", units).text())

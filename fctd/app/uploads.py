@@ -57,15 +57,11 @@ def source_of(files: Mapping[str, bytes], before: Source | None, pool: Pool, uni
     else:
         name = PurePath(survey_name.replace("\\", "/")).name or "survey"
         encoded = base64.b64encode(survey).decode()
-        made = pool.ask("new_case", name=name, survey=encoded, given_units=_init_units(units))
+        made = pool.ask("new_case", name=name, survey=encoded, given_units=units)
         note = f"{name}: {made['note']}" if made["note"] else ""
         return Source(made["text"], name, survey), printable(note)
     pool.ask("open", source, units)  # a case that cannot be used does not take the place of the one before
     return source, ""
-
-
-def _init_units(units: System) -> str:
-    return "metric" if units == "si" else "field"
 
 
 def _awaits(text: str, survey_name: str) -> bool:

@@ -7,6 +7,7 @@ import pandas as pd
 from fctd.app import charts, scenes
 from fctd.case.load import Case
 from fctd.case.solver import RESOLVING
+from fctd.plots.loads import PLAIN
 from fctd.results.unit_systems import in_field_units
 from fctd.steady.equilibrium import equilibrium
 from fctd.steady.torque_drag import chart_rows
@@ -38,7 +39,7 @@ def warm_up() -> None:
         buckled = Case.model_validate(SMALL | {"bit": {"weight_on_bit": 1e5}} | table)
         equilibrium(buckled, "drill_sliding", 90.0)
     strings = of_points([point])
-    charts.changes_of(rows, ["trip_out"], case, "si", None)
+    charts.changes_of(rows, case, "si", PLAIN)
     _, _, times = scenes.skeletons(strings, QUANTITIES["side_force"], "si")
     scenes.changes_of(strings, QUANTITIES["side_force"], "si", times, hole=True)
     in_field_units(pd.DataFrame(rows))

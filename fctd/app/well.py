@@ -4,7 +4,7 @@ This runs in the process of its own that worker.py is.
 """
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
@@ -26,6 +26,7 @@ from fctd.case.text import counted
 from fctd.model.depths import usual_depths
 from fctd.model.operations import rates_of_all
 from fctd.model.wellbore import Wellbore, build_wellbore
+from fctd.plots.loads import ChartLook, Load
 from fctd.plots.palette import BUCKLED
 from fctd.results.unit_systems import System, reworded, shown
 from fctd.steady.equilibrium import Solver
@@ -42,8 +43,15 @@ USUAL: Final = ("trip_out", "rotate_off_bottom", "trip_in")
 DEPTHS: Final = 70
 EVERY: Final = 3  # of the depths while a slider moves
 MOST_MEASURED: Final = 5_000  # rows
-# Among the operations of the chart: whether it shows limits; and depths that have them.
-LIMITS, LIMIT_DEPTHS = "limits", 5
+# What else is asked of a chart among its operations: limits, and loads without the block.
+LIMITS, STRING = "limits", "string"
+EXTRAS: Final = {LIMITS: "limits of string and rig", STRING: "hook load without the block"}
+LIMIT_DEPTHS: Final = 5
+
+
+def load_of(operations: Sequence[str]) -> Load | None:
+    """The load of a chart; None where the case says which it is."""
+    return "string" if STRING in operations else None
 
 
 class Well:
@@ -91,7 +99,7 @@ class Well:
             self._opened = {
                 "name": case.name, "sliders": [asdict(slider) for slider in self.sliders], "operations": usual,
                 "depth": {"low": self.depths[0] * factor, "high": self.depths[-1] * factor, "unit": unit},
-                "loads": charts.skeleton(case, self.depths, self.units), "scene": scene, "panels": panels,
+                "loads": charts.EMPTY, "scene": scene, "panels": panels,
                 "warnings": [reworded(str(warning), self.units) for warning in self.read.warnings],
                 "facts": self._facts(), "runs": bool(case.operations), "exaggeration": self._exaggeration,
             }  # fmt: skip
@@ -103,9 +111,9 @@ class Well:
     ) -> dict[str, Any]:  # fmt: skip
         """Changes of the three figures for sliders at values.
 
-        operations : of the chart, and ``LIMITS`` for the limits in it; operation, depth [shown unit] : of the string in
-        its hole; coarse : whether every third depth is enough; hole : whether the hole is drawn anew; measured : text
-        of measured rows.
+        operations : of the chart, with what else is asked of it (``EXTRAS``); operation, depth [shown unit] : of the
+        string in its hole; coarse : whether every third depth is enough; hole : whether the hole is drawn anew;
+        measured : text of measured rows.
         """
         kinds = [kind for kind in KINDS if kind in operations]
         if operation not in KINDS:
@@ -116,7 +124,8 @@ class Well:
         rows = self._rows.solve(case, self._last[2], kinds, depths) if kinds else []
         points = self.measured(measured)
         margins = self.margins_of(case, kinds) if LIMITS in operations and kinds and not coarse else None
-        loads = charts.changes_of(rows, kinds, case, self.units, points, margins) if rows else []
+        look = ChartLook(load_of(operations), measured=points, margins=margins)
+        loads = charts.changes_of(rows, case, self.units, look) if rows else []
         factor, unit = shown("bit_depth_m", self.units)
         at = self.within(depth / factor)
         strings = self._strings(case, operation, at, self._last[2])
@@ -143,19 +152,23 @@ class Well:
         """All rows of the chart for the sliders at values."""
         return chart_rows(self.moved(values), [kind for kind in KINDS if kind in operations] or [*USUAL], self.depths)
 
-    def check_measured(self, text: str) -> dict[str, int]:
-        """The number of measured rows of a text.  Raises InputError for one that cannot be read."""
-        found = self.measured(text)
-        return {"rows": 0 if found is None else len(found)}
+    def check_measured(self, text: str) -> dict[str, Any]:
+        """The number of measured rows of a text, and what is to be said of their units.
 
-    def measured(self, text: str) -> "pd.DataFrame | None":
-        """Measured rows of a text in columns, as in a file of them; None without any."""
+        Raises InputError for a text that cannot be read.
+        """
+        told: list[str] = []
+        found = self.measured(text, told.append)
+        return {"rows": 0 if found is None else len(found), "told": told}
+
+    def measured(self, text: str, tell: Callable[[str], None] | None = None) -> "pd.DataFrame | None":
+        """Measured rows of a text in columns, as in a file of them; None without any.  tell : see ``read_measured``."""
         if not text.strip():
             return None
         path = self.read.folder / "measured.csv"
         path.write_bytes(text.encode("utf-8", "replace"))
         try:
-            found = read_measured(path, self.case)
+            found = read_measured(path, self.case, self.units, tell)
         except InputError as error:
             raise InputError(error.expected, key=error.key, value=error.value, file="measured rows") from None
         if len(found) > MOST_MEASURED:

@@ -26,6 +26,7 @@ from fctd.calibration.setup import Setup, UnknownSpec, read_setup
 from fctd.calibration.unknowns import Unknown, check_known, find_unknowns, parse_fits, refuse_edited, refuse_overridden
 from fctd.case.errors import InputError, naming, nearest
 from fctd.case.load import Case, load_case, naming_file
+from fctd.results.unit_systems import System
 
 Files = str | PathLike[str]
 Order = Literal["all", "first-section"]
@@ -47,17 +48,20 @@ def calibrate(
     seed: int = 0,
     refuse: bool = True,
     scatter: bool | None = None,
+    units: System | None = None,
+    tell: Callable[[str], None] | None = None,
     progress: Callable[[int], None] | None = None,
 ) -> Calibration:
     """The unknowns of a case that fit measured rows best.
 
-    measured : a CSV file, or rows; strings : their cases by name, where rows are given and not all are of ``case``.
+    measured : a file of rows, or rows; strings : their cases by name, where rows are given and not all are of ``case``.
     overrides : with which the case was loaded, for the override sets of its file.
     fit : unknowns, as names with bounds such as "friction.open=0.1:0.5", or as a table; priors : of them, such as
     "friction.open=0.25+-0.05".  setup : a TOML file or a ``Setup``, whose unknowns are added to these.
     order : "all", or "first-section", which fits the rows of the shallowest hole section and predicts the deeper ones.
     starts, seed : of the search.  refuse : whether unknowns that the rows do not tell apart are an error.
     scatter : whether friction and weight differ from day to day (``scatter``); by default where rows name their days.
+    units : of a file whose headers name none, which is refused without; tell : called with a sentence that says so.
     progress : called with the number of strings solved so far, in the fit and in what is asked of it afterwards.
 
     Raises InputError for input that cannot be used.
@@ -72,7 +76,7 @@ def calibrate(
         told = gather_setup(setup)
         specs = dict(fit) if isinstance(fit, Mapping) else parse_fits(fit, priors)
         with _naming_setup(setup):
-            rows, cases = gather_rows(case, measured, told, strings, overrides, measured=True)
+            rows, cases = gather_rows(case, measured, told, strings, overrides, units, tell, measured=True)
             unknowns = find_unknowns(specs, told, list(cases.values()))
         out = left_out_by_rule(rows, cases)
         deeper = _deeper_section(rows, cases) if order == "first-section" else []
@@ -137,12 +141,14 @@ def predict(
     overrides: Mapping[str, Any] | None = None,
     samples: int = SAMPLES,
     seed: int = 0,
+    units: System | None = None,
+    tell: Callable[[str], None] | None = None,
 ) -> pd.DataFrame:
     """Bands of the readings of rows, and scores of those that are measured (``predict_rows``).
 
     case : calibrated, as ``Calibration.case`` or from the file that ``fctd calibrate --out`` writes; posterior : of the
-    calibration, or its file, by default the one beside the case.  strings, overrides : as in ``calibrate``; samples,
-    seed : of the draws.  Raises InputError for input that cannot be used.
+    calibration, or its file, by default the one beside the case.  strings, overrides, units, tell : as in
+    ``calibrate``; samples, seed : of the draws.  Raises InputError for input that cannot be used.
     """
     with naming_file(case):
         _check_count("samples", samples, 1)
@@ -156,7 +162,7 @@ def predict(
         refuse_overridden([unknown.name for unknown in known.unknowns], case, overrides or {})
         if beside is not None:
             refuse_edited(dict(zip(known.unknowns, known.best.tolist(), strict=True)), case, beside.name)
-        found, cases = gather_rows(case, rows, known.setup, strings, overrides, measured=False)
+        found, cases = gather_rows(case, rows, known.setup, strings, overrides, units, tell, measured=False)
         cases = {name: in_pieces(one, [unknown.name for unknown in known.unknowns]) for name, one in cases.items()}
         with naming(None if isinstance(posterior, Posterior) else posterior):
             check_known(known.unknowns, list(cases.values()))
@@ -204,6 +210,8 @@ def gather_rows(
     setup: Setup,
     strings: Mapping[str, Case] | None,
     overrides: Mapping[str, Any] | None,
+    units: System | None = None,
+    tell: Callable[[str], None] | None = None,
     *,
     measured: bool,
 ) -> tuple[list[Row], dict[str, Case]]:
@@ -218,4 +226,4 @@ def gather_rows(
             sets[name] = load_case(case.file, {**(overrides or {}), **changes})
         except InputError as error:  # of a key that the set changes
             raise InputError(error.expected, key=f"strings.{name}.{error.key}", value=error.value) from None
-    return read_rows(Path(rows), case, sets, measured=measured)
+    return read_rows(Path(rows), case, sets, measured=measured, units=units, tell=tell)

@@ -1,5 +1,6 @@
 """Measured hook loads and torques from a CSV file, to be drawn over the curves of a chart."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -12,6 +13,7 @@ from fctd.calibration.measured_file import (
     HOOKLOAD,
     OPERATION,
     STRINGLESS,
+    TORQUE_WORDS,
     Measured,
     measured_form,
     read_measured_file,
@@ -23,6 +25,7 @@ from fctd.case.tables.fields import Field
 from fctd.case.tables.readings import TORQUE_OF_STRING
 from fctd.model.operations import string_load, weight_indicator
 from fctd.results.columns import COLUMNS
+from fctd.results.unit_systems import System
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -31,17 +34,16 @@ _BELOW: Final = 30.0  # m: a measured depth may exceed the last station of the s
 _LOADS: Final = (
     Field("string_load", "string load", ANY_FORCE, HOOKLOAD.beside, example="kN"),
     HOOKLOAD,
-    replace(TORQUE_OF_STRING, key="surface_torque", quantity=ANY_TORQUE),
+    replace(
+        TORQUE_OF_STRING, key="surface_torque", quantity=ANY_TORQUE, beside=f"{TORQUE_OF_STRING.beside} {TORQUE_WORDS}"
+    ),
 )
 _LOAD_COLUMNS: Final = {
     f"{load.key}{end}": f"{load.key}{end}_{unit}"
     for load, unit in zip(_LOADS, ("N", "N", "N_m"), strict=True)
     for end in ENDS
 }
-_FORM: Final = measured_form(
-    "bit_depth_m, operation, hookload_kN, hookload_low_kN, hookload_high_kN, torque_kN_m",
-    _LOADS, (), (DEPTH.key, OPERATION.key, "load"),
-)  # fmt: skip
+_EXAMPLE: Final = "bit_depth_m, operation, hookload_kN, hookload_low_kN, hookload_high_kN, torque_kN_m"
 
 
 def measured_column(column: str, end: str) -> str:
@@ -50,16 +52,20 @@ def measured_column(column: str, end: str) -> str:
     return f"{stem}_{end}{column.removeprefix(stem)}"
 
 
-def read_measured(path: Path, case: Case) -> "pd.DataFrame":
-    """Measured rows of a CSV file, SI: operation, bit_depth_m, and loads with the low and high ends of their ranges.
+def read_measured(
+    path: Path, case: Case, units: System | None = None, tell: Callable[[str], None] | None = None
+) -> "pd.DataFrame":
+    """Measured rows of a text in columns or a workbook, SI.
 
-    Loads that the file does not have are NaN.  A measured hook load is the reading of the weight indicator, block
-    included, as in a calibration; the rig of the case converts it into that of the string, and the other way round.
-    Rows without a string (in slips, tare) have no place in a chart and are left out.  Raises InputError, which names
-    file, row and column.
+    Columns: operation, bit_depth_m, and loads with the low and high ends of their ranges, NaN where the file does not
+    have them.  A measured hook load is the reading of the weight indicator, block included, as in a calibration; the
+    rig of the case converts it into that of the string, and the other way round.
+    Rows without a string (in slips, tare) have no place in a chart and are left out.  units, tell : see ``read_rows``.
+    Raises InputError, which names file, row and column.
     """
     with naming(path):
-        found = read_measured_file(path, _FORM, _LOADS)
+        form = measured_form(_EXAMPLE, _LOADS, (), (DEPTH.key, OPERATION.key, "load"), units)
+        found = read_measured_file(path, form, _LOADS, tell)
         kinds = found.rows.texts(OPERATION.key)
         kept = [row for row, kind in enumerate(kinds) if kind not in STRINGLESS]
         if not kept:

@@ -1,6 +1,6 @@
 """Measured rows of a calibration or a prediction: a CSV file with a hook load or a torque in each row."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final, Literal, NamedTuple
@@ -14,7 +14,9 @@ from fctd.calibration.measured_file import (
     DEPTH,
     ENDS,
     HOOKLOAD,
+    NAME,
     OPERATION,
+    TORQUE_WORDS,
     Measured,
     measured_form,
     read_measured_file,
@@ -28,6 +30,7 @@ from fctd.case.tables.rows import read_number
 from fctd.case.units import FLOW, LENGTH, MOST_RPM, ROTATION, SPEED, Quantity
 from fctd.hydraulics.channel import has_flow_curve
 from fctd.model.operations import SteadyRates, rad_per_s, steady_rates
+from fctd.results.unit_systems import System
 
 Load = Literal["hookload", "torque"]
 
@@ -37,7 +40,7 @@ TORQUES: Final = ("off_bottom", "on_bottom", "unknown")
 PUMPS: Final = ("on", "off")
 _LOADS: Final = (
     replace(HOOKLOAD, quantity=replace(ANY_FORCE, at_least=0.0)),
-    replace(TORQUE_OF_DRIVE, quantity=ANY_TORQUE),
+    replace(TORQUE_OF_DRIVE, quantity=ANY_TORQUE, beside=f"{TORQUE_OF_DRIVE.beside} {TORQUE_WORDS}"),
 )
 _ROTATION: Final = replace(
     ROTATION_OF_DRIVE, names=f"{ROTATION_OF_DRIVE.names}, rotation, rotary",
@@ -49,7 +52,6 @@ _OTHERS: Final = (
     replace(FLOW_IN, quantity=Quantity(dimension=FLOW, at_least=0.0)),
     Field("stroke", "stroke", Quantity(dimension=LENGTH, at_least=0.0), example="m"),
     Field("locked_torque", "locked torque", ANY_TORQUE, example="kN_m"),
-    Field("id", "id, name, row"),
     Field("string", "string"),
     Field("source", "source"),
     Field("weight", "weight"),
@@ -130,16 +132,25 @@ def days_of(rows: Sequence[Row]) -> tuple[tuple[str, ...], NDArray[np.int64]]:
     return tuple(name for _, name in order), np.array([order.index(key) for key in keys], np.int64)
 
 
-def read_rows(path: Path, case: Case, sets: Mapping[str, Case], *, measured: bool) -> tuple[list[Row], dict[str, Case]]:
-    """The rows of a CSV file, and the case of each string that they name.
+def read_rows(
+    path: Path,
+    case: Case,
+    sets: Mapping[str, Case],
+    *,
+    measured: bool,
+    units: System | None = None,
+    tell: Callable[[str], None] | None = None,
+) -> tuple[list[Row], dict[str, Case]]:
+    """The rows of a text in columns or a workbook, and the case of each string that they name.
 
-    sets : cases of override sets by name.  Another string is the path of a case file, relative to the CSV file.
-    measured : whether every row needs a hook load or a torque.  Raises InputError, which names file, row and column.
+    sets : cases of override sets by name.  Another string is the path of a case file, relative to the file of rows.
+    measured : whether every row needs a hook load or a torque.  units : of a file whose headers name none, None to
+    refuse it; tell : called with a sentence that says so.  Raises InputError, which names file, row and column.
     """
     strings = {"": case}
     with naming(path):
-        form = measured_form(_EXAMPLE, _LOADS, _OTHERS, (OPERATION.key, *(["load"] if measured else [])))
-        found = read_measured_file(path, form, _LOADS)
+        form = measured_form(_EXAMPLE, _LOADS, _OTHERS, (OPERATION.key, *(["load"] if measured else [])), units)
+        found = read_measured_file(path, form, _LOADS, tell, empty=not measured)
         rows: list[Row] = []
         known: set[str] = set()
         for k, name in enumerate(found.rows.texts("string")):
@@ -186,7 +197,7 @@ def _row(found: Measured, k: int, name: str, case: Case, *, measured: bool) -> R
     else:
         rates = SteadyRates(0.0, 0.0 if np.isnan(rpm) else rad_per_s(rpm))
     return Row(
-        id=texts("id")[k] or f"row {found.rows.numbers[k]}", string=name, bit_depth=depth, operation=operation,
+        id=texts(NAME.key)[k] or f"row {found.rows.numbers[k]}", string=name, bit_depth=depth, operation=operation,
         rates=rates, hookload=hookload, torque=torque, weight=_weight(found, k), source=texts("source")[k],
         flow=found.number(k, "flow"), stroke=found.number(k, "stroke"),
         locked_torque=float(np.nan_to_num(found.number(k, "locked_torque"))),

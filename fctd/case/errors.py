@@ -39,7 +39,8 @@ class InputError(ValueError):
 
     file: the file with the bad value, or None; key: dotted path, list indices in brackets, or "";
     value: as the user wrote it, or MISSING; expected: the accepted input, a noun phrase;
-    more: further problems of the same input, each on its own line of the message.
+    more: further problems of the same input, each on its own line of the message; lines: of a file, to be pasted into
+    it, below the message.
     """
 
     def __init__(
@@ -50,6 +51,7 @@ class InputError(ValueError):
         value: object = MISSING,
         file: str | PathLike[str] | None = None,
         more: Sequence[InputError] = (),
+        lines: Sequence[str] = (),
     ) -> None:
         super().__init__(expected)
         self.file = file
@@ -57,22 +59,24 @@ class InputError(ValueError):
         self.value = value
         self.expected = expected
         self.more = tuple(more)
+        self.lines = tuple(lines)
 
     def in_file(self, file: str | PathLike[str]) -> InputError:
         """The same error with this file, unless it names a file already."""
         more = [other.in_file(file) for other in self.more]
         file = file if self.file is None else self.file
-        return type(self)(self.expected, key=self.key, value=self.value, file=file, more=more)
+        return type(self)(self.expected, key=self.key, value=self.value, file=file, more=more, lines=self.lines)
 
     def at(self, key: str) -> InputError:
         """The same error with `key` put before its key."""
         more = [other.at(key) for other in self.more]
-        return InputError(self.expected, key=join_key(key, self.key), value=self.value, file=self.file, more=more)
+        key = join_key(key, self.key)
+        return InputError(self.expected, key=key, value=self.value, file=self.file, more=more, lines=self.lines)
 
     def __str__(self) -> str:
         file = "" if self.file is None else f"{self.file}: "
         line = printable(f"{file}{self._subject()}expected {self.expected}")
-        return "\n".join([line, *map(str, self.more)])
+        return "\n".join([line, *map(str, self.more), *map(printable, self.lines)])
 
     def _subject(self) -> str:
         if self.value is MISSING:
@@ -133,10 +137,29 @@ def join_key(*parts: str | int) -> str:
     return key
 
 
+# What people write for a key, in lower case without what stands between words.
+_WORDS: Final = {
+    "bit.weight_on_bit": "wob weightonbit",
+    "bit.torque": "tob bittorque torqueonbit",
+    "mud.density": "mw mudweight",
+    "rig.block_weight": "blockweight topdriveweight",
+    "friction": "ff cof frictionfactor",
+    "outer_diameter": "od",
+    "inner_diameter": "id",
+    "linear_mass": "ppf weight linearweight nominalweight",
+    "yield_strength": "grade",
+    "speed": "rop",
+}
+_KEY_OF: Final = {word: key for key, words in _WORDS.items() for word in words.split()}
+
+
 def known_keys(table: Mapping[Any, Any], keys: Collection[str], owner: str = "") -> dict[str, Any]:
     """The table without the keys that are None, or an InputError that names the nearest known key."""
     for key, value in table.items():
         if key not in keys:
+            meant = _KEY_OF.get(re.sub(r"[\W_]", "", str(key)).lower())
+            if meant is not None and (meant in keys or "." in meant):
+                raise InputError(f"the key {meant}", key=str(key), value=value)
             raise InputError(nearest(key, keys, "key") + owner, key=str(key), value=value)
     return {key: value for key, value in table.items() if value is not None}
 

@@ -12,14 +12,16 @@ import numpy as np
 
 from fctd.arrays import Array
 from fctd.case.errors import MISSING, InputError, nearest
-from fctd.case.units import FRICTION
+from fctd.case.units import FRICTION, in_steps
 from fctd.case.wall import IntervalKind, IntervalSpec
 
 KINDS: Final[tuple[str, ...]] = get_args(IntervalKind)
 _FORM: Final = (
-    "a factor such as 0.25, a list of them such as 0.1,0.2,0.3, or factors by kind such as cased=0.2,open=0.3, where "
-    "each factor may be a pair such as 0.3/0.2, along and around the hole"
+    "a factor such as 0.25, a list of them such as 0.1,0.2,0.3, a fan FROM:TO:STEP such as 0.1:0.4:0.1, or factors by "
+    "kind such as cased=0.2,open=0.3, where each factor but those of a fan may be a pair such as 0.3/0.2, along and "
+    "around the hole"
 )
+_MOST_IN_FAN: Final = 100  # more is a slip in the step
 _MOST_PARTS: Final = 4  # intervals that the label of a case's own factors lists
 
 T = TypeVar("T")
@@ -124,7 +126,7 @@ def pick(by_kind: Mapping[str, T], kinds: Sequence[object]) -> list[T | None]:
 
 
 def parse_frictions(texts: Iterable[str], key: str) -> list[FrictionSet]:
-    """Sets of ``--friction`` options, each once: "0.25", "0.1,0.2,0.3" or "cased=0.20,open=0.30"."""
+    """Sets of ``--friction`` options, each once: "0.25", "0.1,0.2,0.3", "0.1:0.4:0.1" or "cased=0.20,open=0.30"."""
     return list(dict.fromkeys(found for text in texts for found in _parse(text, key)))
 
 
@@ -137,12 +139,25 @@ def _parse(text: str, key: str) -> list[FrictionSet]:
     pairs = [tuple(word.strip() for word in part.split("=")) for part in parts]
     try:
         if all(len(pair) == 1 for pair in pairs):
-            return [FrictionSet(every=_factor(part)) for part in parts]
+            return [FrictionSet(every=factor) for part in parts for factor in _factors(part)]
         if all(len(pair) == 2 for pair in pairs) and len({pair[0] for pair in pairs}) == len(pairs):
             return [friction_set({kind: _factor(factor) for kind, factor in pairs})]
     except InputError as error:
         raise InputError(error.expected, key=key, value=text) from None
     raise InputError(_FORM, key=key, value=text)
+
+
+def _factors(text: str) -> list[Factor]:
+    """A factor, or those of a fan."""
+    ends = text.split(":")
+    if len(ends) != 3:
+        return [_factor(text)]
+    first, last, step = (_one_factor(end) for end in ends)
+    if not (first <= last and step > 0) or (last - first) / step >= _MOST_IN_FAN:
+        raise InputError(
+            f"a fan FROM:TO:STEP with TO at least FROM, a STEP above 0, and at most {_MOST_IN_FAN} factors"
+        )
+    return list(in_steps(first, last, step))
 
 
 def _factor(text: str) -> Factor:

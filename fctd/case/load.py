@@ -12,13 +12,14 @@ from pydantic import Field, PrivateAttr, field_validator, model_validator
 
 from fctd.case.doubts import warnings_of
 from fctd.case.drilling import BitSpec
-from fctd.case.errors import MISSING, InputError, Table, naming, nearest
+from fctd.case.errors import MISSING, InputError, Table, naming
 from fctd.case.file_names import FileName
 from fctd.case.fluids import TemperatureSpec, check_downwards
 from fctd.case.hole import WellboreSpec
 from fctd.case.input_file import read_toml
 from fctd.case.input_warnings import InputWarning
 from fctd.case.limits import LimitsSpec
+from fctd.case.operation_names import read_kind
 from fctd.case.operations import KINDS, Operation
 from fctd.case.raw_case import (
     apply_override,
@@ -71,17 +72,18 @@ class Case(Table):
     @field_validator("operations", mode="before")
     @classmethod
     def _fill_in_starts(cls, raw: Any) -> Any:
-        """Fill in the start depth of an operation that omits it: the end depth of the operation before."""
+        """Give an operation the kind that its name is of, and the start that it omits: the end of the one before."""
         if not isinstance(raw, list | tuple):
             return raw  # pydantic reports the wrong type
         filled = []
         end: object = MISSING
         for i, operation in enumerate(raw):
             if isinstance(operation, Mapping):
-                name = look_up(operation, "kind")
-                kind = KINDS.get(str(name))
-                if kind is None:
-                    raise InputError(nearest(name, KINDS, "kind"), key=f"[{i}].kind", value=name)
+                try:
+                    name = read_kind(look_up(operation, "kind"))
+                except InputError as error:
+                    raise error.at(f"[{i}].kind") from None
+                operation, kind = {**operation, "kind": name}, KINDS[name]
                 if end is not MISSING and look_up(operation, kind.start_key) is MISSING:
                     operation = {**operation, kind.start_key: end}
                 end = look_up(operation, kind.end_key)
@@ -155,6 +157,14 @@ class Case(Table):
         return bottom if None in lengths else min(bottom, top + sum(length or 0.0 for length in lengths))
 
     @property
+    def end_as_written(self) -> str:
+        """The greatest bit depth that the string reaches, as the case has it where that is the end of its hole."""
+        written = look_up(self._written.raw, "wellbore", "intervals", -1, "to_md")
+        deepest = self.deepest
+        whole = deepest == self.wellbore.intervals[-1].to_md
+        return written if whole and isinstance(written, str) else f"{deepest:.10g} m"
+
+    @property
     def shoes(self) -> list[float]:
         """Depths [m] of the casing shoes: the ends of cased intervals (of all, without kinds) above the end of the
         hole; reads the survey."""
@@ -226,9 +236,10 @@ def load_case(path: str | os.PathLike[str], overrides: Mapping[str, Any] | None 
     """The case of a TOML file, validated after the overrides; raises InputError for bad input.
 
     overrides: dotted keys ("operations[0].speed" or "operations.0.speed") to values as in a case
-    file; None deletes a key. The key "friction" sets the friction of every interval, or with {"cased": 0.2,
-    "open": 0.3} that of the intervals of these kinds; "0.3/0.2" in place of a factor is one along the hole and one
-    around it. The key "rotational_friction" sets the factor around the hole alone, in the same ways.
+    file; None deletes a key. A component or an interval may have its name in place of an index. The key "friction" sets
+    the friction of every interval, or with {"cased": 0.2, "open": 0.3}, as "friction.open" does, that of the intervals
+    of these kinds; "0.3/0.2" in place of a factor is one along the hole and one around it. The key
+    "rotational_friction" sets the factor around the hole alone, in the same ways.
     """
     path = Path(path)
     with naming(path):

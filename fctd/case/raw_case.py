@@ -14,9 +14,12 @@ from pydantic_core import ErrorDetails
 from fctd.case.errors import MISSING, InputError, join_key, naming
 from fctd.case.friction import pick, split_factor
 from fctd.case.input_file import read_toml
+from fctd.case.named_items import by_index
+from fctd.case.operation_names import kind_named
 from fctd.case.text import is_utf8
 
 # Keys of files: their names need not be UTF-8, and a typed one is relative to the current folder.
+FRICTION: Final = "friction", "rotational_friction"
 FILE_KEYS: Final = "wellbore.survey", "wellbore.caliper.log"
 
 
@@ -87,13 +90,15 @@ def parse_override(text: str) -> tuple[str, Any]:
 
 
 def apply_override(raw: dict[str, Any], key: str, value: Any) -> None:
-    """Set or delete one dotted key of an unvalidated case."""
-    if key == "friction":
-        for i, factor in _of_intervals(raw, value):
-            _set_friction(raw, i, factor)
-    elif key == "rotational_friction":
-        for i, factor in _of_intervals(raw, value):
-            set_key(raw, f"wellbore.intervals[{i}].{key}", factor)
+    """Set or delete one dotted key of an unvalidated case, in which a component or an interval may have its name."""
+    key = by_index(raw, key)
+    name, _, kind = key.partition(".")
+    if name in FRICTION:  # of all intervals or those of a kind, "friction.open"
+        for i, factor in _of_intervals(raw, {kind: value} if kind else value):
+            if name == "friction":
+                _set_friction(raw, i, factor)
+            else:
+                set_key(raw, f"wellbore.intervals[{i}].{name}", factor)
     elif key in FILE_KEYS and isinstance(value, str | os.PathLike) and os.path.exists(value):
         set_key(raw, key, os.path.abspath(value))  # a typed path is relative to the current folder
     else:
@@ -234,7 +239,8 @@ def _written_parts(path: Sequence[str | int], raw: object) -> Iterator[str | int
     """The parts of pydantic's path without the members of unions: the kind of a table, a type where no table stands."""
     place = raw
     for part in path:
-        of_union = place.get("kind") == part if isinstance(place, Mapping) else place is not MISSING
+        kind = place.get("kind") if isinstance(place, Mapping) else MISSING
+        of_union = part in (kind, kind_named(kind)) if isinstance(place, Mapping) else place is not MISSING
         if isinstance(part, int) or not of_union:
             yield part
             place = look_up(place, part)

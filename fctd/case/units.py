@@ -384,3 +384,12 @@ def typed(text: str, dimension: Dimension, key: str, bare: str = "") -> float:
         return Quantity(dimension=dimension, at_least=0.0).parse(value)
     except InputError as error:
         raise InputError(error.expected, key=key, value=text) from None
+
+
+def in_steps(first: float, last: float, step: float) -> list[float]:
+    """Numbers from the first in steps to the last, which is always among them.
+
+    Rounding errors neither double the last one nor give 1750.3000000000002.
+    """
+    count = math.ceil((last - first) / step - 1e-6)
+    return [*(round(first + k * step, 6) for k in range(count)), round(last, 6)]

@@ -10,7 +10,7 @@ from fctd.case.errors import InputError
 from fctd.case.load import load_case
 from fctd.case.text import printable
 from fctd.cli.base_command import Silent
-from fctd.cli.options import messages, screen
+from fctd.cli.options import messages, screen, units_option
 from fctd.results.unit_systems import System
 
 
@@ -29,7 +29,7 @@ def app_command(
         bool, typer.Option("--new-token", help="A new secret in the address; earlier addresses lead nowhere.")
     ] = False,
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in a browser.")] = True,
-    units: Annotated[System, typer.Option("--units", help="Units of the page.")] = "si",
+    units: Annotated[System, units_option("Units of the page.")] = "si",
     quiet: Silent = False,
 ) -> None:
     """Show a case on a page of this machine: charts and string follow its sliders."""

@@ -1,6 +1,7 @@
 """``fctd calibrate CASE MEASURED.csv``: unknowns of a case from measured rows."""
 
 from collections.abc import Iterator, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -35,17 +36,21 @@ from fctd.cli.options import (
     refuse_sources,
     screen,
     tell,
+    units_option,
+    warn,
 )
 from fctd.cli.pictures import DRAWN, check_pictures
 from fctd.cli.steady import file_option, metadata_of_case
+from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, reworded, shown_unit
-from fctd.store.tables import write_table
 
 # Mean square of the residuals over the noise, by degree of freedom, beyond which the intervals are doubtful.
 MISFIT = 2.0
 LOADS = {"hookload": "N", "torque": "N*m"}
 _MOST_ROWS = 3  # that are named beside a friction factor
-Units = Annotated[System, typer.Option("--units", help="Units of screen and picture; files are in SI units.")]
+Units = Annotated[
+    System, units_option("Units of screen and picture, and of rows that name none; files are in SI units.")
+]
 
 
 def calibrate_command(
@@ -116,7 +121,7 @@ def calibrate_command(
 
         found = calibrate(
             case, measured, fits, priors=priors, setup=setup, loss=loss, order=order, starts=starts, seed=seed,
-            overrides=changes, scatter=scatter, progress=show,
+            overrides=changes, scatter=scatter, units=units, tell=partial(warn, measured), progress=show,
         )  # fmt: skip
         doing = "intervals"
         _ = found.intervals

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 from uuid import uuid4
@@ -46,6 +47,7 @@ from fctd.cli.options import (
     read_case,
     refuse_sources,
     tell,
+    warn,
 )
 from fctd.cli.pictures import (
     PICTURE_HELP,
@@ -72,15 +74,16 @@ from fctd.cli.steady import (
 )
 from fctd.model.depths import read_depths
 from fctd.model.operations import rates_of_all
-from fctd.plots.loads import ChartLook
+from fctd.plots.loads import ChartLook, usual_load
 from fctd.results.notes import meanings_of
 from fctd.results.status import SteadyStatus
+from fctd.results.table_files import write_table
+from fctd.results.unit_systems import System
 from fctd.steady.chart_saver import ChartSaver
 from fctd.steady.equilibrium import Solver
 from fctd.steady.margin_table import margin_table
 from fctd.steady.torque_drag import Row, chart_rows, with_friction
 from fctd.store.limits import LimitReached
-from fctd.store.tables import write_table
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -108,8 +111,8 @@ def chart_command(
         typer.Option(
             "--friction",
             metavar="X",
-            help="Friction factor of every interval, 0.25, a list, 0.1,0.2,0.3, or by kind, cased=0.2,open=0.3; "
-            "may be repeated.",
+            help="Friction factor of every interval, 0.25, a list, 0.1,0.2,0.3, a fan, 0.1:0.4:0.1, or by kind, "
+            "cased=0.2,open=0.3; may be repeated.",
         ),
     ] = [],  # noqa: B006
     speed: Speed = None,
@@ -125,11 +128,14 @@ def chart_command(
         Path | None,
         file_option("--plot-profile", f"Profiles at the last possible depth, first friction, {PICTURE_HELP}."),
     ] = None,
-    load: ShownLoad = "string",
+    load: ShownLoad = None,
     side_force: ShownSideForce = "length",
     measured: Annotated[
         Path | None,
-        file_option("--measured", "Rows to draw, .csv: bit_depth_m, operation, hookload_kN (block included), …"),
+        file_option(
+            "--measured",
+            "Rows to draw, .csv or .xlsx: bit depth, operation, hook load (with the block), or a rig's sheet.",
+        ),
     ] = None,
     limits: Annotated[
         bool, typer.Option("--limits", help="Draw the limits of fctd limits as lines, with the first friction factors.")
@@ -228,7 +234,7 @@ def _chart(
     for key, path in {"--out": out, "--plot": plot, "--plot-profile": plot_profile}.items():
         refuse_sources(case, path, key, [asked.measured])
     bit_depths = read_depths(asked.depths, case, "--depths", bare_length(units))
-    points_measured = None if asked.measured is None else _measured(asked.measured, case, plot)
+    points_measured = None if asked.measured is None else _measured(asked.measured, case, plot, units)
     kinds = read_kinds(asked.operations)
     if points_measured is not None:
         _tell_not_drawn(points_measured["operation"], kinds)
@@ -290,7 +296,7 @@ def _chart(
             if kept is not None:
                 kept.folder.clear()
         finally:
-            print_chart(rows, case.name, units)
+            print_chart(rows, case.name, units, asked.load or usual_load([case]))
             print_segments(case, last, units)
     print_written(written)
     acceptable = all(SteadyStatus(status).acceptable for status in {row["status"] for row in rows})
@@ -331,8 +337,8 @@ def _tell_not_drawn(measured: "pd.Series[str]", kinds: Sequence[str]) -> None:
         messages.print(f"{told}, of operations that are not asked for: {', '.join(others.unique())}", soft_wrap=True)
 
 
-def _measured(path: Path, case: Case, plot: Path | None) -> "pd.DataFrame":
+def _measured(path: Path, case: Case, plot: Path | None, units: System) -> "pd.DataFrame":
     """Measured rows, which only a picture shows."""
     if plot is None:
         raise InputError("--plot beside it, the picture to draw them in", key="--measured", value=path)
-    return read_measured(path, case)
+    return read_measured(path, case, units, partial(warn, path))

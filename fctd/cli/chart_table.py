@@ -11,7 +11,8 @@ from rich.table import Column, Table
 
 from fctd.case.text import counted, printable
 from fctd.cli.options import messages, screen
-from fctd.results.columns import BUCKLED, DEPTH, IN_CHART
+from fctd.plots.loads import LOAD_COLUMNS, Load
+from fctd.results.columns import BUCKLED, COLUMNS, DEPTH, IN_CHART
 from fctd.results.notes import MEANINGS
 from fctd.results.series import FRICTION_LABEL, in_words
 from fctd.results.status import SteadyStatus
@@ -19,13 +20,17 @@ from fctd.results.unit_systems import System, reworded, shown
 from fctd.steady.torque_drag import Row
 
 SCREEN_ROWS = 36
-# Columns of a chart on the screen.
+# Columns of a chart on the screen; the weight indicator stands in place of the hook load where it is shown.
 SHOWN = [column for column in (DEPTH, *IN_CHART) if column.heading]
 
 
-def print_chart(rows: list[Row], name: str, units: System) -> None:
-    """Print a table that fits the screen, and a line for each run of rows with another status or a note."""
-    units_of = {column.name: shown(column.name, units) for column in SHOWN}
+def print_chart(rows: list[Row], name: str, units: System, load: Load) -> None:
+    """Print a table that fits the screen, and a line for each run of rows with another status or a note.
+
+    load : that it shows, of the string or with the block.
+    """
+    columns = [COLUMNS[LOAD_COLUMNS[load]] if column.name == LOAD_COLUMNS["string"] else column for column in SHOWN]
+    units_of = {column.name: shown(column.name, units) for column in columns}
     series: dict[tuple[str, str], list[Row]] = {}
     for row in rows:
         series.setdefault((row["operation"], reworded(row[FRICTION_LABEL], units)), []).append(row)
@@ -33,7 +38,7 @@ def print_chart(rows: list[Row], name: str, units: System) -> None:
     fan = len(frictions) > 1  # one set of factors, which may be a long text, stands above the table
     screen.print(printable(name if fan else f"{name}; {in_words(frictions[0])}"), style="bold", soft_wrap=True)
     buckled = not all(np.isnan(row["buckled_from_md_m"]) for row in rows)
-    loads = [f"{column.heading}\n{units_of[column.name].label}" for column in SHOWN]
+    loads = [f"{column.heading or load}\n{units_of[column.name].label}" for column in columns]
     table = Table(
         Column("operation", no_wrap=True),
         *([Column("μ", overflow="fold")] if fan else []),
@@ -50,7 +55,7 @@ def print_chart(rows: list[Row], name: str, units: System) -> None:
         for k, row in enumerate(of[i] for i in picked):
             values = [
                 "–" if np.isnan(row[name]) else f"{row[name] * units_of[name].factor:z.{digits}f}"
-                for name, digits in ((column.name, column.digits) for column in SHOWN)
+                for name, digits in ((column.name, column.digits) for column in columns)
             ]
             if buckled:
                 values.append(_buckled(row, units_of[DEPTH.name].factor))
@@ -60,6 +65,8 @@ def print_chart(rows: list[Row], name: str, units: System) -> None:
     counts = ", ".join(f"{count} {status}" for status, count in Counter(row["status"] for row in rows).most_common())
     left_out = f"; {printed} of them above, all of them in a file by --out" if printed < len(rows) else ""
     screen.print(f"{counted(len(rows), 'row')}: {counts}{left_out}", soft_wrap=True)
+    if load == "indicator":
+        screen.print("indicator: as the rig reads it, block included; --load string leaves it out", soft_wrap=True)
     depth = units_of["bit_depth_m"]
     for (operation, friction), of in series.items():
         name = f"{operation}, friction {friction}" if fan else operation

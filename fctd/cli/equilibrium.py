@@ -47,6 +47,7 @@ from fctd.cli.steady import (
     metadata_of,
     print_segments,
     read_drive,
+    read_kinds,
 )
 from fctd.model.depths import read_depth
 from fctd.model.operations import rates_of_all
@@ -54,10 +55,10 @@ from fctd.results.buckling import BUCKLED
 from fctd.results.columns import COLUMNS, LOADS, SHAPES, SHARES
 from fctd.results.notes import as_metadata
 from fctd.results.profile import place_in_words
+from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, shown
 from fctd.steady.equilibrium import equilibrium
 from fctd.steady.steady_string import Equilibrium
-from fctd.store.tables import write_table
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -86,9 +87,10 @@ def equilibrium_command(
     """Solve the steady string of one operation and bit depth: its loads, and its profile from top to bit."""
     check_feeding_file(plot_feeding)
     out, plot = check_targets(out, plot, {OPTION: plot_feeding})
-    if len(operations) > 1:
+    kinds = read_kinds(operations)
+    if len(kinds) > 1:
         raise InputError("one kind of operation (fctd chart takes several)", key="--operation", value=operations)
-    (operation,) = operations
+    (operation,) = kinds
     case = read_case(case_file, changes_of(overrides, friction, resolve_buckling))
     refuse_sources(case, out, "--out")
     refuse_sources(case, plot, "--plot")

@@ -36,8 +36,9 @@ from fctd.cli.pictures import PICTURE_HELP, draw_panels
 from fctd.cli.steady import Units, check_targets, file_option, in_units, metadata_of_case, row_bar
 from fctd.hydraulics.closed_forms import TURBULENT, YIELDING
 from fctd.hydraulics.cuttings import Cuttings
-from fctd.hydraulics.pressures import PUMPED, Circulation, circulations
+from fctd.hydraulics.pressures import PUMPED, SHARE, Circulation, Eccentricity, circulations
 from fctd.results.unit_systems import System, reworded, shown
+from fctd.steady.equilibrium import lie_along
 from fctd.store.tables import write_table
 
 if TYPE_CHECKING:
@@ -60,10 +61,14 @@ Flows = Annotated[
         "the case's operations.",
     ),
 ]
-Eccentricity = Annotated[
-    float,
-    typer.Option("--eccentricity", metavar="E", help="Offset of the pipe over its clearance, 0 (concentric) to 1."),
-]
+Beside = Annotated[
+    str | None,
+    typer.Option(
+        "--eccentricity", metavar="E",
+        help="Offset of the pipe over its clearance, 0 (concentric) to 1, or 'string', where the string lies; default: "
+        "the case's.",
+    ),
+]  # fmt: skip
 
 
 def hydraulics_command(
@@ -73,7 +78,7 @@ def hydraulics_command(
         str,
         typer.Option("--depths", metavar="D or FROM:TO:STEP", help=f"{DEPTHS_HELP} Or one depth, such as shoe."),
     ] = "td",
-    eccentricity: Eccentricity = 0.0,
+    eccentricity: Beside = None,
     penetration: Annotated[
         str | None,
         typer.Option(
@@ -126,7 +131,7 @@ def hydraulics_command(
         def show(done: int, total: int) -> None:
             bar.update(task, completed=done, total=total)
 
-        found = circulations(case, pumped, bit_depths, eccentricity, cuttings, show)
+        found = circulations(case, pumped, bit_depths, read_eccentricity(eccentricity, case), cuttings, show)
     import pandas as pd  # slow to import
 
     solved = [one for one in found if isinstance(one, Circulation)]
@@ -146,6 +151,17 @@ def hydraulics_command(
     finally:
         _print(case, table, solved, units)
     print_written(written)
+
+
+def read_eccentricity(text: str | None, case: Case) -> Eccentricity:
+    """The eccentricity of ``--eccentricity``, else that of the case."""
+    given = case.mud.eccentricity if text is None else text
+    if given == "string":
+        return lie_along
+    try:
+        return SHARE.parse(float(given))
+    except (InputError, ValueError):
+        raise InputError("'string' or a share at least 0 and at most 1", key="--eccentricity", value=given) from None
 
 
 def _flows(texts: Sequence[str], case: Case, units: System) -> list[float]:

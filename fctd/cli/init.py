@@ -12,9 +12,10 @@ from fctd.case.surveys.form import SURVEY
 from fctd.case.tables.headers import Choice, parse_choices
 from fctd.case.text import is_utf8, printable
 from fctd.cli.base_command import Silent
-from fctd.cli.options import check_target, messages, screen, tell
-from fctd.model.new_case import Plan, Quantities, UnitSystem, from_survey, from_template, read_survey
+from fctd.cli.options import check_target, messages, screen, tell, units_option
+from fctd.model.new_case import Plan, Quantities, from_survey, from_template, read_survey
 from fctd.model.templates import TEMPLATES, TemplateName
+from fctd.results.unit_systems import System
 from fctd.store.whole_file import whole_file
 
 DEPTHS = 10  # from shoe to end, at most, in the chart that is proposed
@@ -32,7 +33,7 @@ def init_command(
             show_default=False,
         ),
     ] = None,
-    units: Annotated[UnitSystem, typer.Option("--units", help="Units of the case file.")] = "metric",
+    units: Annotated[System, units_option("Units of the case file, and of a survey that names none.")] = "si",
     columns: Annotated[
         list[str],
         typer.Option(
@@ -56,7 +57,7 @@ def init_command(
     """Write a commented case file that runs, for your survey or for one of the templates."""
     check_target(out, "--out", (".toml",))
     if out.exists():
-        raise InputError("a file that does not exist yet", key="--out", value=out)
+        raise InputError("a file that does not exist yet: delete it, or name another", key="--out", value=out)
     if survey is None and (columns or sheet is not None):
         raise InputError("a survey beside --columns and --sheet", key="SURVEY")
     plan = _plan(survey, template, units, out, parse_choices(columns, SURVEY), sheet)
@@ -65,7 +66,7 @@ def init_command(
     if not quiet:
         screen.print(f"Written: {printable(str(out))}, {printable(plan.title)}", soft_wrap=True)
     case = load_case(out)
-    if tell(case, case.warnings, strict=False, units="field" if units == "field" else "si"):
+    if tell(case, case.warnings, strict=False, units=units):
         text = f"depths in {printable(str(out))} follow from the survey as it was read: if that is wrong, delete it"
         messages.print(f"{text} and write it anew", soft_wrap=True)
     for line in () if quiet else _next(plan, out):
@@ -75,7 +76,7 @@ def init_command(
 def _plan(
     survey: Path | None,
     template: TemplateName | None,
-    units: UnitSystem,
+    units: System,
     out: Path,
     columns: dict[str, Choice],
     sheet: str | None,

@@ -42,10 +42,10 @@ from fctd.cli.steady import (
     row_bar,
 )
 from fctd.model.depths import read_depth, read_depths
+from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, reworded, shown
 from fctd.steady.margin_table import USUAL, margin_table
 from fctd.steady.margins import FATIGUE, LACKING, MEANINGS, OVERPULL, SET_DOWN, SLIPS, TORQUE
-from fctd.store.tables import write_table
 
 if TYPE_CHECKING:
     import pandas as pd

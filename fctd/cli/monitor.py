@@ -39,9 +39,9 @@ from fctd.monitoring.monitor import Monitor, Monitored, result_of
 from fctd.monitoring.quantities import SERIES
 from fctd.monitoring.series import read_series
 from fctd.monitoring.text_series import Tail
+from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, reworded, shown
 from fctd.store.origin import versions
-from fctd.store.tables import write_table
 
 PICTURES = (".png", ".svg", ".pdf")
 SCREEN_ROWS = 30

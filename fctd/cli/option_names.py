@@ -22,7 +22,7 @@ def naming_options(command: Callable[P, R], others: Mapping[str, str] | None = N
 
     @wraps(command)
     def told(*given: P.args, **options: P.kwargs) -> R:
-        units: System = "field" if options.get("units") == "field" else "si"  # ``init`` calls SI units metric
+        units: System = "field" if options.get("units") == "field" else "si"
         try:
             return command(*given, **options)
         except InputError as error:
@@ -37,5 +37,5 @@ def _told(error: InputError, others: Mapping[str, str], units: System) -> InputE
     value = reworded(error.value, units) if error.key in others and isinstance(error.value, str) else error.value
     return InputError(
         reworded(error.expected, units), key=key, value=value, file=None if error.key in OPTIONS else error.file,
-        more=[_told(other, others, units) for other in error.more],
+        more=[_told(other, others, units) for other in error.more], lines=error.lines,
     )  # fmt: skip

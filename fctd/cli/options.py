@@ -51,6 +51,21 @@ class Terminal(Console):
 # Results go to standard output, progress and errors to standard error, so that each can be redirected.
 screen, messages = Terminal(), Terminal(stderr=True)
 
+
+def _system(text: str) -> System:
+    """The system of units that a word of an option is of; metric units are those of SI."""
+    word = text.strip().lower()
+    if word not in ("si", "metric", "field"):
+        raise typer.BadParameter(f"{text!r} is not si (or metric: m, kN, kN·m) or field (ft, klbf, kft·lbf)")
+    return "field" if word == "field" else "si"
+
+
+def units_option(what: str) -> typer.models.OptionInfo:
+    """The option ``--units`` of a command."""
+    info: typer.models.OptionInfo = typer.Option("--units", metavar="si|field", parser=_system, help=what)
+    return info
+
+
 CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML).", show_default=False)]
 Overrides = Annotated[
     list[str],
@@ -116,6 +131,11 @@ def tell(case: Case, warnings: Sequence[InputWarning], *, strict: bool, units: S
         messages.print(f"strict: warnings are errors ({codes}); nothing is computed", soft_wrap=True)
         raise typer.Exit(FAILED)
     return told
+
+
+def warn(path: Path, text: str) -> None:
+    """Print what was assumed of a file."""
+    messages.print(f"warning: {printable(str(path))}: {printable(text)}", soft_wrap=True)
 
 
 def finish(acceptable: bool, codes: Iterable[str], strict: bool) -> None:

@@ -28,8 +28,13 @@ PICTURE_HELP = ".png, .svg, .pdf, or .html with values under the pointer"
 _NEEDS = {PAGE: ("plotly", "html"), ".xlsx": ("xlsxwriter", "excel")}
 
 ShownLoad = Annotated[
-    Load,
-    typer.Option("--load", help="In the picture: hook load of the string, or the weight indicator's reading."),
+    Load | None,
+    typer.Option(
+        "--load",
+        help="In picture and table on the screen: hook load of the string, or the weight indicator's reading; default: "
+        "the indicator where the case has rig.block_weight.",
+        show_default=False,
+    ),
 ]
 ShownSideForce = Annotated[
     SideForce,

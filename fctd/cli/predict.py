@@ -1,5 +1,6 @@
 """``fctd predict CASE ROWS.csv``: readings of rows with bands, and scores of those that are measured."""
 
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -20,10 +21,11 @@ from fctd.cli.options import (
     read_case,
     refuse_sources,
     screen,
+    warn,
 )
 from fctd.cli.pictures import DRAWN, check_pictures
 from fctd.cli.steady import check_table, file_option, metadata_of_case
-from fctd.store.tables import write_table
+from fctd.results.table_files import write_table
 
 
 def predict_command(
@@ -56,7 +58,9 @@ def predict_command(
     with messages.status("predicting") as status:
         if quiet:
             status.stop()
-        table = predict(case, rows, posterior, samples=samples, seed=seed, overrides=changes)
+        table = predict(
+            case, rows, posterior, samples=samples, seed=seed, overrides=changes, units=units, tell=partial(warn, rows)
+        )
     metadata = metadata_of_case(case, warnings_of(case))
     written = [] if out is None else write_table(table, out, metadata)
     if plot is not None:

@@ -30,7 +30,7 @@ from fctd.cli.options import (
     screen,
     tell,
 )
-from fctd.cli.steady import DEPTH_HELP, KIND_HELP, Flow, ResolveBuckling, Rpm, Speed, Units, read_drive
+from fctd.cli.steady import DEPTH_HELP, KIND_HELP, Flow, ResolveBuckling, Rpm, Speed, Units, read_drive, read_kinds
 from fctd.model.depths import read_depth
 from fctd.results.unit_systems import System, shown
 from fctd.steady.refine import Refinement, refine
@@ -84,11 +84,12 @@ def refine_command(
         survey_from(out, case)  # raises InputError before the computing
     depth = None if bit_depth is None else read_depth(bit_depth, case, "--bit-depth", bare_length(units))
     drive = read_drive(speed, rpm, flow, units)
-    tell(case, warnings_of(case, operations, **drive), strict=strict, units=units)
+    kinds = read_kinds(operations) if operations else []
+    tell(case, warnings_of(case, kinds, **drive), strict=strict, units=units)
     with messages.status("compiling") as status:
         if quiet:
             status.stop()
-        refined = refine(case, share, operations or None, depth, graded, most, **drive, progress=status.update)
+        refined = refine(case, share, kinds or None, depth, graded, most, **drive, progress=status.update)
     target = out if refined.status.has_loads else None
     try:  # written before anything is printed, as the terminal may be closed; printed also where writing fails
         if target is not None:

@@ -50,6 +50,7 @@ from fctd.cli.options import (
     refuse_sources,
     screen,
     tell,
+    units_option,
 )
 from fctd.cli.pictures import DRAWN, check_pictures
 from fctd.results.buckling import MODES
@@ -64,9 +65,7 @@ from fctd.simulation.run_saver import RunSaver
 from fctd.simulation.simulate import simulate
 from fctd.store.run_folder import RunFolder
 
-ShownUnits = Annotated[
-    System, typer.Option("--units", help="Units of screen and CSV files; the Parquet files are in SI units.")
-]
+ShownUnits = Annotated[System, units_option("Units of screen and CSV files; the Parquet files are in SI units.")]
 
 
 def simulate_command(

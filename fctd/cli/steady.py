@@ -10,9 +10,10 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from fctd.case.errors import InputError
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case
+from fctd.case.operation_names import USUAL, kinds_of, split_names
 from fctd.case.operations import KINDS
 from fctd.case.units import FLOW, ROTATION, SPEED
-from fctd.cli.options import check_target, messages, read_quantity, screen
+from fctd.cli.options import check_target, messages, read_quantity, screen, units_option
 from fctd.cli.pictures import PICTURES, check_package, check_pictures
 from fctd.model.drillstring import lay_out
 from fctd.model.operations import rates_of_all
@@ -31,7 +32,7 @@ def _defaults(rate: str) -> str:
     return ", ".join(f"{name} {getattr(kind, rate):g}" for name, kind in KINDS.items() if getattr(kind, rate))
 
 
-KIND_HELP = f"Kind of operation: {', '.join(KINDS)}"
+KIND_HELP = f"Kind of operation: {', '.join(KINDS)}, also {', '.join(USUAL)}"
 Speed = Annotated[
     str | None,
     typer.Option(
@@ -54,7 +55,7 @@ Flow = Annotated[
 DEPTH_HELP = "Bit depth, '2450 m', td or shoe; bare in m, with --units field in ft"
 Units = Annotated[
     System,
-    typer.Option("--units", help="Units of tables, pictures and screen, and of bare depths and speeds of options."),
+    units_option("Units of tables, pictures and screen, and of bare depths and speeds of options."),
 ]
 ResolveBuckling = Annotated[
     bool | None,
@@ -82,8 +83,8 @@ def read_drive(speed: str | None, rpm: str | None, flow: str | None, units: Syst
 
 def read_kinds(texts: Sequence[str], usual: Sequence[str] = ()) -> list[str]:
     """The kinds of operations of an option that may be repeated, with commas between them or "all"; else the usual."""
-    names = [name.strip() for text in texts for name in text.split(",")]
-    return list(dict.fromkeys(kind for name in names for kind in (KINDS if name == "all" else [name]))) or list(usual)
+    names = [name for text in texts for name in split_names(text)]
+    return kinds_of([kind for name in names for kind in (KINDS if name == "all" else [name])] or usual)
 
 
 def row_bar(quiet: bool) -> Progress:

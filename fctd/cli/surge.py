@@ -16,7 +16,7 @@ from fctd.case.text import printable
 from fctd.case.units import SPEED
 from fctd.cli.chart import DEPTHS_HELP
 from fctd.cli.check import facts_table, flow_curves
-from fctd.cli.hydraulics import Eccentricity, number
+from fctd.cli.hydraulics import Beside, number, read_eccentricity
 from fctd.cli.limits import read_one_or_more, rows_of
 from fctd.cli.options import (
     CaseFile,
@@ -74,7 +74,7 @@ def surge_command(
     most: Annotated[
         str, typer.Option("--most", metavar="V", help="Fastest speed of the hoist, of trips within the window.")
     ] = f"{FASTEST:g} m/s",
-    eccentricity: Eccentricity = 0.0,
+    eccentricity: Beside = None,
     overrides: Overrides = [],  # noqa: B006
     out: Annotated[
         Path | None,
@@ -104,7 +104,7 @@ def surge_command(
     closed = list(ENDS) if _words(ends) == ["all"] else _words(ends)
     asked: dict[str, Any] = {
         "bit_depths": read_one_or_more(depths, case, bare_length(units)), "operation": _words(operations) or TRIPS,
-        "end": closed, "eccentricity": eccentricity,
+        "end": closed, "eccentricity": read_eccentricity(eccentricity, case),
     }  # fmt: skip
     warnings = warnings_of(case)
     told = tell(case, warnings, strict=strict, units=units)

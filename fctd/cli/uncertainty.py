@@ -9,16 +9,16 @@ from rich.box import SIMPLE_HEAD
 from rich.table import Column, Table
 
 from fctd.case.errors import InputError
-from fctd.case.operations import KINDS
+from fctd.case.operation_names import kinds_of
 from fctd.case.text import counted, file_name, printable
 from fctd.case.units import LENGTH
 from fctd.cli.options import Quiet, check_target, messages, print_written, read_quantity, screen
 from fctd.cli.pictures import DRAWN, check_pictures
 from fctd.cli.steady import Units, file_option
 from fctd.cli.sweep import SweepFile
+from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, in_field_units, long_in_field_units, shown
 from fctd.store.origin import versions
-from fctd.store.tables import write_table
 from fctd.sweep.dataset import identity_of, open_dataset
 from fctd.sweep.design import sample_of, samples_of
 from fctd.sweep.indices import WITH_UNIT
@@ -84,8 +84,7 @@ def uncertainty_command(
         raise InputError(
             "the folder of this sweep (its file, case or survey is another)", key="--from", value=dataset.folder
         )
-    if operation is not None and operation not in KINDS:
-        raise InputError(f"one of the kinds {', '.join(KINDS)}", key="--operation", value=operation)
+    operation = None if operation is None else kinds_of([operation])[0]
     depth = None if bit_depth is None else read_quantity(bit_depth, LENGTH, "--bit-depth", units)
     found = assess(dataset, spec, depth)
     keys = [] if map_keys is None else [part.strip() for part in map_keys.split(",")]

@@ -33,6 +33,9 @@ PUMPED: Final = Quantity(dimension=FLOW, above=0.0, at_most=1.0, likely_units=FL
 SHARE: Final = Number(noun="a share", at_least=0.0, at_most=1.0)
 Row = dict[str, Any]
 Progress = Callable[[int, int], None]
+# Offset of the pipe over its clearance, or what finds it for a case with the bit at a depth [m]: distances from the bit
+# (n,) [m], falling, and the offsets there; None for that of the case.
+Eccentricity = float | Callable[[Case, float], tuple[Array, Array]] | None
 
 
 @dataclass(frozen=True)
@@ -83,15 +86,19 @@ class Laid:
         return float(fluids.outside.pressure(*bit)[0] - fluids.inside.pressure(*bit)[0] + fluids.inside.surface)
 
 
-def lay(case: Case, bit_depth: float, eccentricity: float = 0.0) -> Laid:
+def lay(case: Case, bit_depth: float, eccentricity: Eccentricity = None) -> Laid:
     """A case's string with the bit at a depth [m]; eccentricity : offset of the pipe over its clearance, 0 to 1.
 
     Raises InputError where string and hole do not fit.
     """
-    try:
-        SHARE.parse(eccentricity)
-    except InputError as error:
-        raise error.at("eccentricity") from None
+    given = case.mud.eccentricity if eccentricity is None else eccentricity
+    if isinstance(given, str):
+        raise InputError("a number, or fctd.lie_along, which finds where the string lies", key="eccentricity")
+    if not callable(given):
+        try:
+            SHARE.parse(given)
+        except InputError as error:
+            raise error.at("eccentricity") from None
     hole, string = build_wellbore(case), lay_out(case, bit_depth)
     check_fit(string, hole, bit_depth)
     ends = string.top_md + np.cumsum(string.length)
@@ -102,7 +109,11 @@ def lay(case: Case, bit_depth: float, eccentricity: float = 0.0) -> Laid:
     cut[-1] = bit_depth
     owner = string.component[np.searchsorted(ends, cut - SAME_PLACE)]
     string = replace(string, length=np.diff(cut, prepend=string.top_md), component=owner)
-    return Laid(case, hole, string, channel_of(case, string, hole, eccentricity))
+    if callable(given):
+        above, share = given(case, bit_depth)
+        middle = 0.5 * (string.above_bit[1:] + string.above_bit[:-1])
+        return Laid(case, hole, string, channel_of(case, string, hole, np.interp(-middle, -above, share)))
+    return Laid(case, hole, string, channel_of(case, string, hole, given))
 
 
 @dataclass(frozen=True)
@@ -225,7 +236,7 @@ def _runs(values: Array | NDArray[np.int64]) -> list[tuple[int, int]]:
 
 
 def circulation(
-    case: Case, flow: float, bit_depth: float, eccentricity: float = 0.0, cuttings: Cuttings | None = None
+    case: Case, flow: float, bit_depth: float, eccentricity: Eccentricity = None, cuttings: Cuttings | None = None
 ) -> Circulation:
     """Mud that is pumped [m³/s] with the bit at a depth [m].  Raises InputError where string and hole do not fit."""
     laid = lay(case, bit_depth, eccentricity)
@@ -251,7 +262,7 @@ def check_flows(case: Case) -> None:
 
 
 def circulations(
-    case: Case, flows: Sequence[float], bit_depths: Sequence[float], eccentricity: float = 0.0,
+    case: Case, flows: Sequence[float], bit_depths: Sequence[float], eccentricity: Eccentricity = None,
     cuttings: Cuttings | None = None, progress: Progress | None = None,
 ) -> list[Circulation | Row]:  # fmt: skip
     """The circulation of every flow and bit depth, or a row with the reason where string and hole do not fit.
@@ -280,13 +291,14 @@ def pressure_losses(
     case: Case,
     flow: float | str | Sequence[float | str],
     bit_depths: Sequence[float | str] = (),
-    eccentricity: float = 0.0,
+    eccentricity: Eccentricity = None,
     cuttings: Cuttings | None = None,
 ) -> pd.DataFrame:
     """A row for every flow and bit depth, SI: what the pumps need, and where it is lost.
 
     flow [m³/s], or texts with units.  bit_depths [m], or texts; without any the depth of the hole.  eccentricity :
-    offset of the pipe over its clearance, 0 to 1, all along the string.  cuttings : whose weight counts in the density.
+    offset of the pipe over its clearance, 0 to 1, or ``fctd.lie_along``; without it that of the case.  cuttings :
+    whose weight counts in the density.
 
     Columns: flow_m3_s, bit_depth_m, standpipe_Pa, surface_drop_Pa, bore_drop_Pa, tool_drop_Pa, bit_drop_Pa,
     annulus_drop_Pa, ecd_shoe_kg_m3 (at the last end of an interval above the bit), ecd_bit_kg_m3, bit_power_W,

@@ -16,7 +16,7 @@ from fctd.case.operations import KINDS
 from fctd.case.units import LENGTH, SPEED, argument
 from fctd.hydraulics.circuit import Circuit, circulate
 from fctd.hydraulics.closed_forms import REGIMES
-from fctd.hydraulics.pressures import Laid, Progress, Row, check_flows, lay
+from fctd.hydraulics.pressures import Eccentricity, Laid, Progress, Row, check_flows, lay
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.fluids import depth_at
 
@@ -83,7 +83,7 @@ class Trip:
 
 
 def trips_at(
-    case: Case, bit_depth: float, operation: Sequence[str], end: Sequence[str], eccentricity: float
+    case: Case, bit_depth: float, operation: Sequence[str], end: Sequence[str], eccentricity: Eccentricity
 ) -> list[Trip]:
     """The trips of kinds and ends with the bit at a depth [m]."""
     laid = lay(case, bit_depth, eccentricity)
@@ -96,7 +96,7 @@ def surge_pressures(
     bit_depths: Sequence[float | str] = (),
     operation: str | Sequence[str] = TRIPS,
     end: str | Sequence[str] = (),
-    eccentricity: float = 0.0,
+    eccentricity: Eccentricity = None,
     progress: Progress | None = None,
 ) -> pd.DataFrame:
     """A row for every operation, end, speed and bit depth, SI: what a trip at constant speed adds to the pressure.
@@ -129,7 +129,7 @@ def fastest_trips(
     bit_depths: Sequence[float | str] = (),
     operation: str | Sequence[str] = TRIPS,
     end: str | Sequence[str] = (),
-    eccentricity: float = 0.0,
+    eccentricity: Eccentricity = None,
     most: float | str = FASTEST,
     progress: Progress | None = None,
 ) -> pd.DataFrame:
@@ -173,8 +173,8 @@ def _time(case: Case, depth: Array, speed: Array) -> Array:
 
 def _asked(
     case: Case, bit_depths: Sequence[float | str], operation: str | Sequence[str], end: str | Sequence[str],
-    eccentricity: float,
-) -> tuple[list[float], list[str], list[str], float]:  # fmt: skip
+    eccentricity: Eccentricity,
+) -> tuple[list[float], list[str], list[str], Eccentricity]:  # fmt: skip
     """Depths [m], operations, ends and eccentricity that are asked for, checked."""
     check_flows(case)
     depths = [argument(depth, LENGTH, "bit_depths") for depth in bit_depths] or [case.deepest]
@@ -188,7 +188,12 @@ def _asked(
 
 
 def _laid(
-    case: Case, depths: list[float], kinds: list[str], ends: list[str], eccentricity: float, progress: Progress | None
+    case: Case,
+    depths: list[float],
+    kinds: list[str],
+    ends: list[str],
+    eccentricity: Eccentricity,
+    progress: Progress | None,
 ) -> list[tuple[list[Trip], float, str]]:
     """The trips at every depth, or none and the reason; raises InputError where string and hole fit at no depth."""
     found: list[tuple[list[Trip], float, str]] = []

@@ -4,7 +4,7 @@ import numpy as np
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case
-from fctd.case.units import LENGTH, typed
+from fctd.case.units import LENGTH, in_steps, typed
 from fctd.model.operations import depth_range
 
 MOST_DEPTHS = 10_000  # more is a slip in the step
@@ -28,7 +28,10 @@ def read_depth(text: str, case: Case, key: str, bare: str = "m", *, given: str |
 
 
 def read_depths(text: str, case: Case, key: str, bare: str = "m") -> list[float]:
-    """Bit depths [m] of FROM:TO:STEP, TO included; see ``read_depth``.  Raises InputError, which names the key."""
+    """Bit depths [m] of FROM:TO:STEP, TO included, those below the top of the string; see ``read_depth``.
+
+    Raises InputError, which names the key.
+    """
     parts = text.split(":")
     if len(parts) != 3:
         raise InputError(
@@ -40,16 +43,10 @@ def read_depths(text: str, case: Case, key: str, bare: str = "m") -> list[float]
         raise InputError("depths that rise: TO at least FROM, and a STEP above 0", key=key, value=text)
     if (last - first) / step >= MOST_DEPTHS:
         raise InputError(f"at most {MOST_DEPTHS} depths", key=key, value=text)
-    return depths_between(first, last, step)
-
-
-def depths_between(first: float, last: float, step: float) -> list[float]:
-    """Bit depths [m] from the first in steps to the last, which is always among them.
-
-    Rounding errors neither double the last one nor give 1750.3000000000002.
-    """
-    steps = (last - first) / step
-    return [*(round(first + k * step, 6) for k in range(int(np.ceil(steps - 1e-6)))), round(last, 6)]
+    hanging = [depth for depth in in_steps(first, last, step) if depth > case.string.top_md]
+    if not hanging:
+        raise InputError(f"a depth below string.top_md, {case.string.top_md:g} m", key=key, value=text)
+    return hanging
 
 
 def usual_depths(case: Case, count: int) -> list[float]:

@@ -14,15 +14,16 @@ from fctd.case.surveys import reading as surveys
 from fctd.case.tables.headers import Choice, Choices, NoUnitError
 from fctd.case.units import DENSITY, FORCE, LENGTH, LINEAR_MASS, TORQUE, Dimension, Quantity
 from fctd.model.default_layout import mean_curvature
+from fctd.model.first_runs import COMMENTS, PERIODS, aligned, drilling, entry, rotation, trip
 from fctd.model.section import section_of
 from fctd.model.templates import TEMPLATES, Part, Template, TemplateName
 from fctd.model.torsion import torsional_period
 
-UnitSystem = Literal["metric", "field"]
+UnitSystem = Literal["si", "field"]
 
 # A unit for each dimension, and the digits after the point that are written.
 UNITS: dict[UnitSystem, dict[Dimension, tuple[str, int]]] = {
-    "metric": {
+    "si": {
         LENGTH: ("m", 2),
         DENSITY: ("kg/m^3", 0),
         FORCE: ("kN", 0),
@@ -40,8 +41,6 @@ UNITS: dict[UnitSystem, dict[Dimension, tuple[str, int]]] = {
 FOOT = 0.3048
 # A well that is steeper than this gets the string of the template ``horizontal`` [rad].
 NEARLY_HORIZONTAL = np.radians(70)
-# Column of the comments.
-COMMENTS = 38
 # The shoe is where the hole has this share of its greatest inclination, between these shares of its depth, on a round
 # depth: casing is set below the build.
 LANDED, SHALLOWEST_SHOE, DEEPEST_SHOE = 0.95, 0.4, 0.7
@@ -110,25 +109,33 @@ class Plan:
             above = "" if k else "from the bit up; segments are chosen for you"
             comment = "no length: it reaches the surface" if part.length is None else above
             yield aligned("[[string.components]]", comment), *self._part(part, quantity)
-        yield "[mud]", entry("density", quantity(DENSITY, template.mud))
+        mud = ["[mud]", entry("density", quantity(DENSITY, template.mud))]
+        if template.weight_on_bit:
+            plastic = "20 mPa*s" if self.units == "si" else "20 cP"
+            mud.append(entry("viscosity", plastic, "plastic viscosity: it damps the string in time"))
+        yield tuple(mud)
         if template.flotation:
             yield tuple(f"# {line}" for line in self._flotation(quantity))
         weight = quantity(FORCE, 1e3 * template.block_weight)
-        yield "[rig]", entry("block_weight", weight, "added to the hook load on the indicator")
+        rig = "[rig]", entry("block_weight", weight, "added to the hook load on the indicator")
         if template.weight_on_bit:
+            yield *rig, aligned("autodriller = true", "holds the weight on bit where it drills in time")
             yield (
                 aligned("[bit]", "while drilling"),
                 entry("weight_on_bit", quantity(FORCE, 1e3 * template.weight_on_bit)),
-                entry("torque", quantity(TORQUE, 1e3 * template.bit_torque)),
+                entry("torque", quantity(TORQUE, 1e3 * template.bit_torque), "of steady strings"),
             )
+            yield (aligned("[bit.rock]", "gives the torque in time: a PDC bit in medium rock"),)
+        else:
+            yield rig
         yield "[contact]", entry("damping", DAMPING, "so that the string comes to rest on the stiff wall")
-        yield (
-            aligned("[[operations]]", "for fctd simulate; charts ask for their operations"),
-            *self._operation(quantity),
-        )
         if template.weight_on_bit:
             comment = "the string's torsional period: a record is a mean over it"
             yield "[record]", entry("interval", f"{self.period:g} s", comment)
+        comment = "for fctd simulate; charts ask for their operations"
+        yield aligned("[[operations]]", comment), *self._first(quantity)
+        if template.weight_on_bit:
+            yield from (tuple(f"# {line}" for line in block) for block in self._others(quantity))
 
     @property
     def period(self) -> float:
@@ -166,29 +173,37 @@ class Plan:
         yield "[[mud.inside]]"
         yield aligned("density = 0", "air")
 
-    def _operation(self, quantity: "Quantities") -> tuple[str, ...]:
+    def _first(self, quantity: "Quantities") -> Iterator[str]:
+        """The operation of the case."""
         end = quantity(LENGTH, self.depth)
         if self.template.weight_on_bit:
             lasts = f"{PERIODS * self.period:g} s"
-            return (
-                entry("kind", "rotate_off_bottom"),
-                entry("at_md", end),
-                entry("duration", lasts, f"{PERIODS} records: the first ones wind the string up"),
-                "rpm = 60",
-            )
-        return (
-            entry("kind", "trip_in"),
-            entry("from_md", quantity(LENGTH, self.depth - RUN)),
-            entry("to_md", end),
-            entry("speed", "0.3 m/s" if self.units == "metric" else "60 ft/min"),
-        )
+            yield from rotation(end, lasts, f"{PERIODS} records: the first ones wind the string up")
+        else:
+            yield from trip("trip_in", quantity(LENGTH, self.depth - RUN), end, HOIST[self.units])
+
+    def _others(self, quantity: "Quantities") -> Iterator[tuple[str, ...]]:
+        """What else a string that drills may begin with: blocks of comments, each with its heading."""
+        end, up = quantity(LENGTH, self.depth), quantity(LENGTH, self.depth - 2 * RUN)
+        ways = (("trip_out", end, up), ("trip_in", up, end))
+        out, back = (trip(kind, start, to, HOIST[self.units]) for kind, start, to in ways)
+        yield (
+            "A first trip, a stand up and down: put this in place of the operation above, without the #.",
+            "[[operations]]", *out, "[[operations]]", *back,
+        )  # fmt: skip
+        rate, speed = RATE[self.units]
+        above = quantity(LENGTH, self.depth - rate * 4 * PERIODS * self.period)
+        yield (
+            "A first drilling run: put this in place of the operation above, without the #.",
+            "[[operations]]", *drilling(above, end, speed),
+        )  # fmt: skip
 
 
-# Distance of a trip [m].
+# Distance of a casing's trip [m], half of that of a drill string's.
 RUN = 15.24
-# A rotation lasts this many torsional periods.  At 60 rev/min the wells of the templates and four public ones are wound
-# up within four of them; from then on the mean over a period changes by less than 2 %.
-PERIODS = 6
+# Speed of a trip; rate of penetration [m/s], and as it is written.
+HOIST: dict[UnitSystem, str] = {"si": "0.3 m/s", "field": "60 ft/min"}
+RATE: dict[UnitSystem, tuple[float, str]] = {"si": (20 / 3600, "20 m/h"), "field": (60 * FOOT / 3600, "60 ft/h")}
 
 
 class Quantities:
@@ -216,19 +231,9 @@ def _round_up(number: float) -> float:
     return float(next(m * power for m in (1, 2, 5, 10) if m * power >= number))
 
 
-def entry(key: str, value: str, comment: str = "") -> str:
-    """A line of TOML with a text."""
-    return aligned(f"{key} = {json.dumps(value, ensure_ascii=False)}", comment)
-
-
-def aligned(line: str, comment: str) -> str:
-    """A line with its comment in the column of comments."""
-    return f"{line:<{COMMENTS - 1}} # {comment}" if comment else line
-
-
 def _scaled(template: Template, units: UnitSystem) -> tuple[float, Template]:
     """What a template's metre is written as, 1 m or 3 ft [m], and the template with parts of such lengths."""
-    scale = 1.0 if units == "metric" else 3 * FOOT
+    scale = 1.0 if units == "si" else 3 * FOOT
     parts = (part._replace(length=part.length and part.length * scale) for part in template.string)
     return scale, template._replace(string=tuple(parts))
 
@@ -319,7 +324,7 @@ def sensible_shoe(stations: Array, units: UnitSystem) -> float:
     """A round depth [m] at which casing may be set: where the build ends, in the middle part of the hole."""
     depth, inclination = float(stations[-1, 0]), stations[:, 1]
     landed = float(stations[np.argmax(inclination >= LANDED * inclination.max()), 0])
-    unit = 10.0 if units == "metric" else 50 * FOOT
+    unit = 10.0 if units == "si" else 50 * FOOT
     first, last = np.ceil(SHALLOWEST_SHOE * depth / unit), np.floor(DEEPEST_SHOE * depth / unit)
     if last < max(first, 1):  # a hole too short for round depths
         return SHALLOWEST_SHOE * depth

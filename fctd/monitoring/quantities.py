@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Sequence
 from dataclasses import replace
+from shlex import quote
 from typing import Final
 
 from fctd.case.tables.fields import Field
@@ -52,10 +53,15 @@ def _remedy(key: str, headers: Sequence[str], unit: str) -> str:
     return f"by --columns '{key}={headers[0]}{f' [{unit}]' if unit else ''}'"
 
 
+def _paste(columns: Sequence[tuple[str, str, str]]) -> str:
+    return " ".join(f"--columns {quote(f'{key}={header} [{unit}]')}" for key, header, unit in columns)
+
+
 SERIES: Final = TableForm(
     fields=(*QUANTITIES.values(), DATE),
     example="time, bit_depth_m, hook_load_kN, torque_kN_m, rpm, block_position_m",
     needed=_needed,
     option="--columns ",
     remedy=_remedy,
+    paste=_paste,
 )

@@ -7,8 +7,8 @@ from typing import Any, Final
 import numpy as np
 import pandas as pd
 
-from fctd.case.errors import InputError, nearest
-from fctd.case.operations import KINDS
+from fctd.case.errors import InputError
+from fctd.case.operation_names import read_kind
 from fctd.case.tables.headers import no_unit
 from fctd.case.tables.rows import NOTHING, NULLS, Numbers, Rows
 from fctd.monitoring.quantities import BY_DEPTH, OVER_TIME, QUANTITIES, SERIES
@@ -18,7 +18,10 @@ _TIME_OF_DAY: Final = re.compile(r"\d{1,2}:\d{2}")
 # More than this share of rows that go back in time is a series in another order.
 DISORDER: Final = 0.1
 FEW: Final = 20  # rows in which disorder is not judged
-DATES: Final = "a time such as 2007-10-23 08:07:08 (ISO 8601), or a number with its unit in the header"
+DATES: Final = (
+    "a time such as 2007-10-23 08:07:08 (ISO 8601), with its date here or in a column of dates, or a number with its "
+    "unit in the header"
+)
 
 
 class Converter:
@@ -39,7 +42,7 @@ class Converter:
         if first is not None and self._dated is None:
             self._dated = _DATE.search(first) is not None
         if first is not None and not self._dated and not rows.columns[time].unit:
-            raise no_unit(rows.columns[time], SERIES)
+            raise no_unit([rows.columns[time]], SERIES)
         keys = {column: time if field.key == "time" else field.key for column, field in QUANTITIES.items()}
         keys = {column: key for column, key in keys.items() if key in rows.columns}
         texts = {"operation", time} if self._dated or first is None else {"operation"}
@@ -79,6 +82,14 @@ def _seconds(rows: Rows, key: str, texts: list[str]) -> np.ndarray[Any, Any]:
     return seconds
 
 
+def _kind(row: object, name: object) -> str:
+    """The kind of operation of a row."""
+    try:
+        return read_kind(name)
+    except InputError as error:
+        raise error.at(f"row {row}, operation") from None
+
+
 class Cleaner:
     """Leaves out rows that cannot be used and counts why; takes a series in one piece or in several.
 
@@ -106,9 +117,7 @@ class Cleaner:
         if over_time:
             kept = self._in_order(kept)
         else:
-            for row, kind in kept["operation"].items():
-                if kind not in KINDS:
-                    raise InputError(nearest(kind, KINDS, "kind"), key=f"row {row}, operation", value=kind)
+            kept = kept.assign(operation=[_kind(row, name) for row, name in kept["operation"].items()])
         self.counts = +self.counts
         self.rows += len(table)
         return kept

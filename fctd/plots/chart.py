@@ -1,6 +1,6 @@
-"""The torque-and-drag chart: hook load (the broomstick) and surface torque against bit depth."""
+"""The torque-and-drag chart as a picture: hook load (the broomstick) and surface torque against bit depth."""
 
-from typing import Any
+from typing import Any, Final
 
 import matplotlib as mpl
 import numpy as np
@@ -12,56 +12,32 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
-from fctd.arrays import Array
-from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.plots import labels
-from fctd.plots.curves import (
-    BAND,
-    CUT,
-    MEASURED_LOOK,
-    OPEN,
-    RANGE_ALONE,
-    Drawn,
-    draw_curve,
-    draw_measured,
-    end_of,
-    is_cut,
-)
+from fctd.plots.curves import BAND, CUT, MEASURED_LOOK, OPEN, RANGE_ALONE, draw_curve, draw_points
+from fctd.plots.describe import describe
+from fctd.plots.description import DepthAxis, Description, Group, Mark, Panel
 from fctd.plots.facts import heading_of_chart
 from fctd.plots.limit_lines import WIDTH as LIMIT_WIDTH
-from fctd.plots.limit_lines import limit_lines
-from fctd.plots.loads import (
-    LOAD_COLUMNS,
-    NAMES,
-    PLAIN,
-    TORQUE,
-    ChartLook,
-    as_load,
-    groups_of,
-    limits_of_load,
-    limits_of_torque,
-    names_of,
-    spent_at,
-)
+from fctd.plots.loads import PLAIN, ChartLook
 from fctd.plots.palette import DARK, LOOKS, QUIET
-from fctd.plots.strip import LANE, draw_strip, has_states, state_handles
-from fctd.plots.style import DASHES, POINTS, RC, Sheet
-from fctd.results.columns import DEPTH
-from fctd.results.series import Series, frictions_of, series_of
-from fctd.results.status import SteadyStatus
-from fctd.results.unit_systems import System, shown
+from fctd.plots.strip import LANE, draw_strip, state_handles
+from fctd.plots.style import POINTS, RC, SMALL, Sheet, line_style
+from fctd.results.unit_systems import System
 
-MOST_GROUPS = 24  # in a picture
 ACROSS = 2  # groups side by side
 # Sizes [in]: width of the panels of loads and of torques and their height, of one group alone and of one among several.
 ALONE, AMONG = (4.2, 2.9, 5.3), (3.5, 2.3, 4.4)
-LEFT, BETWEEN, SHOES, RIGHT, ABOVE, BELOW = 0.75, 0.22, 0.9, 0.2, 0.28, 0.56
-SHOE_LINE = 10.0  # height of the name of a shoe [pt]
+LEFT, BETWEEN, RIGHT, HEADING, ABOVE, BELOW = 0.75, 0.22, 0.2, 0.24, 0.48, 0.16
+WIDEST_MARK = 1.7  # room beside the panels for the ends of intervals [in]
+MARK_LINE = 10.0  # height of a line beside the panels [pt]
+MOST_LEVELS = 4  # of labels in full: shorter ones may need fewer
+LANE_NAMES = 2  # levels below a strip
+STYLES: Final = ("full", "short", "factors")  # of the names at the ends of curves, the longest first
 # Hook loads at which slack-off is spent.
 SPENT: dict[str, Any] = {"facecolor": "none", "hatch": "////", "edgecolor": "#cfcfcf", "linewidth": 0, "zorder": 0}
 SHOE: dict[str, Any] = {"color": QUIET, "linewidth": 0.9, "linestyle": (0, (1, 2)), "zorder": 1.1}
-LEADER: dict[str, Any] = {"color": QUIET, "linewidth": 0.6, "zorder": 1.4}
+LEADER: dict[str, Any] = {"color": QUIET, "linewidth": 0.6, "zorder": 1.4, "clip_on": False}
 
 
 def chart_figure(
@@ -69,249 +45,215 @@ def chart_figure(
 ) -> Figure:
     """Load and torque against bit depth: a curve for each operation and set of friction factors.
 
-    chart : of ``fctd.torque_drag``, SI.  case : for title, casing shoes, mud, loads at the bit and block weight.
+    chart : of ``fctd.torque_drag``, SI.  case : for title, casing shoes, mud, loads at the bit and block weight, with
+    which the loads are those of the weight indicator.
 
-    More than ``MOST_CURVES`` curves are drawn in groups.  A strip beside the panels says where the string is buckled,
-    and which rows are not ``converged``; a cross marks a row without loads, a band the loads of both shapes of a
-    resolved string.  Where a string is locked up, loads at which slack-off is spent are hatched, and larger pushes,
-    with which the axis would show nothing else, have triangles at its edge.
+    A colour is an operation, a dash a set of friction factors; factors that make no difference share a curve.  More
+    than ``MOST_CURVES`` series are drawn in groups.  A strip says where strings are buckled, and which rows are not
+    ``converged``; a cross marks a row without loads, a band the loads of both shapes of a resolved string.  Where a
+    string is locked up, loads at which slack-off is spent are hatched, and larger pushes, with which the axis would
+    show nothing else, have triangles at its edge.
     """
-    series = series_of(chart, units)
-    groups = groups_of(series)
-    if len(groups) > MOST_GROUPS:
-        raise InputError(f"at most {MOST_GROUPS} groups of curves in a picture", key="friction", value=len(groups))
-    title, lines = heading_of_chart(chart, units, case, look.rates, look.warnings)
+    described = describe(chart, units, case, look)
     with mpl.rc_context(RC):
-        view = _View(chart, units, case, look, alone=len(groups) == 1)
-        pairs = [_Pair(view, name, group) for name, group in groups]
-        levels = _levels(pairs)
-        view.scale_depth(levels)
-        across = min(len(pairs), ACROSS)
-        step, height = view.step(max(len(pair.group) for pair in pairs)), view.above + view.height + BELOW
-        handles = _handles(view, series, [] if levels else pairs)
+        layout = _Layout(described)
+        style, levels = layout.name_curves()
+        pairs, across = layout.pairs, min(len(layout.pairs), ACROSS)
+        step, height = layout.step, layout.above + layout.height + layout.below(levels)
         total = -(-len(pairs) // across) * height
-        sheet = Sheet(step * across, total, title, lines, handles)
+        handles = _handles(described, style)
+        sheet = Sheet(step * across, total, *heading_of_chart(chart, units, case, look.rates, look.warnings), handles)
         for k, pair in enumerate(pairs):
-            pair.draw(sheet, k % across * step + LEFT, k // across * height + view.above, labelled=levels > 0)
+            pair.draw(sheet, k % across * step + LEFT, k // across * height + layout.above)
         return sheet.figure
 
 
-class _View:
-    """What all panels of a chart share: data, units, sizes [in], and the scale of depths.
+class _Layout:
+    """Sizes [in] and places that all panels of a picture share; point : the depth of 1 pt."""
 
-    drawn : what the panels of a pair show.  shoes [m] : within the depths.  above : room for a heading.
-    """
+    def __init__(self, described: Description) -> None:
+        groups = described.groups
+        sizes = ALONE if len(groups) == 1 else AMONG
+        self.widths, self.height = sizes[:2], sizes[2]
+        self.depth, self.marks = described.depth, described.marks
+        self.above = ABOVE + (HEADING if len(groups) > 1 else 0.0)
+        self.point = (self.depth.lower - self.depth.upper) / (self.height * POINTS)
+        lanes = max(len(group.lanes) for group in groups)
+        words = [line for mark in self.marks for line in mark.lines]
+        widest = max((labels.width_of(line) * SMALL / labels.SIZE / POINTS + 0.12 for line in words), default=0.0)
+        beside = (lanes * LANE + 0.12 if lanes else 0.0) + max(min(widest, WIDEST_MARK), RIGHT)
+        self.step = LEFT + sum(self.widths) + BETWEEN + beside
+        self.pairs = [_Pair(self, group) for group in groups]
 
-    def __init__(self, chart: pd.DataFrame, units: System, case: Case | None, look: ChartLook, *, alone: bool) -> None:
-        self.case, self.units, self.look = case, units, look
-        load, measured = look.load, look.measured
-        self.states = has_states(series_of(chart))
-        self.widths, self.height = (ALONE if alone else AMONG)[:2], (ALONE if alone else AMONG)[2]
-        self.depth = shown(DEPTH.name, units)
-        column = LOAD_COLUMNS[load]
-        self.lines = [limit_lines(look.margins, case, load, name) for name in (column, TORQUE)]
-        values = [[line.value for line in lines] for lines in self.lines]
-        limits = (
-            limits_of_load(chart, case, load, units, measured, values[0]),
-            limits_of_torque(chart, units, measured, values[1]),
-        )
-        self.drawn = [
-            Drawn(name, shown(name, units).factor, self.depth.factor, limit)
-            for name, limit in zip((column, TORQUE), limits, strict=True)
-        ]
-        depths = [chart["bit_depth_m"], *([] if measured is None else [measured["bit_depth_m"]])]
-        # Headings of groups stand above the name of the hatched part.
-        self.named_pushes = limits[0].cut
-        self.above = (0.06 if alone else ABOVE) + (0.16 if self.named_pushes else 0.0)
-        self.top, self.bottom = (
-            float(end) * self.depth.factor for end in (min(d.min() for d in depths), max(d.max() for d in depths))
-        )
-        shoes = [] if case is None else [shoe * self.depth.factor for shoe in case.shoes]
-        self.shoes = [shoe for shoe in shoes if self.top <= shoe <= self.bottom]
-        self.ylim, self.point = (self.bottom, self.top), 0.0
+    def below(self, levels: int) -> float:
+        """Height of labels on some levels, or of the names of lanes, below the axes."""
+        lanes = any(pair.group.lanes for pair in self.pairs)
+        return max(levels, LANE_NAMES if lanes else 0) * labels.LEVEL / POINTS + BELOW
 
-    def step(self, lanes: int) -> float:
-        """Width of a pair with what stands beside it."""
-        beside = lanes * LANE + 0.12 if self.states else 0.0
-        return LEFT + sum(self.widths) + BETWEEN + beside + (SHOES if self.shoes else RIGHT)
-
-    @property
-    def foot(self) -> float:
-        """Height of the deepest row, in shares of the axes."""
-        bottom, top = self.ylim
-        return (bottom - self.bottom - 4 * self.point) / (bottom - top)
-
-    def shapes(self, one: Series) -> tuple[Array, Array]:
-        """Loads [N] of both shapes of each row of a series, NaN where they do not differ."""
-        ends = one.rows[["hookload_low_N", "hookload_high_N"]].to_numpy(float).T
-        low, high = (as_load(self.case, one.operation, end, self.look.load) for end in ends)
-        return low, high
-
-    def has_band(self, one: Series) -> bool:
-        """Whether the loads of both shapes of any row of a series reach the axis."""
-        drawn = self.drawn[0]
-        low, high = (end * drawn.factor for end in self.shapes(one))
-        return bool(((high > drawn.limits.low) & (low < drawn.limits.high)).any())
-
-    def scale_depth(self, levels: int) -> None:
-        """Set the limits of the axis of depths, with room for labels on some levels; ``point`` is the depth of 1 pt."""
-        room = labels.GAP + labels.LEVEL * levels if levels else 0.0
-        air = 6.0
-        span = (self.bottom - self.top) or max(0.01 * self.bottom, 1.0)
-        self.point = span / (self.height * POINTS - room - 2 * air)
-        middle = 0.5 * (self.top + self.bottom)
-        self.ylim = (middle + 0.5 * span + (room + air) * self.point, middle - 0.5 * span - air * self.point)
+    def name_curves(self) -> tuple[str, int]:
+        """Name the ends of the curves; returns the style of the names and their levels, "" and 0 where none fits."""
+        for style in STYLES:
+            for pair in self.pairs:
+                pair.name_curves(style)
+            found = [places for pair in self.pairs for places in pair.places]
+            if all(places is not None for places in found):
+                levels = max((1 + place.level for places in found for place in places or ()), default=0)
+                if levels <= MOST_LEVELS or style == STYLES[-1]:
+                    return style, levels
+        for pair in self.pairs:
+            pair.name_curves("")
+        return "", 0
 
 
 class _Pair:
-    """The panels of loads and torques of a group of series."""
+    """The panels of loads and torques of a group."""
 
-    def __init__(self, view: _View, name: str, group: list[Series]) -> None:
-        self.view, self.name, self.group = view, name, group
-        frictions = frictions_of(group)
-        self.dashes = [DASHES[frictions.index(one.friction) % len(DASHES)] for one in group]
-        self.ends = [[end_of(one.rows, drawn) for one in group] for drawn in view.drawn]
-        self.texts: list[str] = []
+    def __init__(self, layout: _Layout, group: Group) -> None:
+        self.layout, self.group = layout, group
+        self.texts: list[list[str]] = []
         self.places: list[list[labels.Place] | None] = []
 
-    def name_curves(self, *, short: bool) -> None:
-        """Set the texts of the labels and their places."""
-        self.texts = names_of(self.group, short=short)
-        if self.view.states:  # the numbers of the lanes
-            self.texts = [f"{k}: {text}" for k, text in enumerate(self.texts, start=1)]
-        self.places = [self._places(k) for k in range(2)]
+    def name_curves(self, style: str) -> None:
+        """Set the labels of the panels and their places, None where they do not fit; no labels without a style."""
+        self.texts, self.places = [], []
+        for panel, width in zip(self.group.panels, self.layout.widths, strict=True):
+            curves = [curve for curve in panel.curves if style and np.isfinite(curve.end[0])]
+            # The numbers of the lanes.
+            texts = [
+                f"{curve.lane}: {getattr(curve.name, style)}" if curve.lane else getattr(curve.name, style)
+                for curve in curves
+            ]
+            low, high, room = panel.limits.low, panel.limits.high, width * POINTS
+            ends = [(curve.end[0] - low) / (high - low) * room for curve in curves]
+            self.texts.append(texts)
+            self.places.append(labels.place(ends, texts, room))
 
-    def _places(self, k: int) -> list[labels.Place] | None:
-        """Places of the labels in a panel; None where they do not fit."""
-        limits, width = self.view.drawn[k].limits, self.view.widths[k] * POINTS
-        known = [(x - limits.low) / (limits.high - limits.low) * width for x, _ in self.ends[k] if np.isfinite(x)]
-        texts = [text for text, (x, _) in zip(self.texts, self.ends[k], strict=True) if np.isfinite(x)]
-        return labels.place(known, texts, width)
-
-    def draw(self, sheet: Sheet, left: float, top: float, *, labelled: bool) -> None:
-        """Draw both panels, their labels, the strip and the shoes."""
-        view = self.view
-        first = sheet.axes(left, top, view.widths[0], view.height)
-        right = left + view.widths[0] + BETWEEN
-        second = sheet.axes(right, top, view.widths[1], view.height, sharey=first)
+    def draw(self, sheet: Sheet, left: float, top: float) -> None:
+        """Draw both panels, their labels, the strip and the ends of the intervals."""
+        layout, group, depth = self.layout, self.group, self.layout.depth
+        first = sheet.axes(left, top, layout.widths[0], layout.height)
+        right = left + layout.widths[0] + BETWEEN
+        second = sheet.axes(right, top, layout.widths[1], layout.height, sharey=first)
         for k, ax in enumerate((first, second)):
-            self._panel(ax, k)
-            if labelled:
-                self._label(ax, k)
-        edge, beside = right + view.widths[1], second
-        if view.states:
-            beside = sheet.axes(edge + 0.12, top, len(self.group) * LANE, view.height, sharey=first)
-            draw_strip(beside, self.group, view.depth.factor)
-        first.set_ylabel(f"{DEPTH.label}, {view.depth.label}")
+            _draw_panel(ax, group.panels[k], layout.marks, ticks=6 - 2 * k)
+            self._label(ax, k)
+        edge, beside = right + layout.widths[1], second
+        if group.lanes:
+            beside = sheet.axes(edge + 0.12, top, len(group.lanes) * LANE, layout.height, sharey=first)
+            draw_strip(beside, group.lanes)
+        first.set_ylabel(depth.label)
         second.tick_params(axis="y", labelleft=False)
-        if self.name:
-            first.set_title(self.name, pad=16 if view.named_pushes else 6)
-        first.set_ylim(view.ylim)
-        if view.top == view.bottom:
-            first.set_yticks([view.top])
-        else:
-            ticks = MaxNLocator(8, steps=[1, 2, 2.5, 5, 10]).tick_values(view.top, view.bottom)
-            first.set_yticks([tick for tick in ticks if view.ylim[1] <= tick <= view.bottom + 4 * view.point])
-        self._name_shoes(beside)
-
-    def _panel(self, ax: Axes, k: int) -> None:
-        view, drawn = self.view, self.view.drawn[k]
-        for place, (one, dash) in enumerate(zip(self.group, self.dashes, strict=True)):
-            low, high = view.shapes(one)
-            draw_curve(ax, one, dash, drawn, (low * np.nan, high * np.nan) if k else (low, high), place)
-        if view.look.measured is not None:
-            for kind in dict.fromkeys(one.operation for one in self.group):
-                draw_measured(ax, view.look.measured, kind, drawn)
-        kinds = {one.operation for one in self.group}
-        for line in view.lines[k]:
-            if line.operation in kinds:
-                ax.plot(
-                    line.value * drawn.factor, line.depth * view.depth.factor, linestyle=line.dash[0],
-                    color=LOOKS[line.operation][0], linewidth=LIMIT_WIDTH,
-                )  # fmt: skip
-        limits = drawn.limits
-        ax.set_xlim(limits.low, limits.high)
-        ax.xaxis.set_major_locator(MaxNLocator(6 - 2 * k))
-        ax.set_xlabel(f"{NAMES[drawn.column]}, {shown(drawn.column, view.units).label}")
-        if limits.cut and not k:
-            spent = spent_at(view.case, view.look.load) * drawn.factor
-            # Down to the deepest row: labels stand below.
-            ax.axvspan(limits.low, spent, view.foot, **SPENT)
-            ax.axvline(spent, view.foot, color=QUIET, linewidth=1, zorder=1)
-            ax.annotate(
-                "slack-off is spent", (0, 1), (0, 2), xycoords="axes fraction", textcoords="offset points", va="bottom",
-                fontsize=7.5, color=DARK,
-            )  # fmt: skip
-        for shoe in view.shoes:
-            ax.axhline(shoe, **SHOE)
+        if group.name:
+            first.set_title(group.name)
+        first.set_ylim(depth.lower, depth.upper)
+        first.set_yticks(_depth_ticks(depth))
+        _name_marks(beside, layout.marks, layout.point)
 
     def _label(self, ax: Axes, k: int) -> None:
-        """Label the ends of the curves of a panel."""
-        view, places = self.view, iter(self.places[k] or ())
-        for one, text, (x, depth) in zip(self.group, self.texts, self.ends[k], strict=True):
+        """Label the ends of the curves of a panel, below the axes."""
+        point, bottom, lower = self.layout.point, self.layout.depth.bottom, self.layout.depth.lower
+        texts, places = iter(self.texts[k]), iter(self.places[k] or ())
+        for curve in self.group.panels[k].curves if self.texts[k] else ():
+            (x, depth), (colour, marker) = curve.end, curve.look
             if np.isnan(x):
                 continue
-            place, (colour, marker) = next(places), LOOKS[one.operation]
-            down = view.bottom + (labels.GAP + labels.LEVEL * (place.level + 0.5)) * view.point
+            place = next(places)
+            down = lower + labels.LEVEL * (place.level + 0.5) * point
             # Below a curve that ends above the deepest row, a solid line would look like loads.
-            dash = "-" if depth >= view.bottom else (0, (1, 3))
+            dash = "-" if depth >= bottom else (0, (1, 3))
             ax.plot([x, x], [depth, down], linestyle=dash, **LEADER)
             ax.plot([x], [down], color=colour, marker=marker, markersize=4.5, linestyle="none", clip_on=False)
             aside = labels.GAP if place.right else -labels.GAP
             ax.annotate(
-                text, (x, down), (aside, 0), textcoords="offset points", va="center_baseline", fontsize=labels.SIZE,
-                ha="left" if place.right else "right", parse_math=False,
-            )  # fmt: skip
-
-    def _name_shoes(self, ax: Axes) -> None:
-        """Name the casing shoes to the right of axes, below one another."""
-        lowest = -np.inf
-        for shoe in self.view.shoes:
-            at = max(shoe, lowest)
-            lowest = at + SHOE_LINE * self.view.point
-            ax.annotate(
-                f"shoe {shoe:.0f} {self.view.depth.label}", (1.0, at), (4, 0), xycoords=ax.get_yaxis_transform(),
-                textcoords="offset points", va="center", fontsize=7.5, color=DARK, annotation_clip=False,
+                next(texts), (x, down), (aside, 0), textcoords="offset points", va="center_baseline",
+                fontsize=labels.SIZE, ha="left" if place.right else "right", parse_math=False, annotation_clip=False,
             )  # fmt: skip
 
 
-def _levels(pairs: list[_Pair]) -> int:
-    """Levels that the labels of all panels need, with short names where others do not fit; 0 where these do not."""
-    for short in (False, True):
-        for pair in pairs:
-            pair.name_curves(short=short)
-        found = [places for pair in pairs for places in pair.places]
-        if all(places is not None for places in found):
-            return max((1 + place.level for places in found for place in places or ()), default=0)
-    return 0
+def _draw_panel(ax: Axes, panel: Panel, marks: tuple[Mark, ...], ticks: int) -> None:
+    for curve in panel.curves:
+        draw_curve(ax, curve)
+    for points in panel.points:
+        draw_points(ax, points)
+    for line in panel.lines:
+        colour, _ = LOOKS[line.operation]
+        ax.plot(line.value, line.depth, linestyle=line_style(line.dash), color=colour, linewidth=LIMIT_WIDTH)
+    ax.set_xlim(panel.limits.low, panel.limits.high)
+    ax.xaxis.set_major_locator(MaxNLocator(ticks))
+    # Above, as the ends of the curves are named below.
+    ax.xaxis.set_label_position("top")
+    ax.xaxis.tick_top()
+    ax.spines["top"].set_visible(True)
+    ax.spines["bottom"].set_visible(False)
+    ax.set_xlabel(panel.label)
+    if panel.spent is not None:
+        ax.axvspan(panel.limits.low, panel.spent, **SPENT)
+        ax.axvline(panel.spent, color=QUIET, linewidth=1, zorder=1)
+        ax.annotate(
+            "slack-off is spent", (0, 1), (3, -3), xycoords="axes fraction", textcoords="offset points", va="top",
+            fontsize=SMALL, color=DARK, bbox={"facecolor": "white", "linewidth": 0, "pad": 1}, zorder=1.2,
+        )  # fmt: skip
+    for mark in marks:
+        if mark.shoe:
+            ax.axhline(mark.depth, **SHOE)
 
 
-def _handles(view: _View, series: list[Series], unnamed: list[_Pair]) -> list[Artist]:
-    """The legend; unnamed : panels whose curves have no labels at their ends."""
-    curves: dict[tuple[str, str], Artist] = {}
-    for pair in unnamed:
-        pair.name_curves(short=False)
-        for one, text, dash in zip(pair.group, pair.texts, pair.dashes, strict=True):
-            colour, marker = LOOKS[one.operation]
-            look: dict[str, Any] = {"color": colour, "marker": marker, "linestyle": dash, "markersize": 4.5}
-            curves.setdefault((one.operation, text), Line2D([], [], label=text, **look))
-    handles = list(curves.values())
-    handles += state_handles(series) if view.states else []
-    locked = [one.rows for one in series if (one.rows["status"] == SteadyStatus.LOCKED_UP).any()]
-    if any(is_cut(rows, drawn) for rows in locked for drawn in view.drawn):
+def _depth_ticks(depth: DepthAxis) -> list[float]:
+    if depth.top == depth.bottom:
+        return [depth.top]
+    ticks = MaxNLocator(8, steps=[1, 2, 2.5, 5, 10]).tick_values(depth.top, depth.bottom)
+    return [float(tick) for tick in ticks if depth.upper <= tick <= depth.lower]
+
+
+def _name_marks(ax: Axes, marks: tuple[Mark, ...], point: float) -> None:
+    """Name the ends of the intervals to the right of axes, below one another."""
+    lowest = -np.inf
+    for mark in marks:
+        lines = [_cut(line) for line in mark.lines]
+        half = 0.5 * len(lines) * MARK_LINE * point
+        at = max(mark.depth, lowest + half)
+        lowest = at + half
+        ax.annotate(
+            "\n".join(lines), (1.0, at), (4, 0), xycoords=ax.get_yaxis_transform(), textcoords="offset points",
+            va="center", fontsize=SMALL, color=DARK, annotation_clip=False, parse_math=False,
+        )  # fmt: skip
+
+
+def _cut(text: str) -> str:
+    """A text that fits beside the panels, with an ellipsis where it was longer."""
+    room = (WIDEST_MARK - 0.12) * POINTS * labels.SIZE / SMALL
+    while labels.width_of(text) > room:
+        text = f"{text.removesuffix('…')[:-1]}…"
+    return text
+
+
+def _handles(described: Description, style: str) -> list[Artist]:
+    """The legend; style : of the names at the ends of the curves, which stand for themselves where they are whole."""
+    curves, lanes = described.curves, [lane for group in described.groups for lane in group.lanes]
+    panels = [panel for group in described.groups for panel in group.panels]
+    dashed = any(not key.marker for key in described.keys)
+    keys = [key for key in described.keys if not style or (style == STYLES[-1] and dashed and key.marker)]
+    handles: list[Artist] = [
+        Line2D([], [], color=key.colour, marker=key.marker, linestyle=line_style(key.dash), markersize=4.5,
+               label=key.name)
+        for key in keys
+    ]  # fmt: skip
+    handles += state_handles(lanes)
+    if any(side.any() for curve in curves for side in curve.beyond):
         handles.append(Line2D([], [], color=QUIET, label="beyond the axis", **{"marker": "<"} | CUT))
-    banded = next((one for one in series if view.has_band(one)), None)
+    banded = next((curve for curve in curves if curve.has_band), None)
     if banded is not None:
         # In the colour of a curve: the greys are those of buckling.
-        handles.append(Patch(color=LOOKS[banded.operation][0], label="hook loads of both shapes", **BAND))
-    if any(((one.rows["status"] != "converged") & one.rows["hookload_N"].notna()).any() for one in series):
+        handles.append(Patch(color=banded.look[0], label="hook loads of both shapes", **BAND))
+    if any(curve.care.any() for curve in curves):
         handles.append(Line2D([], [], color=QUIET, marker="o", label="not converged: see state", **OPEN))
-    dashes = {line.name: line.dash[0] for lines in view.lines for line in lines}
+    dashes = {line.name: line_style(line.dash) for panel in panels for line in panel.lines}
     handles += [
         Line2D([], [], color=QUIET, linestyle=dash, linewidth=LIMIT_WIDTH, label=name) for name, dash in dashes.items()
     ]
-    if view.look.measured is not None:
-        handles.append(Line2D([], [], marker="o", label=view.look.measured_label, **MEASURED_LOOK))
-        if view.look.has_ranges_alone:
-            handles.append(Line2D([], [], marker="o", label="measured range without a value", **RANGE_ALONE))
+    points = [points for panel in panels for points in panel.points]
+    names = {of.name: LOOKS[of.operation][1] for of in points}
+    handles += [Line2D([], [], marker=marker, label=name, **MEASURED_LOOK) for name, marker in names.items()]
+    if any(np.isnan(of.value).any() for of in points):
+        handles.append(Line2D([], [], marker="o", label="measured range without a value", **RANGE_ALONE))
     return handles

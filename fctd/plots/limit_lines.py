@@ -9,23 +9,22 @@ import numpy as np
 from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.plots.loads import LOAD_COLUMNS, TORQUE, Load, as_load
+from fctd.plots.palette import Dash
 
 if TYPE_CHECKING:
     import pandas as pd
 
-# Dashes of the limits, in pictures and on pages; limits of steel that have none here share the first.
-DASHES: Final = {
-    "yield": ((0, (1, 1)), "1px,2px"), "make_up": ((0, (4, 1, 1, 1)), "6px,2px,1px,2px"),
-    "hoist": ((0, (8, 2)), "12px,3px"), "drive": ((0, (8, 2)), "12px,3px"), "slips": ((0, (3, 1)), "5px,2px"),
-    "snaking": ((0, (1, 3)), "1px,4px"), "helix": ((0, (2, 3)), "3px,4px"),
-    "slack_off": ((0, (5, 3)), "8px,4px"), "lock_up": ((0, (6, 1, 1, 1, 1, 1)), "8px,2px,1px,2px,1px,2px"),
+# Dashes of the limits; limits of steel that have none here share the first.
+DASHES: Final[dict[str, Dash]] = {
+    "yield": (1, 1), "make_up": (4, 1, 1, 1), "hoist": (8, 2), "drive": (8, 2), "slips": (3, 1), "snaking": (1, 3),
+    "helix": (2, 3), "slack_off": (5, 3), "lock_up": (6, 1, 1, 1, 1, 1),
 }  # fmt: skip
 USUAL: Final = DASHES["yield"]
 WIDTH: Final = 1.1  # of the lines [pt]
 
 
 class LimitLine(NamedTuple):
-    """A limit of an operation: bit depths (n,) [m] and the load at the limit (n,), SI."""
+    """A limit of an operation: bit depths (n,) and the load at the limit (n,), SI, or in the units of a panel."""
 
     operation: str
     limit: str
@@ -38,8 +37,8 @@ class LimitLine(NamedTuple):
         return f"limit: {self.limit.replace('_', ' ')}"
 
     @property
-    def dash(self) -> tuple[tuple[int, tuple[int, ...]], str]:
-        """Its dash in pictures, and on pages."""
+    def dash(self) -> Dash:
+        """Its dash."""
         return DASHES.get(self.limit, USUAL)
 
 

@@ -30,10 +30,8 @@ NAMES: Final = {
     "surface_torque_N_m": "surface torque",
 }
 TORQUE: Final = "surface_torque_N_m"
-MOST_CURVES = 6  # that can be told apart in one panel
+MOST_CURVES = 10  # that can be told apart in one panel
 MARKS = 8  # about as many markers on a line
-# Labels of operations where those of ``KINDS`` do not fit.
-SHORT: Final = {"rotate_off_bottom": "rotating", "drill_rotating": "drilling", "drill_sliding": "sliding"}
 # Axes show pushes up to this share of the span of the other loads.
 BESIDE = 0.25
 AIR = 0.05  # of the span of an axis, beyond the loads
@@ -46,30 +44,20 @@ LEAST_SHARE, LEVER = 0.01, 2e-3
 class ChartLook:
     """What a chart shows beside its rows, in a picture and on a page.
 
-    load : hook load of the string, or the reading of the weight indicator.  rates : of the operations, else the case's
-    own.  measured : of ``read_measured``.  warnings : lines below the title, before the notes of the chart.  margins :
-    of ``margin_table``, whose limits are drawn as lines.
+    load : hook load of the string, or the reading of the weight indicator; by default that of ``usual_load``.
+    rates : of the operations, else the case's own.  measured : of ``read_measured``.  warnings : lines below the title,
+    before the notes of the chart.  margins : of ``margin_table``, whose limits are drawn as lines.
     """
 
-    load: Load = "string"
+    load: Load | None = None
     rates: Mapping[str, SteadyRates] | None = None
     measured: pd.DataFrame | None = None
     warnings: Sequence[str] = ()
     margins: pd.DataFrame | None = None
 
-    @property
-    def measured_label(self) -> str:
-        """The name of the measured points in the legend."""
-        ranged = self.measured is not None and self.measured.filter(regex="_(low|high)_").notna().any(axis=None)
-        return "measured, with range" if ranged else "measured"
-
-    @property
-    def has_ranges_alone(self) -> bool:
-        """Whether a measured load that the chart shows is a range without a value."""
-        if self.measured is None:
-            return False
-        columns = [measured_columns(column) for column in (LOAD_COLUMNS[self.load], TORQUE)]
-        return any(bool((self.measured[low].notna() & self.measured[value].isna()).any()) for value, low, _ in columns)
+    def load_of(self, case: Case | None) -> Load:
+        """The load that a chart of a case shows."""
+        return self.load or usual_load([] if case is None else [case])
 
 
 PLAIN: Final = ChartLook()
@@ -94,22 +82,18 @@ def groups_of(series: list[Series]) -> list[tuple[str, list[Series]]]:
     by_operation = []
     for kind in dict.fromkeys(s.operation for s in series):
         same, label = [s for s in series if s.operation == kind], KINDS[kind].label
-        for k in range(0, len(same), MOST_CURVES):
-            part = same[k : k + MOST_CURVES]
+        parts = -(-len(same) // MOST_CURVES)
+        size = -(-len(same) // parts)
+        for k in range(0, len(same), size):
+            part = same[k : k + size]
             words = label if len(same) <= MOST_CURVES else f"{label}, μ {part[0].friction} to {part[-1].friction}"
             by_operation.append((words, part))
     return by_operation if len(by_operation) < len(by_friction) else by_friction
 
 
-def names_of(group: Sequence[Series], *, short: bool = False) -> list[str]:
-    """Names of the series of a group by what differs between them."""
-    kinds, frictions = {one.operation for one in group}, {one.friction for one in group}
-    names = []
-    for one in group:
-        kind = SHORT.get(one.operation, KINDS[one.operation].label) if short else KINDS[one.operation].label
-        parts = [kind] if len(kinds) > 1 or len(frictions) == 1 else []
-        names.append(", ".join(parts + ([f"μ {one.friction}"] if len(frictions) > 1 else [])))
-    return names
+def usual_load(cases: Sequence[Case]) -> Load:
+    """The load that pictures and screen show: what the rig reads, where all cases say what the block weighs."""
+    return "indicator" if cases and all(case.rig.block_weight for case in cases) else "string"
 
 
 def marked(value: Array) -> NDArray[np.bool_]:
@@ -142,7 +126,7 @@ def spent_at(case: Case | None, load: Load) -> float:
 
 
 def limits_of_load(
-    chart: pd.DataFrame, case: Case | None, load: Load, units: System, measured: pd.DataFrame | None,
+    series: Sequence[Series], case: Case | None, load: Load, units: System, measured: pd.DataFrame | None,
     lines: Sequence[Array] = (),
 ) -> Limits:  # fmt: skip
     """Limits of the axis of hook loads; the pushes of locked-up strings do not set them.
@@ -150,49 +134,58 @@ def limits_of_load(
     lines : other loads that it shows [N].
     """
     column = LOAD_COLUMNS[load]
-    locked = _locked(chart)
-    visible = [chart.loc[~locked, column].to_numpy(float), *_measured(measured, column), *lines]
-    for kind, rows in chart[~locked].groupby("operation"):
-        ends = rows[["hookload_low_N", "hookload_high_N"]].to_numpy(float).ravel()
-        visible.append(as_load(case, str(kind), ends[np.isfinite(ends)], load))
-    if locked.any():
+    visible = [*_free(series, column), *_measured(measured, column), *lines]
+    for end in ("hookload_low_N", "hookload_high_N"):
+        for one, values in zip(series, _free(series, end), strict=True):
+            visible.append(as_load(case, one.operation, values[np.isfinite(values)], load))
+    locked = any(_locked(one).any() for one in series)
+    if locked:
         visible.append(np.array([spent_at(case, load)]))
         # A chart of nothing but pushes shows the least of them.
-        finite = np.concatenate(visible)
-        if np.ptp(finite[np.isfinite(finite)]) == 0 and chart[column].notna().any():
-            visible.append(np.array([chart[column].max()]))
+        shown_loads, every = _finite(visible), _finite([one.columns[column] for one in series])
+        if np.ptp(shown_loads) == 0 and len(every):
+            visible.append(every.max(keepdims=True))
     largest = max(
-        _largest(chart, ["hookload_N"]), case.rig.block_weight if case is not None and load == "indicator" else 0.0
+        _largest(series, ["hookload_N"]), case.rig.block_weight if case is not None and load == "indicator" else 0.0
     )
-    return _span(visible, LEAST_SHARE * largest, shown(column, units).factor, cut=bool(locked.any()))
+    return _span(visible, LEAST_SHARE * largest, shown(column, units).factor, cut=locked)
 
 
 def limits_of_torque(
-    chart: pd.DataFrame, units: System, measured: pd.DataFrame | None, lines: Sequence[Array] = ()
+    series: Sequence[Series], units: System, measured: pd.DataFrame | None, lines: Sequence[Array] = ()
 ) -> Limits:
     """Limits of the axis of torques, from 0: noise of the solver and strings that lock up do not set them.
 
     lines : other torques that it shows [N m].
     """
-    locked = _locked(chart)
-    least = LEVER * _largest(chart, ["hookload_N", "total_contact_force_N"])
-    visible = [np.array([0.0, least]), chart.loc[~locked, TORQUE].to_numpy(float), *_measured(measured, TORQUE)]
-    visible += lines
+    least = LEVER * _largest(series, ["hookload_N", "total_contact_force_N"])
+    visible = [np.array([0.0, least]), *_free(series, TORQUE), *_measured(measured, TORQUE), *lines]
     factor = shown(TORQUE, units).factor
     limits = _span(visible, least, factor, cut=False)
-    below = bool((chart.loc[locked, TORQUE] * factor < limits.low).any())
+    below = any((one.columns[TORQUE][_locked(one)] * factor < limits.low).any() for one in series)
     return _span(visible, least, factor, cut=True) if below else limits
 
 
-def _locked(chart: pd.DataFrame) -> pd.Series[bool]:
-    return chart["status"] == SteadyStatus.LOCKED_UP
+def _locked(one: Series) -> NDArray[np.bool_]:
+    return np.asarray(one.columns["status"] == SteadyStatus.LOCKED_UP, bool)
 
 
-def _largest(chart: pd.DataFrame, columns: list[str]) -> float:
+def _free(series: Sequence[Series], column: str) -> list[Array]:
+    """Values of a column of each series, but for those of rows that are locked up."""
+    return [np.asarray(one.columns[column][~_locked(one)], float) for one in series]
+
+
+def _finite(parts: Sequence[Array]) -> Array:
+    values = np.concatenate(parts).astype(np.float64)
+    found: Array = values[np.isfinite(values)]
+    return found
+
+
+def _largest(series: Sequence[Series], columns: Sequence[str]) -> float:
     """Largest of the loads of rows that are not locked up [N]; of all rows where every row is."""
-    rows = chart if _locked(chart).all() else chart[~_locked(chart)]
-    loads = rows[columns].abs().to_numpy(float)
-    return float(np.max(loads, where=np.isfinite(loads), initial=0.0))
+    free = _finite([values for column in columns for values in _free(series, column)])
+    every = free if len(free) else _finite([one.columns[column] for column in columns for one in series])
+    return float(np.abs(every).max(initial=0.0))
 
 
 def _measured(measured: pd.DataFrame | None, column: str) -> list[Array]:
@@ -208,8 +201,7 @@ def measured_columns(column: str) -> tuple[str, str, str]:
 
 def _span(visible: Sequence[Array], least: float, factor: float, *, cut: bool) -> Limits:
     """Limits that show all values [SI], at least ``least`` apart, with more room to the left where loads are cut."""
-    values = np.concatenate(visible)
-    values = values[np.isfinite(values)]
+    values = _finite(visible)
     low, high = (float(values.min()), float(values.max())) if len(values) else (0.0, 0.0)
     # Where there are no loads, the axis spans 1.
     lacking = max((least or 1.0 / factor) - (high - low), 0.0) / 2

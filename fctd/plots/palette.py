@@ -30,3 +30,11 @@ LOOKS: Final = _OWN_LOOKS | {kind: (DARK, "p") for kind in KINDS if kind not in 
 BUCKLED: Final = dict(zip(buckling.BUCKLED, ("#f0f0f0", "#c6c6c6"), strict=True))
 EDGE = "#8a8a8a"
 MEASURED = "#ffe04d"  # of the faces of measured points
+# Dashes, drawn and left out in turn, in widths of a line.
+Dash = tuple[float, ...]
+SOLID: Final[Dash] = ()
+# A set of friction factors has a dash.
+DASHES: Final[tuple[Dash, ...]] = (
+    SOLID, (5, 2), (1, 1.3), (7, 2, 1.5, 2), (3, 1.5), (9, 3), (7, 1.5, 1, 1.5, 1, 1.5), (1, 3), (12, 2, 4, 2),
+    (5, 1.5, 5, 1.5, 1, 1.5),
+)  # fmt: skip

@@ -16,14 +16,17 @@ from fctd.case.operations import KINDS
 from fctd.plots.facts import heading_of_profile
 from fctd.plots.labels import SIZE, width_of
 from fctd.plots.palette import BUCKLED, EDGE, LOOKS, QUIET, SHADE
-from fctd.plots.style import LOST, POINTS, RC, Sheet
+from fctd.plots.style import LOST, POINTS, RC, SMALL, Sheet
 from fctd.plots.tracks import (
     TRACKS,
     SideForce,
     Track,
+    depth_ends,
     label_of,
+    lengths_of,
     limits_near,
     limits_of_track,
+    peaks_of,
     stretches,
     values_of,
 )
@@ -37,6 +40,8 @@ NARROW, WIDE = 0.85, 1.34  # of the first panel and the others [in]
 ROOM = 0.5 * BETWEEN - 0.02  # of labels beside their panel [in]
 TICK_SIZE = 9.0  # of the labels of ticks [pt]
 MARKS = 8  # about as many markers on a line
+# Where the axis cuts a value.
+PEAK: dict[str, Any] = {"marker": ">", "linestyle": "none", "markersize": 7, "clip_on": False, "zorder": 4}
 SHOE: dict[str, Any] = {"color": QUIET, "linewidth": 0.9, "linestyle": (0, (1, 2)), "zorder": 1.1}
 
 
@@ -80,14 +85,16 @@ def profile_figure(
                 ax.axhline(shoe, **SHOE)
             ax.set_xlabel(",\n".join(label_of(column, units, force)), fontsize=8.5)
             if answers:
-                ax.set_xlim(limits_of_track(answers, column, units, force, near))
+                ends = limits_of_track(answers, column, units, force, near)
+                ax.set_xlim(ends)
+                _peaks(ax, peaks_of(answers, column, units, force, ends), ends[1])
             _ticks(ax, NARROW if column == TRACKS[0] else WIDE)
             ax.tick_params(axis="y", labelleft=ax is panels[0])
         tension = panels[TRACKS.index("effective_tension_N")]
         for mode, (md, limit) in near.items():
             tension.plot(limit, md, color=QUIET, linestyle=LIMITS[mode], linewidth=1.2)
         panels[0].set_ylabel(f"{COLUMNS['md_m'].label}, {shown('md_m', units).label}")
-        panels[0].set_ylim(points[0].bit_depth * depth.factor * 1.01, -0.005 * points[0].bit_depth * depth.factor)
+        panels[0].set_ylim(depth_ends(points, units))
         return sheet.figure
 
 
@@ -99,7 +106,7 @@ def _track(ax: Axes, point: Equilibrium, column: str, units: System, force: Side
         for first, last, mode in stretches(profile):
             ax.axhspan(md[first], md[last], facecolor=(BUCKLED[mode], 0.75), edgecolor=EDGE, linewidth=0.6, zorder=0.3)
     if column == "contact_force_N":
-        edges = np.concatenate((md[:1], 0.5 * (md[1:] + md[:-1]), md[-1:]))
+        edges = np.append(md[0], md[0] + np.cumsum(lengths_of(md)))
         bars: dict[str, Any] = {"fill": True, "baseline": 0} if alone else {"baseline": None}
         ax.stairs(value, edges, orientation="horizontal", color=colour, linewidth=1.1, **bars)
         if not alone:
@@ -119,6 +126,18 @@ def _track(ax: Axes, point: Equilibrium, column: str, units: System, force: Side
                     band: dict[str, Any] = {"linewidth": thick, "color": tone, "zorder": order}
                     ax.plot(np.where(at, value, np.nan), md, solid_capstyle="round", **band)
     ax.plot(value, md, color=colour, marker=marker, markevery=max(len(md) // MARKS, 1), markersize=4, linewidth=1.2)
+
+
+def _peaks(ax: Axes, peaks: Sequence[tuple[Equilibrium, float, float]], edge: float) -> None:
+    """Mark the peaks that the axis cuts, and name the largest."""
+    for point, md, _ in peaks:
+        ax.plot(edge, md, color=LOOKS[point.operation][0], **PEAK)
+    if peaks:
+        _, md, value = max(peaks, key=lambda peak: peak[2])
+        ax.annotate(
+            f"{value:.3g}", (edge, md), (-7, 0), textcoords="offset points", ha="right", va="center", fontsize=SMALL,
+            bbox={"facecolor": "white", "linewidth": 0, "pad": 0.5, "alpha": 0.8},
+        )  # fmt: skip
 
 
 def _ticks(ax: Axes, width: float) -> None:

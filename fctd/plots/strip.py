@@ -1,5 +1,6 @@
-"""The strip beside a chart: a lane for each series that says over depth how its string is buckled, and its status."""
+"""The strip beside a chart: lanes that say over depth how strings are buckled, and their status."""
 
+from collections.abc import Sequence
 from itertools import groupby
 from typing import Any
 
@@ -9,9 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from fctd.plots.description import Lane
 from fctd.plots.palette import BUCKLED, DARK
 from fctd.plots.style import LOST
-from fctd.results.series import Series
 from fctd.results.status import SteadyStatus
 
 LANE = 0.21  # width of a lane [in]
@@ -30,30 +31,22 @@ NAMES = {
 LOST_NAMES = {"not_possible": "string and hole do not fit at this depth", "unstable": "no steady shape"}
 
 
-def has_states(series: list[Series]) -> bool:
-    """Whether any row is buckled, or has another status than converged."""
-    return any(
-        bool((s.rows["status"] != SteadyStatus.CONVERGED).any() or s.rows["buckling"].isin(list(BUCKLED)).any())
-        for s in series
-    )
-
-
-def draw_strip(ax: Axes, series: list[Series], depth: float) -> None:
-    """A lane for each series, numbered from 1, down the axes; depth : factor from m to the units of the axis."""
-    for k, one in enumerate(series, start=1):
-        at = one.rows["bit_depth_m"].to_numpy(float) * depth
+def draw_strip(ax: Axes, lanes: Sequence[Lane]) -> None:
+    """Draw lanes down the axes, by their numbers."""
+    for lane in lanes:
+        at = lane.depth
         edges = np.concatenate((at[:1], 0.5 * (at[1:] + at[:-1]), at[-1:]))
-        states = zip(one.rows["buckling"], one.rows["status"], one.rows["hookload_N"].notna(), strict=True)
         row = 0
-        for (mode, status, loaded), run in groupby(states):
+        for (mode, status, loaded), run in groupby(zip(lane.modes, lane.status, lane.loaded, strict=True)):
             first, row = row, row + len(list(run))
             top, height = edges[first], edges[row] - edges[first]
-            ax.bar(k, height, 0.78, top, **_look(str(mode), str(status), loaded), edgecolor=DARK, linewidth=0.6)
+            ax.bar(lane.number, height, 0.78, top, **_look(str(mode), str(status), loaded), edgecolor=DARK,
+                   linewidth=0.6)  # fmt: skip
             if not loaded and status != SteadyStatus.LOCKED_UP:
                 crosses: dict[str, Any] = LOST | {"markersize": 5, "markeredgewidth": 1.4}
-                ax.plot(np.full(row - first, k), at[first:row], **crosses)
-    ax.set_xlim(0.5, len(series) + 0.5)
-    ax.set_xticks(range(1, len(series) + 1))
+                ax.plot(np.full(row - first, lane.number), at[first:row], **crosses)
+    ax.set_xlim(0.5, len(lanes) + 0.5)
+    ax.set_xticks(range(1, len(lanes) + 1))
     ax.tick_params(axis="x", length=0, labelsize=8)
     ax.tick_params(axis="y", left=False, labelleft=False)
     ax.grid(False)
@@ -62,11 +55,11 @@ def draw_strip(ax: Axes, series: list[Series], depth: float) -> None:
     ax.set_xlabel("state", labelpad=3)
 
 
-def state_handles(series: list[Series]) -> list[Artist]:
+def state_handles(lanes: Sequence[Lane]) -> list[Artist]:
     """Entries of the legend for the states that occur."""
-    modes = {str(mode) for one in series for mode in one.rows["buckling"]}
-    loaded = {str(s) for one in series for s in one.rows.loc[one.rows["hookload_N"].notna(), "status"]}
-    lost = {str(s) for one in series for s in one.rows.loc[one.rows["hookload_N"].isna(), "status"]}
+    modes = {str(mode) for lane in lanes for mode in lane.modes}
+    loaded = {str(status) for lane in lanes for status in lane.status[lane.loaded]}
+    lost = {str(status) for lane in lanes for status in lane.status[~lane.loaded]}
     handles: list[Artist] = [
         Patch(facecolor=grey, edgecolor=DARK, linewidth=0.6, label=f"{mode} buckling")
         for mode, grey in BUCKLED.items()

@@ -14,7 +14,7 @@ from matplotlib.typing import RcKeyType
 
 from fctd.case.text import printable
 from fctd.plots.labels import SIZE, width_of
-from fctd.plots.palette import DARK, QUIET
+from fctd.plots.palette import DARK, DASHES, QUIET, Dash
 from fctd.store.whole_file import whole_file
 
 RC: dict[RcKeyType, Any] = {
@@ -40,8 +40,6 @@ RC: dict[RcKeyType, Any] = {
     # The same numbers give the same file, byte for byte.
     "svg.hashsalt": "fctd",
 }
-# A friction factor has a dash.
-DASHES: list[Any] = ["-", (0, (5, 2)), (0, (1, 1.3)), (0, (7, 2, 1.5, 2)), (0, (3, 1.5)), (0, (9, 3))]
 LOST: dict[str, Any] = {"marker": "x", "linestyle": "none", "markersize": 7, "markeredgewidth": 2, "color": QUIET}
 POINTS = 72.0  # in an inch
 TITLE, SMALL = 10.5, 7.5  # sizes of type [pt]
@@ -53,6 +51,14 @@ LEGEND_LINE, LEGEND_HANDLE = 0.19, 0.52  # height of a legend's entry, width of 
 
 # Files are the same byte for byte: these formats would hold the time.
 _UNDATED: dict[str, dict[str, Any]] = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
+
+
+def line_style(dash: Dash) -> Any:
+    """A dash as matplotlib takes it."""
+    return (0, dash) if dash else "-"
+
+
+LINE_STYLES: list[Any] = [line_style(dash) for dash in DASHES]
 
 
 def save(figure: Figure, path: Path) -> list[Path]:

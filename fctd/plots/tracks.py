@@ -37,6 +37,9 @@ NEAR: Final = 0.6
 LEAST: Final = {"effective_tension_N": 0.01, "torque_N_m": 2e-3, "bending_moment_N_m": 1e-3}
 LEAST_STRESS: Final = 1e6  # [Pa]
 AIR: Final = 0.05  # of the span of an axis, beyond the values
+# Values along at most this share of the strings do not set a scale, where they exceed the others by this factor.
+PEAK, CUT = 0.01, 1.5
+WITH_PEAKS: Final = ("contact_force_N", "bending_moment_N_m")
 JOINT: Final = 9.144  # [m], the 30 ft to which side forces on tool joints and casing are given
 
 
@@ -47,14 +50,30 @@ class Track(NamedTuple):
     value: Array
 
 
+def lengths_of(md: Array) -> Array:
+    """Length of string (n,) that belongs to contact points at depths (n,): half way to their neighbours."""
+    return np.diff(np.concatenate((md[:1], 0.5 * (md[1:] + md[:-1]), md[-1:])))
+
+
+def scale_of(values: Array, lengths: Array) -> float:
+    """The largest magnitude that a scale shows, of values (n,) along lengths (n,) of string.
+
+    It follows the length, not the number of contact points: those at a bit are many, and close together.
+    """
+    size = np.abs(values)
+    order = np.argsort(size)[::-1]
+    above = np.cumsum(lengths[order])
+    reached = float(size[order][np.searchsorted(above, PEAK * above[-1], side="right").clip(max=len(size) - 1)])
+    most = float(size.max())
+    return most if most <= CUT * reached or reached == 0.0 else reached
+
+
 def side_force(profile: pd.DataFrame, force: SideForce) -> Array:
     """Side force per length [N/m] or per joint of 30 ft [N] of each row of a profile.
 
     The force of a contact point belongs to the string half way to its neighbours.
     """
-    md = profile["md_m"].to_numpy(float)
-    edges = np.concatenate((md[:1], 0.5 * (md[1:] + md[:-1]), md[-1:]))
-    per_length = profile["contact_force_N"].to_numpy(float) / np.diff(edges)
+    per_length = profile["contact_force_N"].to_numpy(float) / lengths_of(profile["md_m"].to_numpy(float))
     return per_length * (JOINT if force == "joint" else 1.0)
 
 
@@ -111,6 +130,12 @@ def limits_near(answers: Sequence[Equilibrium], units: System) -> dict[str, Trac
     return near
 
 
+def depth_ends(points: Sequence[Equilibrium], units: System) -> tuple[float, float]:
+    """Lower and upper end of the axis of depths of some strings, in its units."""
+    bit = points[0].bit_depth * shown("bit_depth_m", units).factor
+    return 1.01 * bit, -0.005 * bit
+
+
 def limits_of_track(
     answers: Sequence[Equilibrium], column: str, units: System, force: SideForce, near: dict[str, Track]
 ) -> tuple[float, float]:
@@ -123,6 +148,10 @@ def limits_of_track(
     factor = shown(column, units).factor
     least = (LEAST_STRESS if column == "von_mises_Pa" else LEAST.get(column, 0.0) * largest) * factor
     values = [values_of(point, column, units, force).value for point in answers]
+    if column in WITH_PEAKS:
+        lengths = np.concatenate([lengths_of(point.profile["md_m"].to_numpy(float)) for point in answers])
+        most = scale_of(np.concatenate(values), lengths)
+        values = [np.clip(value, -most, most) for value in values]
     if COLUMNS[column].across:
         clearance = np.concatenate([point.profile["clearance_m"].to_numpy(float) for point in answers]) * factor
         values += [-clearance, clearance]
@@ -137,3 +166,19 @@ def limits_of_track(
     lacking = max(least - (high - low), 0.0) / 2
     air = AIR * max(high - low, least) or 1.0  # nothing but zeros
     return 0.0 if column == "contact_force_N" else low - lacking - air, high + lacking + air
+
+
+def peaks_of(
+    answers: Sequence[Equilibrium], column: str, units: System, force: SideForce, ends: tuple[float, float]
+) -> list[tuple[Equilibrium, float, float]]:
+    """Strings whose values lie beyond the end of the axis of a panel, with depth and value of the largest.
+
+    ends : of ``limits_of_track``.
+    """
+    found = []
+    for point in answers if column in WITH_PEAKS else ():
+        md, value = values_of(point, column, units, force)
+        k = int(np.argmax(value))
+        if value[k] > ends[1]:
+            found.append((point, float(md[k]), float(value[k])))
+    return found

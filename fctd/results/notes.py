@@ -57,6 +57,10 @@ MEANINGS: Final = {
         "the pull of the mud along the string is uncertain, since most of the stress at its walls is yield stress",
         "check the readings at 6 and 3 rev/min (mud.fann), or move or pump faster",
     ),
+    "flow_lie": Meaning(
+        "where the string lies in the mud that flows past it is not known: the annulus is taken as concentric",
+        "give mud.eccentricity a number",
+    ),
     "tortuosity": Meaning("the segments are too long to follow the hole's tortuosity", "use shorter segments"),
     "wall": Meaning(
         "the string was pressed deeper into the wall than the time step is stable for",
@@ -136,6 +140,11 @@ def flow_law(doubted: float, weight: float) -> Note | None:
     off = LAW_OFF * doubted
     text = f"the pull of the mud along the string may be {off / 1e3:.0f} kN too large"
     return note_beyond("flow_law", text, off, HARDLY * weight)
+
+
+def flow_lie() -> Note:
+    """The note on a string of which no steady lie was found."""
+    return note_of("flow_lie", MEANINGS["flow_lie"].headline, 1.0)
 
 
 def note_beyond(code: str, text: str, value: float, bound: float) -> Note | None:

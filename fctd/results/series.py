@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import isnan
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
 
 from fctd.results.unit_systems import System, reworded
 
 if TYPE_CHECKING:
     import pandas as pd
+
+# A table of ``fctd.torque_drag``, or its columns.
+Chart: TypeAlias = "pd.DataFrame | Mapping[str, NDArray[Any]]"
 
 FRICTION_LABEL = "friction_label"  # the column that names friction factors which differ along the hole
 OWN = "case's"  # factors of the case that differ along the hole, without a label
@@ -17,25 +24,33 @@ OWN = "case's"  # factors of the case that differ along the hole, without a labe
 class Series(NamedTuple):
     """One curve of a chart.
 
-    operation : kind; friction : "0.25", or the label of factors that differ along the hole; rows : by rising depth.
+    operation : kind; friction : "0.25", or the label of factors that differ along the hole; columns : those of the
+    chart, each (n,) by rising depth.
     """
 
     operation: str
     friction: str
-    rows: pd.DataFrame
+    columns: dict[str, NDArray[Any]]
 
 
-def series_of(chart: pd.DataFrame, units: System = "si") -> list[Series]:
+def series_of(chart: Chart, units: System = "si") -> list[Series]:
     """The series of a chart in the order of its rows; ``friction_label`` names the factors where the chart has it.
 
     units : of depths in the names.
     """
-    if FRICTION_LABEL in chart.columns:
-        names = chart[FRICTION_LABEL].map(lambda label: reworded(str(label), units))
+    columns = {name: np.asarray(chart[name]) for name in map(str, chart)}
+    if FRICTION_LABEL in columns:
+        names = {label: reworded(str(label), units) for label in dict.fromkeys(columns[FRICTION_LABEL])}
+        frictions = [names[label] for label in columns[FRICTION_LABEL]]
     else:
-        names = chart["friction"].map(lambda factor: OWN if isnan(factor) else f"{factor:g}")
-    groups = chart.groupby([chart["operation"], names], sort=False)
-    return [Series(str(operation), str(friction), rows) for (operation, friction), rows in groups]
+        frictions = [OWN if isnan(factor) else f"{factor:g}" for factor in columns["friction"]]
+    rows: dict[tuple[str, str], list[int]] = {}
+    for k, key in enumerate(zip(columns["operation"], frictions, strict=True)):
+        rows.setdefault(key, []).append(k)
+    return [
+        Series(str(operation), friction, {name: values[at] for name, values in columns.items()})
+        for (operation, friction), at in rows.items()
+    ]
 
 
 def frictions_of(series: list[Series]) -> list[str]:

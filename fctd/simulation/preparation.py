@@ -19,6 +19,7 @@ from fctd.model.bent_housings import put_bends
 from fctd.model.derrick import with_derrick
 from fctd.model.drilling import check_weight, driller_of, drive_of, expected_drilling, rock_of
 from fctd.model.drillstring import LongSegmentError, String, lay_out
+from fctd.model.first_runs import to_paste
 from fctd.model.fluids import fluids_of
 from fctd.model.operations import Phase, depth_range, rad_per_s, schedule
 from fctd.model.stands import check_stands, hang, lay_out_stands
@@ -70,7 +71,8 @@ def _driven(run: Run, phase: Phase) -> Phase:
 
 def _prepare(case: Case) -> tuple[Run, list[Phase]]:
     if not case.operations:
-        raise InputError("at least one operation to simulate", key="operations", value=[])
+        expected = "at least one operation to simulate, such as these lines at the end of the file"
+        raise InputError(expected, key="operations", value=[], lines=to_paste(case.end_as_written))
     case.check_depths()
     first, shallowest, deepest = depth_range(case)
     for i, depth in enumerate(case.record.profile_at):

@@ -8,7 +8,10 @@ from functools import cached_property
 
 import numpy as np
 
+from fctd.arrays import Array
+from fctd.case.errors import InputError
 from fctd.case.load import Case, check_bit_depth, naming_file
+from fctd.case.operation_names import kinds_of
 from fctd.case.solver import RESOLVING
 from fctd.case.units import LENGTH, argument
 from fctd.mechanics import state
@@ -127,4 +130,18 @@ def equilibrium(
     """
     with naming_file(case):
         depth = argument(bit_depth, LENGTH, "bit_depth")
-        return Solver(case).solve(operation, steady_rates(case, operation, speed, rpm, flow), depth)
+        (kind,) = kinds_of([operation])
+        return Solver(case).solve(kind, steady_rates(case, kind, speed, rpm, flow), depth)
+
+
+def lie_along(case: Case, bit_depth: float) -> tuple[Array, Array]:
+    """Where a case's string lies with the bit at a depth [m]: distances from the bit (n,) [m], falling, and ``lie_of``.
+
+    For the ``eccentricity`` of ``pressure_losses``, ``surge_pressures`` and ``fastest_trips``.  Raises InputError where
+    string and hole do not fit, or no steady string is found.
+    """
+    laid = Solver(case).lay_out(bit_depth)
+    share = lie_of(laid)
+    if share is None:
+        raise InputError("a depth at which a steady string is found, whose lie is asked for", key="eccentricity")
+    return 0.5 * (laid.string.above_bit[:-1] + laid.string.above_bit[1:]), share

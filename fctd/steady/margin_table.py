@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case, naming_file
+from fctd.case.operation_names import kinds_of
 from fctd.case.units import LENGTH, argument
 from fctd.model.operations import SteadyRates, rates_of_all
 from fctd.steady.equilibrium import Solver
@@ -55,7 +56,7 @@ def margin_table(
     import pandas as pd  # slow to import
 
     with naming_file(case):
-        kinds = [operation] if isinstance(operation, str) else list(operation)
+        kinds = kinds_of(operation)
         depths = [argument(depth, LENGTH, "bit_depths") for depth in bit_depths] or [case.depths[1]]
         rates = rates_of_all(case, kinds, speed, rpm, flow)
         solver = Solver(case if friction is None else with_friction(case, friction))

@@ -24,6 +24,7 @@ import numpy as np
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case, check_bit_depth, naming_file
+from fctd.case.operation_names import kinds_of
 from fctd.case.units import LENGTH, argument, bare
 from fctd.mechanics.state import MAX_SEGMENTS
 from fctd.model import layouts
@@ -245,10 +246,7 @@ def _kinds(case: Case, operation: str | Sequence[str] | None) -> list[str]:
         if not case.operations:
             raise InputError("a kind of operation, as the case has none", key="operation")
         return [case.operations[0].kind]
-    kinds = [operation] if isinstance(operation, str) else list(dict.fromkeys(operation))
-    if not kinds:
-        raise InputError("at least one kind of operation", key="operation", value=[])
-    return kinds
+    return kinds_of(operation)
 
 
 def _depth(case: Case, kind: str, bit_depth: float | str | None) -> float:

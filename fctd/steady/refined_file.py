@@ -11,6 +11,7 @@ import tomlkit
 from fctd.case.errors import InputError
 from fctd.case.input_file import LARGEST_FILE, read_text
 from fctd.case.load import Case, load_case
+from fctd.case.named_items import by_index
 from fctd.case.raw_case import apply_override, look_up, split_key
 from fctd.case.string import ComponentSpec
 from fctd.case.text import is_utf8
@@ -41,7 +42,7 @@ def changed_document(source: Path, overrides: Mapping[str, Any]) -> Any:
     raw: Any = tomlkit.parse(read_text(source, LARGEST_FILE, "a case file"))
     for key, value in overrides.items():
         if value is None:
-            *parents, last = split_key(key)
+            *parents, last = split_key(by_index(raw, key))
             place: Any = look_up(raw, *parents)
             with suppress(KeyError, IndexError, TypeError):  # the file lacks the key
                 del place[last]

@@ -21,7 +21,7 @@ from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling
 from fctd.results.columns import IN_CHART, Column
 from fctd.results.display import MAIN, html_table, load_rows
 from fctd.results.limits import WORST
-from fctd.results.notes import Note, flow_law, homogenised, limit_notes, rig_notes
+from fctd.results.notes import Note, flow_law, flow_lie, homogenised, limit_notes, rig_notes
 from fctd.results.profile import profile_table
 from fctd.results.status import SteadyStatus
 from fctd.steady.continuation import CONVERGED, NOT_FINITE
@@ -167,7 +167,8 @@ class Equilibrium:
             found = (*limit_notes(self.shares, string, shape.walls, self.case.limits), *found)
         if (circuit := shape.laid.circuit) is not None:
             law = flow_law(circuit.doubted, float(string.weight @ string.length))
-            found = found if law is None else (*found, law)
+            lies = flow_lie() if shape.laid.eccentricity is None else None
+            found = (*found, *(note for note in (law, lies) if note is not None))
         if self.method != HOMOGENISED:
             return found
         # How deep its long segments lie in the wall says nothing of the string's waves.

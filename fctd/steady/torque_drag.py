@@ -10,6 +10,7 @@ import numpy as np
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionSet, changed, friction_set, friction_sets, own_label, table_of
 from fctd.case.load import Case, naming_file
+from fctd.case.operation_names import kinds_of
 from fctd.case.units import LENGTH, argument
 from fctd.model.operations import SteadyRates, rates_of_all
 from fctd.model.wellbore import Wellbore, build_wellbore
@@ -101,9 +102,7 @@ def chart_rows(
     """
     with naming_file(case):
         depths = _check_depths(bit_depths)
-        kinds = [operation] if isinstance(operation, str) else list(operation)
-        if not kinds:
-            raise InputError("at least one kind of operation", key="operation", value=[])
+        kinds = kinds_of(operation)
         rates = rates_of_all(case, kinds, speed, rpm, flow)
         sets = None if friction is None else friction_sets(friction)
         chart = _Chart(_solvers(case, build_wellbore(case), sets), kinds, rates, {} if above is None else above)

@@ -13,6 +13,7 @@ from pydantic import Field, StrictBool, field_validator, model_validator
 
 from fctd.case import units
 from fctd.case.errors import InputError, Table
+from fctd.case.operation_names import KindName
 from fctd.case.operations import KINDS
 from fctd.case.raw_case import read_model, split_key
 from fctd.case.spellings import split
@@ -187,7 +188,7 @@ class WorkSpec(Table):
     """
 
     kind: Literal["chart", "equilibrium", "refine", "simulate"] = "chart"
-    operations: tuple[str, ...] = ()
+    operations: tuple[KindName, ...] = ()
     depths: str | tuple[units.MeasuredDepth, ...] | None = None
     bit_depth: units.MeasuredDepth | None = None
     speed: units.PositiveSpeed | None = None
@@ -208,9 +209,6 @@ class WorkSpec(Table):
                 raise InputError(f'no {key} beside kind = "{self.kind}"', key=key)
         if self.kind != "simulate" and not self.operations:
             raise InputError(f"a list of kinds of operation, of {', '.join(KINDS)}", key="operations")
-        for i, kind in enumerate(self.operations):
-            if kind not in KINDS:
-                raise InputError(f"one of the kinds {', '.join(KINDS)}", key=f"operations[{i}]", value=kind)
         if self.kind == "chart" and self.depths is None:
             raise InputError("bit depths, '1750:2450:10' or a list", key="depths")
         if self.kind in ("equilibrium", "refine") and self.bit_depth is None:

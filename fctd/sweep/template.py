@@ -9,13 +9,13 @@ import numpy as np
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case, make_case, read_raw
-from fctd.case.raw_case import apply_override, set_key, split_key
+from fctd.case.named_items import by_index
+from fctd.case.raw_case import FRICTION, apply_override, set_key, split_key
 from fctd.sweep.design import Sample, Value
 from fctd.sweep.spec import SweepSpec
 from fctd.sweep.survey_errors import erred
 
-ROTATIONAL: Final = "rotational_friction"
-FRICTION: Final = ("friction", ROTATIONAL)  # factors of all intervals, or of those of a kind
+ROTATIONAL: Final = FRICTION[1]
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,7 @@ def _check_apart(spec: SweepSpec, raw: Mapping[str, Any]) -> None:
     kinds = [interval.get("kind") for interval in raw["wellbore"]["intervals"]]
     for i, parameter in enumerate(spec.parameters):
         name, _, kind = parameter.key.partition(".")
-        places = [tuple(split_key(parameter.key))]
+        places = [tuple(split_key(by_index(raw, parameter.key)))]
         if name in FRICTION:
             places = [("wellbore", "intervals", k, name) for k, other in enumerate(kinds) if kind in ("", other)]
         for place in places:
@@ -107,15 +107,9 @@ def _check_apart(spec: SweepSpec, raw: Mapping[str, Any]) -> None:
 
 
 def set_value(raw: dict[str, Any], key: str, value: Any, unit: str) -> None:
-    """Set a key of an unvalidated case; ``friction.cased`` and ``rotational_friction.open`` are factors of kinds of
-    interval."""
+    """Set a key of an unvalidated case."""
     # A text has its unit: that of a dataset which an earlier version began.
-    written = f"{float(value)!r} {unit}" if unit and not isinstance(value, str) else value
-    name, _, kind = key.partition(".")
-    if name in FRICTION and kind:
-        apply_override(raw, name, {kind: written})
-    else:
-        apply_override(raw, key, written)
+    apply_override(raw, key, f"{float(value)!r} {unit}" if unit and not isinstance(value, str) else value)
 
 
 def template_of(spec: SweepSpec, first: Sample) -> Template:

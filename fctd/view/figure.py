@@ -5,7 +5,7 @@ from itertools import chain
 import numpy as np
 import plotly.graph_objects as go
 
-from fctd.plots.page import plain
+from fctd.plots.traces import plain
 from fctd.results.unit_systems import System
 from fctd.view.quantities import quantity_of
 from fctd.view.scene import (

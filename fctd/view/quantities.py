@@ -7,7 +7,7 @@ import numpy as np
 
 from fctd.arrays import Array
 from fctd.case.errors import InputError, nearest
-from fctd.plots.tracks import side_force_unit
+from fctd.plots.tracks import scale_of, side_force_unit
 from fctd.results.columns import COLUMNS
 from fctd.results.unit_systems import Shown, System, shown
 
@@ -23,8 +23,6 @@ COLOURS: Final[dict[Scale, tuple[tuple[float, str], ...]]] = {
         (0.0, "#c4c4c4"), (0.34, "#c4c4c4"), (0.34, "#f08a24"), (0.67, "#f08a24"), (0.67, "#5c1400"), (1.0, "#5c1400"),
     ),
 }  # fmt: skip
-# Above it lie so few values of all strings that they would leave the rest pale.
-BRIGHTEST: Final = 99.5  # percentile
 
 
 @dataclass(frozen=True)
@@ -46,17 +44,16 @@ class Quantity:
             return shown("clearance_m", units)
         return shown(self.column, units)
 
-    def limits(self, values: Array) -> tuple[float, float]:
-        """Values of the first and the last colour, for all values of a view; in the same unit."""
+    def limits(self, values: Array, lengths: Array) -> tuple[float, float]:
+        """Values of the first and the last colour, in the same unit.
+
+        values (n,) : of all strings of a view; lengths (n,) : of string that has each.
+        """
         if self.scale == "modes":
             return -0.5, 2.5
-        found = values[np.isfinite(values)]
-        if not len(found):
-            return 0.0, 1.0
-        if self.scale == "signed":
-            most = float(np.percentile(np.abs(found), BRIGHTEST)) or 1.0
-            return (-most, most) if found.min() < 0 else (0.0, most)
-        return 0.0, float(np.percentile(found, BRIGHTEST)) or 1.0
+        at = np.isfinite(values)
+        most = (scale_of(values[at], lengths[at]) if at.any() else 0.0) or 1.0
+        return (-most if self.scale == "signed" and values[at].min(initial=0.0) < 0 else 0.0), most
 
     def colours(self, low: float) -> tuple[tuple[float, str], ...]:
         """The colour scale; low : value of the first colour, 0 for a signed quantity that is never negative."""

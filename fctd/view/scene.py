@@ -4,14 +4,16 @@ Each trace has its look here, and the data of one string from ``scene_data`` and
 alone.
 """
 
+from functools import cached_property
 from typing import Any, Final, NamedTuple
 
 import numpy as np
 
 from fctd.arrays import Array
-from fctd.plots.page import plain
+from fctd.plots.loads import as_load, usual_load
 from fctd.plots.palette import DARK, EDGE, PALETTE, QUIET
-from fctd.plots.tracks import side_force_unit
+from fctd.plots.traces import plain
+from fctd.plots.tracks import lengths_of, side_force_unit
 from fctd.results.buckling import MODES
 from fctd.results.unit_systems import System, reworded, shown
 from fctd.view.hole import clearance_at, exaggeration_of, rings, wall_lines
@@ -47,23 +49,39 @@ class Look:
 
     def limits(self, quantity: Quantity) -> tuple[float, float]:
         """Values of the first and the last colour, in the shown unit."""
-        found = [one.columns[quantity.column] for one in self.strings.snapshots]
-        return quantity.limits(np.concatenate(found) * quantity.shown(self.units).factor if found else np.empty(0))
+        return quantity.limits(self._all(quantity.column) * quantity.shown(self.units).factor, self._lengths)
 
-    def span(self, column: str, factor: float) -> tuple[float, float]:
-        """Ends of the axis of a panel, with zero."""
-        found = np.concatenate([np.zeros(1), *(one.columns[column] for one in self.strings.snapshots)]) * factor
-        low, high = float(found.min()), float(found.max())
+    def peak(self, quantity: Quantity) -> str:
+        """The largest value of a quantity in words, where it lies beyond the scale; else empty."""
+        values = self._all(quantity.column) * quantity.shown(self.units).factor
+        most = float(np.nanmax(np.abs(values), initial=0.0))
+        return f" (peak {most:.3g})" if quantity.scale != "modes" and most > self.limits(quantity)[1] else ""
+
+    def span(self, quantity: Quantity) -> tuple[float, float]:
+        """Ends of the axis of a panel, with zero; a peak does not set them."""
+        values = np.append(self._all(quantity.column) * quantity.shown(self.units).factor, 0.0)
+        most = max(map(abs, self.limits(quantity)))
+        low, high = np.clip((values.min(), values.max()), -most, most).tolist()
         air = AIR * (high - low) or 1.0
         return (low - air if low < 0 else 0.0), high + air
+
+    def _all(self, column: str) -> Array:
+        """A column of all strings."""
+        return np.concatenate([np.empty(0), *(one.columns[column] for one in self.strings.snapshots)])
+
+    @cached_property
+    def _lengths(self) -> Array:
+        """Lengths of string that belong to the contact points of all strings."""
+        return np.concatenate([np.empty(0), *(lengths_of(one.columns["md_m"]) for one in self.strings.snapshots)])
 
 
 def scene_traces(look: Look, quantity: Quantity) -> list[Trace]:
     """The traces of the scene without data, in the order of ``SCENE``."""
     low, high = look.limits(quantity)
     unit = quantity.shown(look.units).label
+    title = f"{quantity.label}{f', {unit}' if unit else ''}{look.peak(quantity)}"
     bar: dict[str, Any] = {
-        "title": {"text": f"{quantity.label}{f', {unit}' if unit else ''}", "side": "top", "font": {"size": 11}},
+        "title": {"text": title, "side": "top", "font": {"size": 11}},
         "thickness": 10, "len": 0.5, "orientation": "h", "x": 0.02, "xanchor": "left", "y": 0.99, "yanchor": "top",
     }  # fmt: skip
     if quantity.scale == "modes":
@@ -216,13 +234,13 @@ def panel_layout(look: Look) -> dict[str, Any]:
     force, tension = QUANTITIES["side_force"].shown(look.units), shown("hookload_N", look.units)
     titles = (
         "where it touches, °<br>0 high, 90 right, 180 low side",
-        f"side force per length,<br>{force.label}",
+        f"side force per length,<br>{force.label}{look.peak(QUANTITIES['side_force'])}",
         f"tension and its limits,<br>{tension.label}",
     )
     spans = (
         (-95.0, 275.0),
-        look.span("side_force", force.factor),
-        look.span("effective_tension_N", tension.factor),
+        look.span(QUANTITIES["side_force"]),
+        look.span(QUANTITIES["tension"]),
     )
     layout: dict[str, Any] = {
         "yaxis": {
@@ -288,7 +306,7 @@ def caption_of(look: Look, one: Snapshot) -> str:
     load, torque = shown("hookload_N", look.units), shown("surface_torque_N_m", look.units)
     words = []
     if np.isfinite(one.hookload):
-        words += [f"hook load {one.hookload * load.factor:z.1f} {load.label}"]
+        words += [f"hook load {one.hookload * load.factor:z.1f} {load.label}{_on_indicator(look, one)}"]
         words += [f"torque {one.torque * torque.factor:z.2f} {torque.label}"]
     if len(one.offset):
         words += [f"{int(one.touching.sum())} of {len(one.offset)} points touch"]
@@ -296,6 +314,15 @@ def caption_of(look: Look, one: Snapshot) -> str:
         if round(stretch) > 0:
             words += [f"the bit {stretch:.1f} {look.depth.label} deeper by stretch"]
     return plain("; ".join([*words, *([reworded(one.status, look.units)] if one.status else [])]))
+
+
+def _on_indicator(look: Look, one: Snapshot) -> str:
+    """What the indicator reads of a steady string where the case says what the block weighs; else empty."""
+    case, load = look.strings.case, shown("hookload_N", look.units)
+    if look.strings.along != "bit depth" or usual_load([case]) == "string":
+        return ""
+    (read,) = as_load(case, one.operation, np.array([one.hookload]), "indicator")
+    return f" ({read * load.factor:z.1f} {load.label} on the indicator)"
 
 
 def unrolled(angle: Array) -> Array:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.load import Case
+from fctd.case.operation_names import kinds_of
 from fctd.case.operations import KINDS
 from fctd.model.frames import hole_frame
 from fctd.model.operations import rates_of_all
@@ -106,7 +107,7 @@ def of_chart(
     speed [m/s], rpm, flow [m³/s] : as for ``fctd.torque_drag``.  Raises InputError where string and hole fit at none of
     the depths.
     """
-    kinds = [operation] if isinstance(operation, str) else list(operation)
+    kinds = kinds_of(operation)
     rates, solver = rates_of_all(case, kinds, speed, rpm, flow), Solver(case)
     points, unfit = [], dict[float, InputError]()
     for k, depth in enumerate(bit_depths, start=1):

@@ -38,7 +38,7 @@ RC: dict[RcKeyType, Any] = plots.RC | {
 }
 
 # The engine's palette and dashes; a dash and a marker for each colour.
-COLOURS, DASHES = list(palette.PALETTE.values()), plot_style.DASHES
+COLOURS, DASHES = list(palette.PALETTE.values()), plot_style.LINE_STYLES
 QUIET, SHADE = palette.QUIET, palette.SHADE
 MARKERS = ["o", "s", "^", "D", "v", "P"]
 # A friction law looks the same in every figure.

@@ -5,6 +5,9 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from fctd.app.pool import RefusedError
 from fctd.app.sessions import Source
 from fctd.app.worker import Wells, answer
@@ -79,3 +82,14 @@ class InProcess:
 
     def close(self) -> None:
         self._scratch.cleanup()
+
+
+def unpacked(value: dict[str, str]) -> NDArray[np.float32]:
+    """Numbers of a figure that ``charts.packed`` has packed."""
+    return np.frombuffer(base64.b64decode(value["bdata"]), "<f4")
+
+
+def of(changes: list[tuple[list[Any], Any]], *way: object) -> Any:
+    """The value of a change by its way."""
+    (found,) = [value for path, value in changes if path == list(way)]
+    return found

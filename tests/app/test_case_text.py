@@ -107,7 +107,7 @@ def test_a_document_type_is_refused(content: bytes, tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"^survey\.xml: .*DOCTYPE"):
         check_survey(content, "survey.xml")
     with pytest.raises(InputError, match=r"^survey\.xml: .*DOCTYPE"):
-        from_upload("survey.xml", content, "metric", tmp_path)
+        from_upload("survey.xml", content, "si", tmp_path)
 
 
 def test_a_packed_file_is_not_unpacked_beyond_its_limit() -> None:
@@ -126,7 +126,7 @@ def test_too_many_stations_and_segments_are_refused(tmp_path: Path) -> None:
     with pytest.raises(
         InputError, match=rf"^survey\.csv: expected at most {MOST_STATIONS} stations, here {MOST_STATIONS + 1}$"
     ):
-        from_upload("survey.csv", survey, "metric", tmp_path)
+        from_upload("survey.csv", survey, "si", tmp_path)
     with pytest.raises(InputError, match=f"at most {MOST_STATIONS} stations"):
         SourceCase(source(TEXT.replace('"900 m"', '"500 m"').replace('"880 m"', '"400 m"'), survey=survey), tmp_path)
     with pytest.raises(InputError, match=r"^expected a string of at most 2000 segments in the hole, here about \d+$"):
@@ -148,10 +148,10 @@ def test_a_warning_names_the_survey_as_its_user_does(tmp_path: Path) -> None:
 
 
 def test_a_survey_becomes_a_case(tmp_path: Path) -> None:
-    made, note = from_upload("my survey.csv", SURVEY, "metric", tmp_path)
+    made, note = from_upload("my survey.csv", SURVEY, "si", tmp_path)
     assert (made.survey_name, note) == ("my survey.csv", "")
     case = SourceCase(made, tmp_path).case
     assert case.name == "my survey"
     assert case.depths[1] == 900
     with pytest.raises(InputError, match=r"^notes\.txt: "):
-        from_upload("notes.txt", b"no survey at all", "metric", tmp_path)
+        from_upload("notes.txt", b"no survey at all", "si", tmp_path)

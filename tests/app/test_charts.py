@@ -1,56 +1,28 @@
-"""The chart of the page: a place for every trace, texts that are no HTML, axes that show the loads."""
+"""The chart of the page: the traces and axes of the description, packed."""
+
+import json
 
 import numpy as np
 
-from fctd.app import charts
-from fctd.case.operations import KINDS
-from tests.app.test_well import of, unpacked
-from tests.view.made import case
-
-ROW = {
-    "operation": "trip_in", "bit_depth_m": 500.0, "hookload_N": 1e5, "surface_torque_N_m": 0.0, "status": "converged",
-    "buckling": "none", "reason": "none",
-}  # fmt: skip
+from fctd.app.charts import changes_of
+from fctd.plots.describe import describe
+from fctd.plots.loads import ChartLook
+from fctd.plots.traces import layout_of, traces_of
+from tests.app.made import unpacked
+from tests.plots.made import chart, well
 
 
-def test_every_trace_has_its_place() -> None:
-    data = charts.skeleton(case(), [400.0, 800.0], "field")["data"]
-    places = {
-        **{charts.place_of(name, column): name for name in charts.ALL for column in charts.COLUMNS},
-        **{charts.place_of("line", column, kind): KINDS[kind].label for kind in KINDS for column in charts.COLUMNS},
-        **{
-            charts.place_of("measured", column, kind): f"measured, {KINDS[kind].label}"
-            for kind in KINDS
-            for column in charts.COLUMNS
-        },
-        **{charts.place_of("limit", column, kind): KINDS[kind].label for kind in KINDS for column in charts.COLUMNS},
-    }
-    assert places == {k: trace["name"] for k, trace in enumerate(data)}
-
-
-def test_reasons_are_text_and_rows_without_loads_stand_at_the_edge() -> None:
-    reason = "<a href='https://example.org'>x</a> $x$ " + "y" * 500
-    lost = ROW | {"hookload_N": np.nan, "surface_torque_N_m": np.nan, "status": "max_iterations", "reason": reason}
-    buckled = ROW | {"buckling": "helical", "bit_depth_m": 600.0, "hookload_N": 1.2e5}
-    found = charts.changes_of([ROW, buckled, lost], ["trip_in"], case(), "si", None)
-    k = charts.place_of("no loads", "hookload_N")
-    (text,) = of(found, "data", k, "text")
-    assert "<a" not in text
-    assert "$" not in text
-    assert "&lt;a href=" in text
-    assert len(text) < 300
-    low, high = of(found, "layout", "xaxis", "range")
-    assert low < 100 < 120 < high
-    assert low < unpacked(of(found, "data", k, "x"))[0] < low + 0.05 * (high - low)
-    assert of(found, "data", charts.place_of("buckled", "hookload_N"), "marker", "color") == [charts.BUCKLED["helical"]]
-    assert of(found, "data", charts.place_of("line", "hookload_N", "trip_in"), "showlegend")
-    assert not of(found, "data", charts.place_of("line", "hookload_N", "trip_out"), "showlegend")
-
-
-def test_axes_without_loads_and_with_one_load_have_a_length() -> None:
-    lost = ROW | {"hookload_N": np.nan, "surface_torque_N_m": np.nan}
-    for rows in ([lost], [ROW]):
-        found = charts.changes_of(rows, ["trip_in"], case(), "si", None)
-        for axis in ("xaxis", "xaxis2"):
-            low, high = of(found, "layout", axis, "range")
-            assert high - low > 1e-3
+def test_the_figure_is_that_of_the_page_of_a_chart() -> None:
+    case, table = well(rig={"block_weight": 3e4}), chart(["trip_out", "trip_in"], [0.2], {"diverged": "trip_in"})
+    found = changes_of(table.to_dict("records"), case, "field", ChartLook())
+    (_, traces), (_, layout) = found
+    described = describe(table, "field", case)
+    for drawn, of in zip(traces, traces_of(described), strict=True):
+        if isinstance(of["x"], np.ndarray):
+            np.testing.assert_allclose(unpacked(drawn["x"]), of["x"], rtol=1e-6)
+            np.testing.assert_allclose(unpacked(drawn["y"]), of["y"], rtol=1e-6)
+        assert drawn["name"] == of["name"]
+    for name, axis in layout_of(described).items():
+        if name.startswith(("xaxis", "yaxis")):
+            assert layout[name]["range"] == axis["range"]
+    json.dumps(found, allow_nan=False)

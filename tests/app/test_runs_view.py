@@ -14,8 +14,7 @@ from fctd.simulation.simulate import simulate
 from fctd.store import save_interval
 from fctd.store.run_folder import RunFolder
 from fctd.view.strings import of_run
-from tests.app.made import SURVEY, TEXT
-from tests.app.test_well import unpacked
+from tests.app.made import SURVEY, TEXT, unpacked
 
 
 def test_a_run_is_seen_from_its_first_chunk_to_its_result(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,7 +6,7 @@ from fctd.app import scenes
 from fctd.view.quantities import QUANTITIES
 from fctd.view.scene import PANELS, SCENE, Look, panel_data, scene_data
 from fctd.view.strings import Strings, of_chart
-from tests.app.test_well import of, unpacked
+from tests.app.made import of, unpacked
 from tests.view.made import case, strings
 
 

@@ -12,14 +12,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fctd.app.charts import place_of
 from tests.app.made import NAME, SURVEY, TEXT
 from tests.browsers import LONGEST, needs_browser, opened, overflow, pixels
 
 pytestmark = needs_browser
 
 # Values of a curve as they are painted, none before its picture is there: words may come first.
-CURVE = """(k) => Array.from(document.querySelector("#loads .js-plotly-plot")?._fullData?.[k]?.x ?? [])"""
+CURVE = """(name) => Array.from(document.querySelector("#loads .js-plotly-plot")?._fullData
+  ?.find((trace) => trace.name === name && trace.x.length > 1)?.x ?? [])"""
 STRING = """() => Array.from(document.querySelector("#scene .js-plotly-plot")?._fullData
   ?.find((trace) => trace.name === "string")?.line?.color ?? [])"""
 # The pictures in the order in which they are drawn from now on.
@@ -88,7 +88,7 @@ def until(page: Any, wanted: Callable[[], object]) -> None:
 
 
 def test_a_slider_moves_all_pictures(page: Any) -> None:
-    k = place_of("line", "hookload_N", "trip_out")
+    k = "picking up"
     chart, string, words = page.evaluate(CURVE, k), page.evaluate(STRING), page.locator("#words").inner_text()
     before = pixels(page)
     page.evaluate(WATCH)

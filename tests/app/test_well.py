@@ -1,6 +1,5 @@
 """A well under the sliders: what the page draws is what the commands compute."""
 
-import base64
 import json
 from pathlib import Path
 from typing import Any
@@ -10,26 +9,25 @@ import pytest
 from numpy.typing import NDArray
 
 import fctd
-from fctd.app.charts import LOST, place_of
 from fctd.app.sessions import Source
-from fctd.app.well import DEPTHS, EVERY, LIMIT_DEPTHS, LIMITS, Well
+from fctd.app.well import DEPTHS, EVERY, LIMIT_DEPTHS, LIMITS, STRING, Well
 from fctd.case.errors import InputError
+from fctd.case.operations import KINDS as OPERATIONS
 from fctd.model.depths import usual_depths
 from fctd.model.summary import summarise
 from fctd.view.scene import SCENE
-from tests.app.made import ROWS, TEXT, source
+from tests.app.made import ROWS, TEXT, source, unpacked
 
 KINDS = ["trip_out", "rotate_off_bottom"]
+UP = OPERATIONS["trip_out"].label
 
 
-def unpacked(value: dict[str, str]) -> NDArray[np.float32]:
-    return np.frombuffer(base64.b64decode(value["bdata"]), "<f4")
-
-
-def of(changes: list[tuple[list[Any], Any]], *way: object) -> Any:
-    """The value of a change by its way."""
-    (found,) = [value for path, value in changes if path == list(way)]
-    return found
+def drawn(found: dict[str, Any], name: str, axis: str = "x") -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Loads and depths of the traces of a name in the chart, one after the other; empty where there is none."""
+    traces = [t for t in found["loads"][0][1] if t["name"] == name and t.get("xaxis") == axis]
+    both = [[unpacked(t[side]) for t in traces] for side in "xy"]
+    loads, depths = (np.concatenate([np.empty(0, "<f4"), *of]) for of in both)
+    return loads, depths
 
 
 @pytest.fixture(scope="module")
@@ -51,11 +49,11 @@ def test_the_chart_is_that_of_the_command(well: Well) -> None:
     chart = fctd.torque_drag(case, KINDS, well.depths, friction={"cased": 0.2, "open": 0.4})
     for kind in KINDS:
         rows = chart[chart["operation"] == kind]
-        for column, factor in (("hookload_N", 1e-3), ("surface_torque_N_m", 1e-3)):
-            k = place_of("line", column, kind)
-            np.testing.assert_allclose(unpacked(of(found["loads"], "data", k, "x")), rows[column] * factor, rtol=1e-6)
-            np.testing.assert_allclose(unpacked(of(found["loads"], "data", k, "y")), rows["bit_depth_m"], rtol=1e-6)
-    assert not len(unpacked(of(found["loads"], "data", place_of("line", "hookload_N", "trip_in"), "x")))
+        for column, axis in (("hookload_N", "x"), ("surface_torque_N_m", "x2")):
+            loads, depths = drawn(found, OPERATIONS[kind].label, axis)
+            np.testing.assert_allclose(loads, rows[column] * 1e-3, rtol=1e-6)
+            np.testing.assert_allclose(depths, rows["bit_depth_m"], rtol=1e-6)
+    assert not len(drawn(found, OPERATIONS["trip_in"].label)[0])
     assert found["where"] == "picking up, bit at 880 m"
     point = fctd.equilibrium(well.moved(moved), operation="trip_out", bit_depth=880.0)
     assert f"hook load {point.hookload / 1e3:.1f} kN" in found["words"]
@@ -65,7 +63,7 @@ def test_the_chart_is_that_of_the_command(well: Well) -> None:
 
 def test_while_a_slider_moves_every_third_depth_is_solved_with_the_deepest(well: Well) -> None:
     found = solved(well, coarse=True, hole=False)
-    depth = unpacked(of(found["loads"], "data", place_of("line", "hookload_N", "trip_out"), "y"))
+    _, depth = drawn(found, UP)
     assert len(depth) == -(-DEPTHS // EVERY)
     assert depth[-1] == well.depths[-1] == 900
     changed = {way[1] for way, _ in found["scene"]}
@@ -77,13 +75,14 @@ def test_all_data_fit_the_figures_that_the_page_opens_with(well: Well) -> None:
     opened, found = well.opened(), solved(well, measured=ROWS)
     assert opened["operations"] == [*KINDS, "trip_in", "drill_rotating"]
     assert opened["name"] == well.case.name
-    for name in ("loads", "scene", "panels"):
+    for name in ("scene", "panels"):
         for (*way, last), _ in found[name]:
             place = opened[name]
             for key in way:
                 place = place[key]
             assert isinstance(place, dict), way
             assert last in place or last in ("array", "arrayminus", "range"), (name, way, last)
+    assert {way[0] for way, _ in found["loads"]} == set(opened["loads"])
     assert len(json.dumps(found)) < 150_000
 
 
@@ -96,16 +95,13 @@ def test_the_rotation_turns_what_turns(well: Well) -> None:
 
 
 def test_measured_rows_are_points(well: Well) -> None:
-    assert well.check_measured(ROWS) == {"rows": 2}
-    assert well.check_measured(" ") == {"rows": 0}
+    assert well.check_measured(ROWS) == {"rows": 2, "told": []}
+    assert well.check_measured(" ") == {"rows": 0, "told": []}
     for text in (ROWS, ROWS.replace(",", "\t")):
-        found = solved(well, measured=text)["loads"]
-        k = place_of("measured", "hookload_N", "trip_out")
-        assert unpacked(of(found, "data", k, "x")).tolist() == [150.0]
-        assert unpacked(of(found, "data", k, "y")).tolist() == [500.0]
+        loads, depths = drawn(solved(well, measured=text), f"measured, {UP}")
+        assert (loads.tolist(), depths.tolist()) == ([150.0], [500.0])
     commas = ROWS.replace(",", "\t").replace("150", "150,5")
-    found = solved(well, measured=commas)["loads"]
-    assert unpacked(of(found, "data", place_of("measured", "hookload_N", "trip_out"), "x")).tolist() == [150.5]
+    assert drawn(solved(well, measured=commas), f"measured, {UP}")[0].tolist() == [150.5]
     for wrong in ("depth,operation\n1,trip_out\n", "x", ROWS.replace("trip_out", "<b>up</b>"), "\0,\n\0,\0\n"):
         with pytest.raises(InputError, match="measured rows: ") as refused:
             well.check_measured(wrong)
@@ -133,7 +129,7 @@ def test_rows_without_a_plain_answer_are_counted(tmp_path: Path) -> None:
     found = solved(well, operations=["trip_in"], values={"friction_cased": 0.6}, operation="trip_in")
     assert "of 70 " in found["note"]
     assert "; rings: buckled" in found["note"]
-    crosses = len(unpacked(of(found["loads"], "data", place_of(LOST, "hookload_N"), "y")))
+    crosses = len(drawn(found, "no loads")[0])
     assert ("crosses: no loads" in found["note"]) == (crosses > 0)
 
 
@@ -150,13 +146,19 @@ def test_depths_end_where_the_string_does(tmp_path: Path) -> None:
 
 def test_limits_are_drawn_where_they_are_asked_for_and_no_slider_moves(well: Well) -> None:
     """Those of the command, at some depths."""
-    k = place_of("limit", "hookload_N", "trip_out")
     found = {
-        (asked, coarse): unpacked(of(solved(well, operations=asked, coarse=coarse)["loads"], "data", k, "x"))
+        (asked, coarse): drawn(solved(well, operations=asked, coarse=coarse), "limit: yield")[0]
         for asked, coarse in (((*KINDS, LIMITS), False), ((*KINDS, LIMITS), True), (tuple(KINDS), False))
     }
-    assert not np.isfinite(found[(*KINDS, LIMITS), True]).any()
-    assert not np.isfinite(found[tuple(KINDS), False]).any()
-    drawn = found[(*KINDS, LIMITS), False]
+    assert not len(found[(*KINDS, LIMITS), True])
+    assert not len(found[tuple(KINDS), False])
+    yields = found[(*KINDS, LIMITS), False][:LIMIT_DEPTHS]
     table = fctd.margin_table(well.case, "trip_out", [well.depths[0], well.depths[-1]])
-    assert drawn[[0, LIMIT_DEPTHS - 1]] == pytest.approx(table["hookload_N"] / 1e3, rel=1e-5)
+    expected = table.loc[table["limit"] == "yield", "hookload_N"] / 1e3
+    assert yields[[0, -1]] == pytest.approx(expected.to_numpy(), rel=1e-5)
+
+
+def test_the_load_is_the_indicators_where_the_block_is_known_but_for_one_who_asks(tmp_path: Path) -> None:
+    well = Well(source(f"{TEXT}\n[rig]\nblock_weight = '50 kN'\n"), tmp_path, "si")
+    read, string = (drawn(solved(well, operations=[*KINDS, *more]), UP)[0] for more in ([], [STRING]))
+    np.testing.assert_allclose(read, string + 50.0, rtol=1e-6)

@@ -61,7 +61,7 @@ def test_it_is_ready_and_then_answers_line_by_line(tmp_path: Path, monkeypatch: 
     limits = list[int]()
     monkeypatch.setattr(worker, "limit_memory", limits.append)
     survey = base64.b64encode(SURVEY).decode()
-    asked = {"do": "new_case", "given": {"name": "s.csv", "survey": survey, "given_units": "metric"}}
+    asked = {"do": "new_case", "given": {"name": "s.csv", "survey": survey, "given_units": "si"}}
     answers = io.BytesIO()
     serve(tmp_path, io.BytesIO(json.dumps(asked).encode() + b"\n"), answers)
     *_, ready, found = map(json.loads, answers.getvalue().splitlines())

@@ -46,7 +46,10 @@ WRONG = [
     ("", ["a row of headers"]),
     ("a,b\n1,2\n", ["a row of headers such as "]),
     (HEADERS, ["a row of headers and a row"]),
-    ("bit_depth_m,hookload_kN\n1,1\n", ["column operation is missing", '"bit_depth_m", "hookload_kN"']),
+    (
+        "bit_depth_m,hookload_kN\n1,1\n",
+        ["column operation or pick_up_kN or slack_off_kN is missing", '"bit_depth_m", "hookload_kN"'],
+    ),
     ("depth,operation,hookload_kN\n1,trip_in,1\n", ['row 1 = "depth"', 'a header with its unit, such as "depth (m)"']),
     ("depth_kg,operation,hookload_kN\n1,trip_in,1\n", ['row 1 = "depth_kg"', "a unit of m, cm"]),
     ("depth_m,operation,hookload_kNx\n1,trip_in,1\n", ['row 1 = "hookload_kNx"', "a unit of N"]),

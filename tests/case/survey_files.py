@@ -307,7 +307,7 @@ WRONG: list[tuple[str, Keys, str | bytes, str]] = [
         "two trajectories",
         {},
         witsml("S1", "S2"),
-        'sheet is missing: expected the name of the trajectory in wellbore.sheet: "S1", "S2"',
+        'sheet is missing: expected the name of the trajectory in wellbore.sheet (for init: --sheet): "S1", "S2"',
     ),
     ("another trajectory", {"sheet": "S3"}, witsml("S1", "T9"), 'sheet = "S3": expected one of the names S1, T9'),
     (
@@ -323,7 +323,8 @@ WRONG_WORKBOOKS: list[tuple[str, Keys, dict[str, list[list[object]]], str]] = [
         "two sheets",
         {},
         {"Plan": SHEET, "Survey": SHEET, "Notes": [["x"]]},
-        'sheet is missing: expected the name of the sheet that holds the survey in wellbore.sheet: "Plan", "Survey"',
+        "sheet is missing: expected the name of the sheet that holds the survey in wellbore.sheet (for init: --sheet): "
+        '"Plan", "Survey"',
     ),
     (
         "another sheet",

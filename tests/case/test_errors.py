@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from fctd.case.errors import Computed, InputError, nearest, show
+from fctd.case.errors import Computed, InputError, known_keys, nearest, show
 from tests.case.test_load import refusal
 
 
@@ -88,3 +88,13 @@ def test_long_values_are_cut_and_paths_are_whole(value: object, shown: str) -> N
 )
 def test_the_nearest_choice_or_all_of_them(given: str, choices: list[str], what: str, expected: str) -> None:
     assert nearest(given, choices, what) == expected
+
+
+@pytest.mark.parametrize(
+    ("key", "expected"),
+    [("WOB", "bit.weight_on_bit"), ("mud-weight", "mud.density"), ("od", "outer_diameter"), ("pin", "")],
+)
+def test_the_words_of_drillers_for_keys(key: str, expected: str) -> None:
+    with pytest.raises(InputError) as refused:
+        known_keys({key: 1}, ["outer_diameter", "length"])
+    assert refused.value.expected == (f"the key {expected}" if expected else "one of the keys outer_diameter, length")

@@ -21,6 +21,9 @@ def intervals(*rows: tuple[float, float, str | None]) -> list[IntervalSpec]:
     [
         (["0.25"], ["0.25"]),
         (["0.1,0.2, 0.3"], ["0.1", "0.2", "0.3"]),
+        (["0.1:0.4:0.1"], ["0.1", "0.2", "0.3", "0.4"]),
+        (["0.1:0.3:0.15,0.5"], ["0.1", "0.25", "0.3", "0.5"]),
+        (["0.2:0.2:0.1"], ["0.2"]),
         (["cased=0.2,open=0.3"], ["cased 0.20, open 0.30"]),
         (["open=0.3 , cased = 0.125"], ["cased 0.125, open 0.30"]),
         (["open=0.3", "0.2", "open=0.30"], ["open 0.30", "0.2"]),
@@ -51,6 +54,12 @@ def test_options_are_sets_each_once(texts: list[str], labels: list[str]) -> None
 )
 def test_what_is_no_option_is_refused(text: str) -> None:
     with pytest.raises(InputError, match=r"--friction = .*expected a factor such as 0\.25, a list of them"):
+        parse_frictions([text], "--friction")
+
+
+@pytest.mark.parametrize("text", ["0.4:0.1:0.1", "0.1:0.4:0", "0:1:0.001"])
+def test_a_fan_that_leads_nowhere_is_refused(text: str) -> None:
+    with pytest.raises(InputError, match=r"expected a fan FROM:TO:STEP with TO at least FROM, a STEP above 0"):
         parse_frictions([text], "--friction")
 
 

@@ -192,3 +192,11 @@ def test_names_of_the_members_of_unions_are_no_keys(
     with pytest.raises(InputError) as caught:
         read(path)
     assert {caught.value.key, *(other.key for other in caught.value.more)} == keys
+
+
+def test_an_override_by_name(case_file: Path) -> None:
+    """Of a component and an interval, and of a factor by the kind of interval."""
+    kinds = {"wellbore.intervals[0].kind": "cased", "wellbore.intervals.Open Hole.kind": "open"}
+    case = load_case(case_file, kinds | {"string.components.Collar.length": "80 m", "friction.open": 0.31})
+    assert case.string.components[0].length == 80.0
+    assert [interval.friction for interval in case.wellbore.intervals] == [0.2, 0.31]

@@ -118,7 +118,7 @@ def test_a_case_conforms() -> None:
         ("string.components.0.bend", True),
         ("string.components", {}),
         ("file", "x.toml"),
-        ("operations.0.kind", "tripin"),
+        ("operations.0.kind", "trip_up"),
         ("operations.0.duration", 3),
         ("operations.1.rpm", -1),
         ("contact", {"enabled": "yes"}),

@@ -155,7 +155,10 @@ def test_steps_of_a_plan_tell_nothing() -> None:
 def test_the_words_about_a_unit() -> None:
     warning = only(stands(94.0))
     assert warning.text == "most stations are 93.9 m apart, which is a stand in feet"
-    assert warning.remedy == 'if the depths are in feet, say so in the case: columns = {md = {unit = "ft"}}'
+    assert warning.remedy == (
+        "if the depths are in feet, write the case anew with fctd init --columns md.unit=ft, or say so in the case: "
+        'columns = {md = {unit = "ft"}}, and correct its depths'
+    )
 
 
 def test_witsml_has_no_columns_to_describe(tmp_path: Path) -> None:

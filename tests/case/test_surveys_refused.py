@@ -17,8 +17,8 @@ from fctd.case.errors import InputError
 from fctd.case.load import load_case
 from fctd.case.surveys import reading
 from fctd.case.surveys import witsml as xml
-from fctd.case.surveys import workbook as sheets
 from fctd.case.surveys.reading import read_survey
+from fctd.case.tables import workbook as sheets
 from fctd.case.tables.headers import Choice
 from tests.case.survey_files import DEPTH, HEADERS, SHEET, WRONG, WRONG_WORKBOOKS, Keys, witsml, workbook
 

@@ -42,7 +42,7 @@ SHOD = well()
         ("chart", {"--plot": "tiny.toml/chart.png"}, ["--plot", "tiny.toml/chart.png", "can be written"]),
         ("chart", {"--plot": "a.png", "--plot-profile": "./a.png"}, ["--plot-profile", "a.png", "of its own"]),
         ("chart", {"--out": 300 * "a" + ".csv"}, ["--out", 'aaa.csv": expected', "can be written"]),
-        ("chart", {"--units": "metric"}, ["--units", "metric", "field"]),
+        ("chart", {"--units": "miles"}, ["--units", "metric", "field"]),
         ("equilibrium", {"--operation": "rotate"}, ["--operation", "rotate", "kind"]),
         ("equilibrium", {"--bit-depth": "950 m"}, ["tiny.toml", "--bit-depth", "950 m", "900 m"]),
         ("equilibrium", {"--bit-depth": "deep"}, ["--bit-depth", "deep", "a length"]),

@@ -98,7 +98,9 @@ def test_columns_that_are_told(here: Path, cli: Command) -> None:
     rows = "".join(f"{k},{500 * k},{10 * k},45,90\n" for k in range(6))
     (here / "s.csv").write_text("Sta,Tiefe (m),Inc,Azi Grid,Azi True\n" + rows)
     assert "(for init: --columns 'azi=Azi Grid')" in cli("init", "s.csv", "--columns", "md=Tiefe (m)", code=2).err
-    told = ["--columns", "azi=azi grid", "--columns", "md=Tiefe (m)", "--columns", "md.unit=feet"]
+    slip = cli("init", "s.csv", "--columns", "md=Tiefe", "--columns", "azi=Azi Gird", code=2).err
+    assert 'columns.azi = "Azi Gird": expected the header "Azi Grid"' in slip
+    told = ["--columns", "azi=azi grid", "--columns", "md=Tiefe", "--columns", "md.unit=feet"]
     cli("init", "s.csv", *told)
     hole = fctd.load_case("my_well.toml").wellbore
     assert hole.trajectory[-1] == pytest.approx([2500 * 0.3048, np.radians(50), np.radians(45)])
@@ -136,7 +138,7 @@ def test_the_string_follows_the_survey(steepest: int, pipe: str, here: Path, cli
         (["bad.csv", "--columns", "depth=MD"], '--columns = "depth=MD": expected KEY=HEADER or KEY.unit=UNIT'),
         (["bad.csv", "--columns", "md.unit=km"], '--columns = "md.unit=km": expected a unit of m, ft or usft'),
         (["bad.csv", "--sheet", "A"], 'bad.csv: sheet = "A": expected no sheet for a text in columns'),
-        (["--units", "si"], "'si' is not one of 'metric', 'field'"),
+        (["--units", "ft"], "'ft' is not si (or metric: m, kN, kN·m) or field (ft"),
     ],
 )
 def test_refused(

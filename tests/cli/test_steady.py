@@ -131,6 +131,6 @@ def test_a_workbook_has_the_table_and_its_origin(command: str, case_file: Path, 
     cli(command, case_file, *(part for pair in options.items() for part in pair))
     book = calamine.CalamineWorkbook.from_path(out)
     headers, *rows = book.get_sheet_by_name("table").to_python()
-    assert {"chart": "hookload_klbf", "equilibrium": "effective_tension_klbf"}[command] in headers
+    assert {"chart": "hook load (klbf)", "equilibrium": "effective tension (klbf)"}[command] in headers
     assert len(rows) > 1
     assert dict(book.get_sheet_by_name("about").to_python())["units"] == "field"

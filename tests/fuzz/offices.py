@@ -157,7 +157,7 @@ def amiss(file: Office, system: UnitSystem, folder: Path) -> tuple[str, str]:
         return "read", f"said to name no unit, and names {file.unit}"
     meant = file.stations
     if assumed:
-        meant = meant * [UNITS["md"]["m" if system == "metric" else "ft"] / UNITS["md"][file.unit], 1.0, 1.0]
+        meant = meant * [UNITS["md"]["m" if system == "si" else "ft"] / UNITS["md"][file.unit], 1.0, 1.0]
     keep = [0, *(k for k, (one, two) in enumerate(pairwise(meant), start=1) if np.any(np.abs(two - one) > 1e-9))]
     expected = to_radians(meant[keep])
     got = found.stations[-len(expected) :]
@@ -172,7 +172,7 @@ def campaign(seed: int, indices: range) -> tuple[int, int, list[str]]:
     with tempfile.TemporaryDirectory(prefix="fctd-office-") as folder:
         for index in indices:
             rng = Random(f"office:{seed}:{index}")
-            became, wrong = amiss(office(rng), rng.choice(["metric", "field"]), Path(folder))
+            became, wrong = amiss(office(rng), rng.choice(["si", "field"]), Path(folder))
             counts[became] += 1
             if wrong:
                 offences.append(f"{seed}:{index} {wrong}")

@@ -42,6 +42,13 @@ def test_words_stand_for_the_shoe_and_the_end_of_the_hole() -> None:
     assert read_depths("td:td:1", SHOD, "--depths") == [2000]
 
 
+def test_depths_from_the_surface_begin_below_it() -> None:
+    """No string hangs at its top."""
+    assert read_depths("0:td:800", SHOD, "--depths") == [800, 1600, 2000]
+    with pytest.raises(InputError, match=r"a depth below string.top_md, 0 m"):
+        read_depths("0:0:1", SHOD, "--depths")
+
+
 def test_bare_numbers_are_in_the_given_unit() -> None:
     assert read_depth("1000", SHOD, "--bit-depth", "ft") == pytest.approx(1000 * FOOT)
     assert read_depth("1000 m", SHOD, "--bit-depth", "ft") == 1000

@@ -31,7 +31,7 @@ from fctd.steady.equilibrium import Solver
 from fctd.steady.levels import relative_difference
 
 EACH = pytest.mark.parametrize("name", TEMPLATES)
-BOTH = pytest.mark.parametrize("units", ["metric", "field"])
+BOTH = pytest.mark.parametrize("units", ["si", "field"])
 
 
 @cache
@@ -40,7 +40,7 @@ def plan_of(name: TemplateName, units: UnitSystem) -> Plan:
 
 
 @cache
-def case_of(name: TemplateName, units: UnitSystem = "metric") -> Case:
+def case_of(name: TemplateName, units: UnitSystem = "si") -> Case:
     return Case.model_validate(tomllib.loads(plan_of(name, units).text()))
 
 
@@ -52,7 +52,7 @@ def kinds_of(case: Case) -> list[str]:
 @BOTH
 def test_the_text_is_the_template(name: TemplateName, units: UnitSystem) -> None:
     case, template = case_of(name, units), TEMPLATES[name]
-    scale = 1.0 if units == "metric" else 3 * 0.3048
+    scale = 1.0 if units == "si" else 3 * 0.3048
     assert case.wellbore.geometry == "arcs"
     assert case.depths == (0.0, pytest.approx(scale * template.stations[-1][0], abs=0.01))
     assert np.degrees(case.wellbore.trajectory[:, 1]) == pytest.approx([inc for _, inc, _ in template.stations])
@@ -70,7 +70,7 @@ def test_the_text_is_the_template(name: TemplateName, units: UnitSystem) -> None
 
 @EACH
 def test_every_comment_starts_in_one_column(name: TemplateName) -> None:
-    lines = plan_of(name, "metric").text().splitlines()
+    lines = plan_of(name, "si").text().splitlines()
     assert {line.index(" #") + 1 for line in lines if " #" in line and not line.startswith("#")} <= {38}
     assert max(map(len, lines)) <= 110
 
@@ -138,7 +138,7 @@ def test_the_wall_of_a_hanging_string_by_hand() -> None:
 )
 def test_the_shoe_of_a_survey(stations: list[tuple[float, float]], shoe: float) -> None:
     array = np.array([(md, np.radians(inc), 0.0) for md, inc in stations])
-    assert sensible_shoe(array, "metric") == pytest.approx(shoe)
+    assert sensible_shoe(array, "si") == pytest.approx(shoe)
     assert (sensible_shoe(array, "field") / 0.3048) % 50 == pytest.approx(0, abs=1e-6) or stations[-1][0] < 50
 
 
@@ -161,13 +161,13 @@ def test_lengths_of_a_template_are_round_in_the_hole_of_a_survey(units: UnitSyst
     stations = np.array([[0.0, 0.0, 0.0], [1500.0, 0.0, 0.0], [3000.0, 0.7, 0.0]])
     plan = from_survey("build-hold", "of a survey", units, "s.csv", (), stations)
     lengths = [part.get("length") for part in tomllib.loads(plan.text())["string"]["components"]]
-    assert lengths == (["120 m", "150 m", None] if units == "metric" else ["360 ft", "450 ft", None])
+    assert lengths == (["120 m", "150 m", None] if units == "si" else ["360 ft", "450 ft", None])
 
 
 @pytest.mark.parametrize("depth", [5.0, 36.6])
 def test_the_case_of_a_hole_of_few_metres_records_its_short_period(depth: float) -> None:
     stations = np.array([[0.0, 0.0, 0.0], [depth, 0.35, 0.0]])
-    raw = tomllib.loads(from_survey("build-hold", "short", "metric", "s.csv", (), stations).text())
+    raw = tomllib.loads(from_survey("build-hold", "short", "si", "s.csv", (), stations).text())
     raw["wellbore"] |= {"survey": None, "stations": [[0.0, 0.0, 0.0], [depth, 20.0, 0.0]]}
     case = Case.model_validate(raw)
     period = period_of(lay_out(case, case.depths[1], case.depths[1]))
@@ -180,19 +180,19 @@ def test_the_case_of_a_hole_of_few_metres_records_its_short_period(depth: float)
     [(100.0, "100", "500"), (101.0, "200", "500"), (30.48, "50", "100"), (0.3, "0.5", "1")],
 )
 def test_a_round_length_is_at_least_the_given_one(length: float, metric: str, field: str) -> None:
-    assert Quantities("metric").round_length(length) == metric
+    assert Quantities("si").round_length(length) == metric
     assert Quantities("field").round_length(length) == field
 
 
 def test_quantities_are_rounded_as_a_person_would() -> None:
     assert Quantities("field")(FORCE, 250e3) == "56 klbf"
     assert Quantities("field")(DENSITY, 1250.0) == "10.4 ppg"
-    assert Quantities("metric")(LENGTH, 1500.0) == "1500 m"
+    assert Quantities("si")(LENGTH, 1500.0) == "1500 m"
 
 
 def test_casing_floats_with_the_lines_that_its_case_has_for_it() -> None:
     """Air below the collar: the hook bears less, and so does the wall."""
-    text = plan_of("casing-run", "metric").text()
+    text = plan_of("casing-run", "si").text()
     head, rest = text.split("[mud]\n", 1)
     block = rest[rest.index("# [mud]") : rest.index("[rig]")]
     floated = head + "\n".join(line.removeprefix("# ") for line in block.splitlines()) + "\n" + rest.split("\n\n", 2)[2]

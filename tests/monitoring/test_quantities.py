@@ -1,10 +1,14 @@
 """Headers of series: names, units, and what is refused."""
 
+import re
+import shlex
+
 import pytest
 
 from fctd.case.errors import InputError
 from fctd.case.tables.fields import Column
 from fctd.case.tables.headers import Choice, Choices, find_columns, parse_choices, with_units
+from fctd.case.tables.text import find_layout
 from fctd.monitoring.quantities import SERIES
 
 REAL = [
@@ -76,3 +80,14 @@ def test_what_lacks_or_is_there_twice_is_named(headers: list[str], units: list[s
     with pytest.raises(InputError, match=expected) as refused:
         columns(headers, units)
     assert refused.value.key == key
+
+
+def test_an_export_without_units_is_answered_once() -> None:
+    """The message has the line of options to paste, of all columns, with which the file is then read."""
+    export = "RIGTIME,BDEP,BPOS,HKLA,TQA,RPMA,SPPA\n0,9000,40.1,181.3,9.02,60,2500\n"
+    with pytest.raises(InputError, match="headers with their units") as refused:
+        find_layout(export, SERIES, {})
+    (line,) = re.findall("by (--columns .*) [(]on a metric rig m, kN, kN.m ", str(refused.value))
+    found = find_layout(export, SERIES, parse_choices(shlex.split(line)[1::2], SERIES)).columns
+    units = {key: column.unit for key, column in found.items() if key != "rpm"}
+    assert units == {"time": "s", "bit_depth": "ft", "block_position": "ft", "hook_load": "klbf", "torque": "kft.lbf"}

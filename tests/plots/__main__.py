@@ -11,10 +11,10 @@ from PIL import Image
 from fctd import plots
 from fctd.case.operations import KINDS
 from fctd.results.series import FRICTION_LABEL
-from tests.plots.made import chart, locked_chart, points, well
+from tests.plots.made import BLOCK, chart, locked_chart, points, well
 from tests.plots.test_feeding import OFF_BOTTOM, PRESSED, SLIDING, fed
 
-CASE = well(bit={"weight_on_bit": 8e4}, rig={"block_weight": 1e5}, mud={"density": 1200.0})
+CASE = well(bit={"weight_on_bit": 8e4}, rig={"block_weight": BLOCK}, mud={"density": 1200.0})
 THREE = ["trip_out", "rotate_off_bottom", "trip_in"]
 
 
@@ -25,7 +25,7 @@ def measured() -> pd.DataFrame:
     torque = {
         f"surface_torque{end}_N_m": [np.nan, np.nan, value] for end, value in (("", 6e3), ("_low", 5e3), ("_high", 8e3))
     }
-    indicator = {name.replace("hookload", "weight_indicator"): np.array(v) + 1e5 for name, v in loads.items()}
+    indicator = {name.replace("hookload", "weight_indicator"): np.array(v) + BLOCK for name, v in loads.items()}
     rows = {"operation": ["trip_in", "trip_out", "rotate_off_bottom"], "bit_depth_m": [1600.0, 1700.0, 1500.0]}
     return pd.DataFrame(rows | loads | torque | indicator)
 
@@ -48,9 +48,10 @@ def charts() -> dict[str, tuple[pd.DataFrame, dict[str, Any]]]:
     pairs[FRICTION_LABEL] = pairs["friction"].map(lambda x: f"cased 0.20, open {x:.2f}")
     return {
         "one": (chart(["trip_in"], [0.2]), {}),
-        "six": (six, {"load": "indicator"}),
+        "six": (six, {"load": "string"}),
         "fan": (chart(THREE, [0.2, 0.3]), {"measured": measured()}),
         "pairs": (pairs, {"warnings": ["wellbore.intervals[0].friction: a warning"]}),
+        "nine": (chart(THREE, [0.1, 0.2, 0.3]), {"measured": measured()}),
         "twelve": (chart(list(KINDS), [0.2, 0.3]), {}),
         "factors": (chart(["trip_in"], [round(0.05 * k, 2) for k in range(1, 13)]), {}),
         "states": (states(), {"measured": measured()}),

@@ -19,6 +19,7 @@ from fctd.steady.equilibrium import equilibrium
 from fctd.steady.steady_string import Equilibrium
 from tests.cases import make_case, pipe
 
+BLOCK = 3e4  # weight of the block [N]
 LBF, FOOT = 4.4482216152605, 0.3048
 DEPTHS = np.arange(1000.0, 2001.0, 50.0)
 FAN = {"trip_out": 1.0, "rotate_off_bottom": 0.0, "trip_in": -1.0, "back_ream": 0.3, "drill_rotating": -0.2}
@@ -34,7 +35,7 @@ def chart(kinds: list[str], frictions: list[float], lost: dict[str, str] | None 
             "bit_depth_m": depth,
             "hookload_N": 250.0 * depth * (1 + FAN.get(kind, -1.3) * friction),
             "surface_torque_N_m": 20.0 * friction * depth * TURNS.get(kind, 0.0),
-            "weight_indicator_N": 250.0 * depth * (1 + FAN.get(kind, -1.3) * friction) + 2e5,
+            "weight_indicator_N": 250.0 * depth * (1 + FAN.get(kind, -1.3) * friction) + BLOCK,
             "total_contact_force_N": 100.0 * depth,
             "hookload_low_N": np.nan,
             "hookload_high_N": np.nan,
@@ -64,6 +65,7 @@ def locked_chart() -> pd.DataFrame:
     table["surface_torque_N_m"] = 0.0
     table.loc[depth >= 1650, ["hookload_N", "surface_torque_N_m"]] = [-5e7, 4e6]
     table.loc[depth >= 1800, ["hookload_N", "surface_torque_N_m"]] = np.nan
+    table["weight_indicator_N"] = table["hookload_N"] + BLOCK
     table.loc[depth >= 1500, "status"] = "locked_up"
     table.loc[depth >= 1200, "buckling"] = "sinusoidal"
     table.loc[depth >= 1400, "buckling"] = "helical"
@@ -119,7 +121,8 @@ def texts_that_overlap(figure: Figure) -> list[tuple[str, str]]:
         shown += [ax.xaxis.label, ax.yaxis.label, ax._left_title, ax.xaxis.get_offset_text()]
         for axis in (ax.xaxis, ax.yaxis):
             low, high = sorted(axis.get_view_interval())
-            shown += [t.label1 for t in axis.get_major_ticks() if low <= t.get_loc() <= high and t.label1.get_visible()]
+            ticks = [tick for tick in axis.get_major_ticks() if low <= tick.get_loc() <= high]
+            shown += [text for tick in ticks for text in (tick.label1, tick.label2) if text.get_visible()]
     for legend in figure.legends:
         shown += legend.get_texts()
     boxes = [(text.get_text(), text.get_window_extent(renderer)) for text in shown if text.get_text()]

@@ -26,7 +26,7 @@ MARGINS = pd.DataFrame(
         for depth in (1000.0, 1500.0, 2000.0)
     ]
 )  # fmt: skip
-LOOK = ChartLook(margins=MARGINS)
+LOOK = ChartLook("string", margins=MARGINS)
 
 
 def test_a_limit_without_numbers_is_left_out() -> None:

@@ -1,34 +1,44 @@
 """Groups of curves, and limits of axes that neither noise nor pushes set."""
 
+from typing import Any
+
 import numpy as np
 import pandas as pd
 import pytest
 
 from fctd.case.operations import KINDS
-from fctd.plots.loads import BESIDE, LEVER, as_load, groups_of, limits_of_load, limits_of_torque, spent_at
+from fctd.plots import loads
+from fctd.plots.loads import BESIDE, LEVER, Limits, as_load, groups_of, spent_at, usual_load
 from fctd.results.series import series_of
 from tests.plots.made import chart, locked_chart, well
 
 CASE = well(rig={"block_weight": 3e4, "sheave_efficiency": 0.98})
 
 
+def limits_of_load(table: pd.DataFrame, *rest: Any) -> Limits:
+    return loads.limits_of_load(series_of(table), *rest)
+
+
+def limits_of_torque(table: pd.DataFrame, *rest: Any) -> Limits:
+    return loads.limits_of_torque(series_of(table), *rest)
+
+
 @pytest.mark.parametrize(
     ("kinds", "factors", "sizes", "first"),
     [
-        (6, 1, [6], ""),
-        (3, 2, [6], ""),
+        (1, 10, [10], ""),
+        (3, 3, [9], ""),
         (6, 2, [6, 6], "friction factor 0.1"),
-        (3, 3, [3, 3, 3], "friction factor 0.1"),
         (1, 12, [6, 6], "slacking off, μ 0.1 to 0.6"),
         (2, 6, [6, 6], "slacking off"),
     ],
 )
-def test_groups_have_at_most_six_curves(kinds: int, factors: int, sizes: list[int], first: str) -> None:
+def test_groups_have_at_most_ten_curves(kinds: int, factors: int, sizes: list[int], first: str) -> None:
     table = chart(list(KINDS)[:kinds], [round(0.1 * k, 1) for k in range(1, factors + 1)])
     groups = groups_of(series_of(table))
     assert [len(group) for _, group in groups] == sizes
     assert groups[0][0] == first
-    assert sum(len(one.rows) for _, group in groups for one in group) == len(table)
+    assert sum(len(one.columns["status"]) for _, group in groups for one in group) == len(table)
 
 
 def test_rounding_noise_is_drawn_as_zero() -> None:
@@ -91,6 +101,11 @@ def test_the_weight_indicator_follows_the_sensors() -> None:
     assert as_load(CASE, "trip_out", np.array([1e5]), "string") == [1e5]
     assert np.isnan(as_load(None, "trip_out", np.array([1e5]), "indicator")).all()
     assert (spent_at(CASE, "string"), spent_at(CASE, "indicator")) == (-3e4, 0.0)
+
+
+def test_a_picture_of_several_cases_shows_one_load() -> None:
+    """The indicator's reading where all of them say what the block weighs."""
+    assert [usual_load(cases) for cases in ([], [CASE], [CASE, well()])] == ["string", "indicator", "string"]
 
 
 def test_measured_rows_are_within_the_limits() -> None:

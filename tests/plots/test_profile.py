@@ -9,6 +9,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from fctd import plots
+from fctd.plots import tracks
 from fctd.plots.palette import BUCKLED
 from fctd.plots.tracks import TRACKS
 from fctd.results.notes import Note
@@ -113,3 +114,17 @@ def test_warnings_and_notes_stand_below_the_title() -> None:
         "note penetration: a contact point at 5 m is 9 mm deep: remedy",
         "note yield: the stress at 800 m is 3000 MPa, $\\frac: remedy",
     ]
+
+
+def test_a_peak_is_cut_and_marked_with_its_value(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A force on the bit alone, here 10 m of 880 m, does not make a line of all the others."""
+    monkeypatch.setattr(tracks, "PEAK", 0.02)
+    (point,) = [replace(point) for point in points() if point.operation == "trip_out"]
+    profile = point.profile.copy()
+    profile.loc[profile.index[-1], "contact_force_N"] = 1e6
+    point.__dict__["profile"] = profile
+    panel = plots.profile_figure([point]).axes[TRACKS.index("contact_force_N")]
+    (mark,) = [line for line in panel.lines if line.get_marker() == ">"]
+    (text,) = [text.get_text() for text in panel.texts]
+    assert (mark.get_xdata()[0], mark.get_ydata()[0]) == (panel.get_xlim()[1], profile["md_m"].iloc[-1])
+    assert float(text) > 10 * panel.get_xlim()[1]

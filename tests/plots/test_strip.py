@@ -4,8 +4,7 @@ from matplotlib.colors import to_hex
 
 from fctd import plots
 from fctd.plots.palette import BUCKLED
-from fctd.plots.strip import HATCHES, STUCK, has_states
-from fctd.results.series import series_of
+from fctd.plots.strip import HATCHES, STUCK
 from fctd.results.status import SteadyStatus
 from tests.plots.made import chart, labels_of, locked_chart, well
 
@@ -29,12 +28,8 @@ def test_lanes_change_half_way_between_rows() -> None:
 def test_lanes_carry_the_numbers_of_the_curves() -> None:
     figure = plots.chart_figure(chart(["trip_out", "trip_in"], [0.2], {"under_resolved": "trip_in"}))
     left, _, strip = figure.axes
-    assert {"1: picking up", "2: slacking off"} <= set(labels_of(left))
-    assert list(strip.get_xticks()) == [1, 2]
-
-
-def test_a_chart_without_states_has_no_strip() -> None:
-    assert not has_states(series_of(chart(["trip_in"], [0.2])))
+    assert set(labels_of(left)) == {"picking up", "1: slacking off"}
+    assert list(strip.get_xticks()) == [1]
 
 
 def test_every_status_with_loads_has_a_hatch_of_its_own() -> None:

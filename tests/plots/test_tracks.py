@@ -4,7 +4,18 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from fctd.plots.tracks import JOINT, TRACKS, label_of, limits_near, side_force, side_force_unit, stretches, values_of
+from fctd.plots.tracks import (
+    JOINT,
+    TRACKS,
+    label_of,
+    lengths_of,
+    limits_near,
+    scale_of,
+    side_force,
+    side_force_unit,
+    stretches,
+    values_of,
+)
 from tests.plots.made import points
 
 
@@ -52,3 +63,13 @@ def test_limits_are_those_near_the_loads() -> None:
     for limit in near.values():
         assert np.nanmin(limit.value) >= tension.min() - 0.6 * np.ptp(tension)
     assert "sinusoidal" in near
+
+
+def test_a_scale_follows_length_and_not_the_peak_at_the_bit() -> None:
+    values, lengths = np.array([3.0, 4.0, -50.0]), np.array([1000.0, 1000.0, 19.0])
+    assert scale_of(values, lengths) == 4.0
+    lengths[2] = 21.0  # more than a hundredth of the string
+    assert scale_of(values, lengths) == 50.0
+    assert scale_of(np.array([4.0, 5.0]), np.array([1000.0, 1.0])) == 5.0  # no peak
+    assert scale_of(np.array([0.0, 5.0]), np.array([1000.0, 1.0])) == 5.0  # nothing else
+    assert lengths_of(np.array([0.0, 10.0, 40.0])).tolist() == [5.0, 20.0, 15.0]

@@ -139,5 +139,15 @@ def test_a_note_is_shown_everywhere(
 def test_every_code_is_raised() -> None:
     # tests/steady/test_wave_force.py, tests/results/test_hanging_body.py, tests/model/test_connection.py,
     # tests/results/test_notes.py, tests/model/test_fluids.py, tests/steady/test_steady_string.py
-    of_steady_strings = {"homogenised", "tool_joints", "body", "make_up", "slips", "burst", "collapse", "flow_law"}
+    of_steady_strings = {
+        "homogenised",
+        "tool_joints",
+        "body",
+        "make_up",
+        "slips",
+        "burst",
+        "collapse",
+        "flow_law",
+        "flow_lie",
+    }
     assert set().union(*(codes for codes, _ in RAISED.values()), of_steady_strings) == set(MEANINGS)

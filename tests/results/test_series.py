@@ -13,7 +13,7 @@ CHART = pd.DataFrame(
 
 def test_a_series_has_one_operation_and_one_factor_in_the_order_of_rows() -> None:
     found = series_of(CHART)
-    assert [(one.operation, one.friction, one.rows["row"].tolist()) for one in found] == [
+    assert [(one.operation, one.friction, one.columns["row"].tolist()) for one in found] == [
         ("trip_in", "0.2", [0, 1]),
         ("trip_out", "0.2", [2]),
         ("trip_in", "case's", [3]),

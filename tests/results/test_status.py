@@ -15,7 +15,7 @@ import pytest
 import fctd
 from fctd.cli import equilibrium, refine, simulate
 from fctd.results.status import RefineStatus, RunStatus, SteadyStatus
-from fctd.store.tables import write_table
+from fctd.results.table_files import write_table
 from tests.cases import make_case, rotation
 from tests.cli.tiny import SMALL
 from tests.commands import run

@@ -10,9 +10,11 @@ from fctd import torque_drag
 from fctd.case.load import Case
 from fctd.mechanics import state
 from fctd.model.drillstring import lay_out
+from fctd.model.operations import SteadyRates, steady_rates
 from fctd.model.string_in_hole import fill
 from fctd.model.wellbore import build_wellbore
 from fctd.steady import equilibrium
+from fctd.steady.equilibrium import Solver
 from fctd.steady.laid_string import LaidString
 from tests.cases import make_case, pipe
 
@@ -72,3 +74,46 @@ def test_it_fills_a_buffer_with_the_string_of_its_case() -> None:
     assert laid.is_bent
     assert np.array_equal(laid.pipe.radius, string.contact_radius())
     assert laid.top_axis.tolist() == [0.0, 0.0, 1.0]
+
+
+@pytest.mark.parametrize("inclination", [0, 40])
+@pytest.mark.parametrize("kind", ["trip_in", "trip_out", "rotate_off_bottom"])
+def test_hook_weight_and_mud_balance(kind: str, inclination: float) -> None:
+    """Without friction the hook bears the weight along the hole less the lift, to 1e-9 of the weight."""
+    case = make_case(
+        [[0, inclination, 0], [1000, inclination, 0]], [pipe(None, None, segment_length=30.0)],
+        wellbore={"intervals": [{"to_md": 1000, "diameter": 0.2159, "friction": 0.0}]},
+        mud={"density": 1200.0, "fann": {600: 60, 300: 40}}, bit={"nozzles": [0.01, 0.01, 0.01]},
+    )  # fmt: skip
+    solver = Solver(case)
+    laid = solver.lay_out(900.0)
+    weight = float(laid.string.weight @ laid.string.length)
+    point = solver.solve_string(kind, steady_rates(case, kind, flow=0.03), laid)
+    still = solver.solve_string(kind, steady_rates(case, kind, flow=0.0), laid.at_rest)
+    assert point.lift > 0.01 * weight
+    off = 3e-9 if inclination else 1e-9  # the wall gives way a little less under a string that is lifted
+    assert point.hookload + point.lift == pytest.approx(still.hookload, abs=off * weight)
+    assert still.hookload == pytest.approx(weight * np.cos(np.radians(inclination)), rel=1e-6)
+
+
+def test_mud_at_rest_leaves_a_string_as_it_is() -> None:
+    case = make_case(mud={"density": 1200.0, "viscosity": 0.03})
+    laid = Solver(case).lay_out(400.0)
+    assert laid.in_flow(SteadyRates(0.0, 5.0)) is laid
+    assert laid.at_rest.in_flow(SteadyRates(0.3, 0.0, 0.02)).circuit is None
+    moving = laid.in_flow(SteadyRates(0.3, 0.0))
+    assert moving is laid.in_flow(SteadyRates(0.3, 1.0))
+    assert moving.in_flow(SteadyRates(0.5, 0.0)) is moving
+    given = make_case(mud={"density": 1200.0, "viscosity": 0.03, "axial_damping": 3.0})
+    assert not Solver(given).lay_out(400.0).in_flow(SteadyRates(0.3, 0.0)).given.any()
+
+
+def test_friction_of_the_flow_is_in_pressures_and_stretch() -> None:
+    mud = {"density": 1200.0, "viscosity": 0.03}
+    laid = Solver(make_case(mud=mud, bit={"nozzles": [0.01]})).lay_out(400.0)
+    pumped = laid.in_flow(SteadyRates(0.0, 0.0, 0.02))
+    assert pumped.circuit is not None
+    assert not laid.excess.any()
+    assert pumped.excess[0] == pytest.approx(pumped.circuit.inside[0])
+    assert pumped.excess[-1] == pytest.approx(pumped.circuit.bit_drop)
+    assert (pumped.squeeze < laid.squeeze).all()  # at one effective tension

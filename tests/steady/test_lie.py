@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from fctd import equilibrium, lie_along, pressure_losses
+from fctd.case.errors import InputError
 from fctd.steady.equilibrium import Solver
 from fctd.steady.lie import lie_of
 from tests.cases import make_case, pipe
@@ -26,3 +28,28 @@ def test_pipe_lies_on_its_tool_joints_in_slant_hole_and_hangs_in_the_middle_of_v
 def test_a_case_may_say_where_it_lies() -> None:
     case = make_case([[0, 0, 0], [500, 0, 0]], SLEEVES, mud={"eccentricity": 0.3})
     assert Solver(case).lay_out(400.0).eccentricity == 0.3
+
+
+def test_a_string_without_a_steady_lie_is_taken_as_concentric_and_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    mud = {"density": 1200.0, "viscosity": 0.03, "eccentricity": "string"}
+    case = make_case([[0, 0, 0], [500, 0, 0], [800, 60, 0], [1200, 60, 0]], SLEEVES, mud=mud)
+    known = equilibrium(case, "trip_in", 1100.0)
+    monkeypatch.setattr("fctd.steady.equilibrium.lie_of", lambda laid: None)
+    unknown = equilibrium(case, "trip_in", 1100.0)
+    concentric = case.model_copy(update={"mud": case.mud.model_copy(update={"eccentricity": 0.0})})
+    assert unknown.lift == equilibrium(concentric, "trip_in", 1100.0).lift > known.lift
+    assert [note.code for note in unknown.notes] == ["flow_lie"]
+    with pytest.raises(InputError, match="a depth at which a steady string is found"):
+        lie_along(case, 1100.0)
+
+
+def test_pressures_of_a_flow_may_be_those_of_the_string_where_it_lies() -> None:
+    mud = {"density": 1200.0, "viscosity": 0.03, "eccentricity": "string"}
+    case = make_case([[0, 0, 0], [500, 0, 0], [800, 60, 0], [1200, 60, 0]], SLEEVES, mud=mud)
+    lost = [
+        float(pressure_losses(case, 0.03, [1100.0], eccentricity)["annulus_drop_Pa"].iloc[0])
+        for eccentricity in (0.0, lie_along, 1.0)
+    ]
+    assert lost[0] > lost[1] > lost[2] > 0
+    with pytest.raises(InputError, match=r"eccentricity is missing: expected a number, or fctd\.lie_along"):
+        pressure_losses(case, 0.03)

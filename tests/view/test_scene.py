@@ -90,5 +90,9 @@ def test_the_caption_counts_contacts() -> None:
     made = strings()
     one = made.snapshots[-1]
     assert f"{one.touching.sum()} of {len(one.offset)} points touch" in caption_of(Look(made), one)
+    rig = made.case.rig.model_copy(update={"block_weight": 5e4})
+    heavy = replace(made, case=made.case.model_copy(update={"rig": rig}))
+    assert f"kN ({(one.hookload + 5e4) / 1e3:.1f} kN on the indicator)" in caption_of(Look(heavy), one)
+    assert "indicator" not in caption_of(Look(made), one)
     lost = replace(one, status="under resolved: segments of 30.48 m cannot bend that way")
     assert "segments of 100 ft" in caption_of(Look(made, "field"), lost)

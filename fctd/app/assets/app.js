@@ -44,6 +44,13 @@
     }, REST);
   }
 
+  // Sliders are named for those who do not see what stands above them.
+  function nameSliders() {
+    for (const thumb of document.querySelectorAll(".slider [role=slider]")) {
+      thumb.setAttribute("aria-label", thumb.closest(".slider").querySelector("label").textContent);
+    }
+  }
+
   const told = {};
   // A number beside its slider, where it has changed.
   function say(id, value) {
@@ -66,6 +73,7 @@
       state.own = opened.own;
       state.values = { ...opened.own, ...opened.values };
       for (const key of Object.keys(told)) delete told[key];
+      requestAnimationFrame(nameSliders);
     }
     let hole = fresh, dragged = false, loads = false;
     for (const { name, id, prop, value } of triggered) {

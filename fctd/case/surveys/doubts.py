@@ -5,7 +5,7 @@ a case are a plan, which few stations describe exactly; a few long courses are a
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import Final
 
 import numpy as np
@@ -13,7 +13,7 @@ import numpy as np
 from fctd.case.input_warnings import InputWarning
 from fctd.case.surveys.directions import dogleg, severity
 from fctd.case.surveys.rounding import rounded, spinning
-from fctd.case.surveys.stations import Survey
+from fctd.case.surveys.stations import StationKey, Survey
 from fctd.case.text import counted
 
 Doubt = Callable[[Survey], Iterator[InputWarning]]
@@ -147,7 +147,7 @@ def _radians(survey: Survey) -> Iterator[InputWarning]:
             survey.rows(0, -1),
             f"inclinations up to {largest[0]:.4g} and azimuths up to {largest[1]:.4g} are read as degrees and look "
             "like radians",
-            "if they are, " + _another_unit(survey, 'inc = {unit = "rad"}, azi = {unit = "rad"}', "degrees"),
+            "if they are, " + _another_unit(survey, {"inc": "rad", "azi": "rad"}, "degrees"),
         )
 
 
@@ -170,17 +170,23 @@ def _depth_unit(survey: Survey) -> Iterator[InputWarning]:
         f"depths_look_like_{word}",
         survey.rows(0, -1),
         text,
-        f"if the depths are in {word}, " + _another_unit(survey, f'md = {{unit = "{other}"}}', "metres"),
+        f"if the depths are in {word}, " + _another_unit(survey, {"md": other}, "metres"),
     )
 
 
-def _another_unit(survey: Survey, columns: str, accepted: str) -> str:
-    """How to say that a column is in another unit: stations in a case have no columns, nor has WITSML."""
+def _another_unit(survey: Survey, units: Mapping[StationKey, str], accepted: str) -> str:
+    """How to say that columns are in other units: stations in a case have no columns, nor has WITSML.
+
+    Depths of the case follow from the survey: a new case has them right.
+    """
     if not survey.written.file:
         return f"write them in {accepted}"
     if not survey.written.has_columns:
         return "correct their unit (uom) in the file"
-    return f"say so in the case: columns = {{{columns}}}"
+    options = " ".join(f"--columns {key}.unit={unit}" for key, unit in units.items())
+    columns = ", ".join(f'{key} = {{unit = "{unit}"}}' for key, unit in units.items())
+    depths = ", and correct its depths" if "md" in units else ""
+    return f"write the case anew with fctd init {options}, or say so in the case: columns = {{{columns}}}{depths}"
 
 
 _DOUBTS: Final[tuple[Doubt, ...]] = (

@@ -9,13 +9,14 @@ from fctd.case.input_file import decode, read_bytes
 from fctd.case.surveys.form import KEYS, SURVEY
 from fctd.case.surveys.stations import Survey, Written, check
 from fctd.case.surveys.witsml import read_witsml
-from fctd.case.surveys.workbook import OLD_EXCEL, ZIP, read_workbook
 from fctd.case.tables.headers import Choices
 from fctd.case.tables.rows import GROUPED_BY_POINT, Numbers, Rows
 from fctd.case.tables.text import read_text
+from fctd.case.tables.workbook import OLD_EXCEL, ZIP, read_workbook
 
 _LARGEST_FILE: Final = 32  # MiB: 100,000 stations with 40 other columns
 _SHORTEST: Final = 50.0  # [m or ft]: depths up to this, all with three decimals, may be thousands
+_WHICH_SHEET: Final = "the name of the sheet that holds the survey in wellbore.sheet (for init: --sheet)"
 _KINDS: Final = "a survey: text in columns, an Excel workbook (xlsx) or a WITSML trajectory (XML)"
 
 
@@ -35,7 +36,7 @@ def _read(path: Path, columns: Choices, sheet: str | None) -> tuple[Rows, list[i
     """The rows of a file, and the numbers of those that it marks as rejected."""
     content = read_bytes(path, _LARGEST_FILE, "a survey file")
     if content.startswith(ZIP):
-        return read_workbook(content, sheet, columns), []
+        return read_workbook(content, SURVEY, columns, sheet, _WHICH_SHEET), []
     if content.startswith(OLD_EXCEL):
         raise InputError("a workbook in the format xlsx, or a text: save it as one of them")
     text = decode(content, _KINDS)

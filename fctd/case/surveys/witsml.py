@@ -52,7 +52,7 @@ def _choose(root: Element, name: str | None) -> Element:
     if name is not None and name not in trajectories:
         raise InputError(nearest(name, trajectories, "name"), key="sheet", value=name)
     if name is None and len(trajectories) > 1:
-        raise InputError(f"the name of the trajectory in wellbore.sheet: {names}", key="sheet")
+        raise InputError(f"the name of the trajectory in wellbore.sheet (for init: --sheet): {names}", key="sheet")
     (found, *others) = trajectories[name or next(iter(trajectories))]
     if others:
         raise InputError(f"one trajectory of each name, found {1 + len(others)} in {names}")

@@ -99,7 +99,7 @@ class Column:
     """A column of a table: its field, its place among the cells, its header, and its unit where one is known.
 
     rank : how clear its name is, 0 the clearest.  wrong : whether the header has another text in place of a unit, or
-    several.  row : name of the row of headers.
+    several.  assumed : whether the table does not name its unit.  row : name of the row of headers.
     """
 
     field: Field
@@ -108,6 +108,7 @@ class Column:
     unit: str | None = None
     rank: int = 0
     wrong: bool = False
+    assumed: bool = False
     row: str = "headers"
 
     @property

@@ -5,8 +5,9 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Final, NamedTuple
 
-from fctd.case.errors import InputError, show
+from fctd.case.errors import InputError, nearest, show
 from fctd.case.tables.fields import Column, Field
+from fctd.case.units import FLOW, FORCE, LENGTH, SPEED, TIME, TORQUE, Dimension
 
 Line = tuple[int, list[str]]
 """Number of a line or row in its file, 0 where it has none, and its cells."""
@@ -16,8 +17,18 @@ COMMENT: Final = "#"
 _BRACKETS: Final = re.compile(r"\s*[\[(][^\])]*[\])]\s*$")
 
 
+# Units of rigs, which sheets without units are in.
+RIG_UNITS: Final[Mapping[str, Mapping[Dimension, str]]] = {
+    "si": {LENGTH: "m", FORCE: "kN", TORQUE: "kN.m", SPEED: "m/s", FLOW: "L/min", TIME: "s"},
+    "field": {LENGTH: "ft", FORCE: "klbf", TORQUE: "kft.lbf", SPEED: "ft/min", FLOW: "gpm", TIME: "s"},
+}
+
+
+_SHOWN: Final = 3  # examples in a message
+
+
 class NoUnitError(InputError):
-    """A table that does not say in which unit a column is."""
+    """A table that does not say in which units some columns are."""
 
 
 class Choice(NamedTuple):
@@ -36,7 +47,8 @@ class TableForm:
 
     fields : that it may have; example : headers for messages; row, most : what a row is, and how many there may be.
     needed : groups of fields, of each of which a table with these fields has one.  option : what stands before a key
-    where the user chooses a column; remedy : how to choose a header for a key, or one of several, and a unit.
+    where the user chooses a column; remedy : how to choose a header for a key, or one of several, and a unit.  paste :
+    the options that say key, header and unit of several columns; assumed : units of a table whose columns name none.
     """
 
     fields: tuple[Field, ...]
@@ -46,6 +58,8 @@ class TableForm:
     most: int | None = None
     option: str = ""
     remedy: Callable[[str, Sequence[str], str], str] = lambda key, headers, unit: ""
+    assumed: Mapping[Dimension, str] | None = None
+    paste: Callable[[Sequence[tuple[str, str, str]]], str] | None = None
 
     def lacking(self, found: Collection[str]) -> list[Sequence[str]]:
         """The groups of which a table with these fields has none."""
@@ -100,8 +114,9 @@ def find_columns(row: Line, form: TableForm, choices: Choices) -> dict[str, Colu
         choice = choices.get(field.key, Choice())
         candidates = [column for column in candidates if not (column.wrong and column.place in taken)]
         if choice.header is not None and len(candidates) != 1:
-            once = "a header that occurs once among" if candidates else "one of the headers"
-            raise InputError(f"{once} {others}", key=f"{form.option}{field.key}", value=choice.header)
+            near = nearest(show(choice.header), [*map(show, cells)], "header")
+            expected = f"a header that occurs once among {others}" if candidates else near
+            raise InputError(expected, key=f"{form.option}{field.key}", value=choice.header)
         if len(candidates) > 1 and not candidates[0].wrong:
             names = [column.header for column in candidates]
             expected = f"one column of this quantity{_or('a choice', form.remedy(field.key, names, ''))}"
@@ -130,23 +145,36 @@ def find_units(rows: Sequence[Line], columns: Collection[Column]) -> list[Line]:
 
 
 def with_units(
-    columns: Mapping[str, Column], stated: Sequence[Line], titles: Sequence[Line], form: TableForm, choices: Choices
+    columns: Mapping[str, Column],
+    stated: Sequence[Line],
+    titles: Sequence[Line],
+    form: TableForm,
+    choices: Choices,
+    first: Sequence[str] = (),
 ) -> dict[str, Column]:
     """The columns with their units: that which the user says, else that of the header, else of the rows of units.
 
-    titles : the rows above the headers.  Raises `no_unit` where there is none and the field needs one, InputError for
-    others than the field's.
+    titles : the rows above the headers; first : the first row below them.  Raises `no_unit` where there is none and the
+    field needs one, InputError for others than the field's.
     """
     units = {key: _unit(column, stated, form, choices.get(key, Choice()).unit) for key, column in columns.items()}
-    for key, column in columns.items():
-        if units[key] is None and column.field.quantity is not None:
-            raise no_unit(column, form, titles)
-    return {key: replace(column, unit=units[key]) for key, column in columns.items()}
+    needing = {key: column for key, column in columns.items() if column.field.quantity and column.field.bare is None}
+    lacking = {key: column for key, column in needing.items() if units[key] is None}
+    assumed = form.assumed if form.assumed and lacking == needing else {}
+    if not all(column.field.dimension in assumed for column in lacking.values()):
+        # A time is a date or a number, which needs a unit too; beside a date it has none.
+        found_out = [column for key, column in columns.items() if units[key] == ""]
+        numbers = [column for column in found_out if len(found_out) == 1 and _is_number(cell_of(first, column))]
+        raise no_unit([*numbers, *lacking.values()], form, titles)
+    units |= {key: assumed[column.field.dimension] for key, column in lacking.items()}
+    return {key: replace(column, unit=units[key], assumed=key in lacking) for key, column in columns.items()}
 
 
-def no_unit(column: Column, form: TableForm, titles: Sequence[Line] = ()) -> InputError:
-    """The error of a column without a unit: `NoUnitError`, unless a title speaks of units, which it then names."""
-    field = column.field
+def no_unit(columns: Sequence[Column], form: TableForm, titles: Sequence[Line] = ()) -> InputError:
+    """The error of columns without a unit: `NoUnitError`, unless a title speaks of units, which it then names."""
+    column, field = columns[0], columns[0].field
+    if len(columns) > 1:
+        return _no_units(columns, form)
     example = show(f"{column.header} ({field.example})")
     expected = f"a header with its unit, such as {example}"
     expected += _or("the unit", form.remedy(field.key, [column.header], field.example))
@@ -156,6 +184,21 @@ def no_unit(column: Column, form: TableForm, titles: Sequence[Line] = ()) -> Inp
         if any(len(word) > 1 and word in units for word in re.findall(r"[^\W_]+", text.casefold())):
             return InputError(expected, key=f"{_name(title)}, a title", value=text)
     return NoUnitError(expected, key=column.row, value=column.header)
+
+
+def _no_units(columns: Sequence[Column], form: TableForm) -> NoUnitError:
+    """The error of several columns, with all that is to be said of them at once."""
+    examples = [show(f"{column.header} ({column.field.example})") for column in columns[:_SHOWN]]
+    expected = f"headers with their units, such as {', '.join(examples)}"
+    if form.paste is not None:
+        rigs = [column for column in columns if column.field.dimension in RIG_UNITS["field"]]
+        field, metric = ([RIG_UNITS[name][column.field.dimension] for column in rigs] for name in ("field", "si"))
+        line = form.paste([(column.field.key, column.header, unit) for column, unit in zip(rigs, field, strict=True)])
+        others = ", ".join(dict.fromkeys(unit for unit in metric if unit not in field))
+        expected += f", or the units by {line} (on a metric rig {others} in place of these)"
+    else:
+        expected += _or("each unit", form.remedy(columns[0].field.key, [columns[0].header], columns[0].field.example))
+    return NoUnitError(expected, key=columns[0].row, value=[column.header for column in columns])
 
 
 def is_comment(cells: Sequence[str]) -> bool:
@@ -171,6 +214,11 @@ def uncommented(cells: list[str]) -> list[str]:
 def cell_of(cells: Sequence[str], column: Column) -> str:
     """The text of a row in a column, "" where the row is shorter."""
     return cells[column.place] if column.place < len(cells) else ""
+
+
+def _is_number(cell: str) -> bool:
+    """Whether a cell is a plain number."""
+    return re.fullmatch(r"[+-]?[\d.,]*\d", cell) is not None
 
 
 def _name(row: Line) -> str:
@@ -236,9 +284,11 @@ def _is_units(row: Sequence[str], columns: Collection[Column]) -> bool:
 def _candidates(field: Field, cells: Sequence[str], choice: Choice) -> list[Column]:
     """The columns that may be meant: those of the header that the user says, else those with the clearest names."""
     if choice.header is not None:
-        # The user may write the unit in brackets behind a header that has none.
-        chosen, unit = {_plain(choice.header), _plain(_BRACKETS.sub("", choice.header))}, field.unit_in(choice.header)
-        places = [k for k, cell in enumerate(cells) if _plain(cell) in chosen]
+        # The user may write the unit in brackets behind a header that has none, or leave it out.
+        bare, unit = _plain(_BRACKETS.sub("", choice.header)), field.unit_in(choice.header)
+        plain = [_plain(cell) for cell in cells]
+        places = [k for k, cell in enumerate(plain) if cell in (_plain(choice.header), bare)]
+        places = places or [k for k, cell in enumerate(plain) if _BRACKETS.sub("", cell) == bare]
         return [Column(field, k, cells[k], unit or field.unit_in(cells[k])) for k in places]
     found = [column for place, cell in enumerate(cells) if (column := field.read(cell, place)) is not None]
     clearest = [column for column in found if column.rank == min(column.rank for column in found)]

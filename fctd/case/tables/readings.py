@@ -28,7 +28,7 @@ BIT_DEPTH: Final = reading(
 HOOK_LOAD: Final = reading(
     "hook_load", "hook load, weight indicator, indicator, hook weight, hkla, hkld, hkl, hklda, hl, whkl", FORCE, "kN"
 )
-TORQUE_OF_STRING: Final = reading("torque", "torque, rotary torque, tqa, stor, torq, trq", TORQUE, "kN_m")
+TORQUE_OF_STRING: Final = reading("torque", "torque, rotary torque, tqa, stor, torq, trq, tq", TORQUE, "kN_m")
 # What the drive reads holds what it needs itself.
 TORQUE_OF_DRIVE: Final = reading(
     "torque", f"{TORQUE_OF_STRING.names}, drive torque, top drive torque, td torque", TORQUE, "kN_m"

@@ -125,9 +125,10 @@ def _lay_out(heads: Sequence[Line], rows: Sequence[Line], form: TableForm, choic
     found = headers.find_columns(top, form, choices)
     below = [(number, _split(cells, separator, number, len(top[1]))) for number, cells in rows[index + 1 :]]
     stated = headers.find_units(below, found.values())
-    columns = headers.with_units(found, stated, heads[:index], form, choices)
-    repeated = [[cell_of(cells, column) for column in columns.values()] for _, cells in (top, *stated)]
     last = max([top, *stated])[0]
+    first = next((cells for number, cells in below if number > last and not is_comment(cells)), ())
+    columns = headers.with_units(found, stated, heads[:index], form, choices, first)
+    repeated = [[cell_of(cells, column) for column in columns.values()] for _, cells in (top, *stated)]
     return Layout(form, top, columns, repeated, sum(number <= last for number, _ in rows), separator)
 
 

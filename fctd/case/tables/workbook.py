@@ -7,8 +7,7 @@ import zlib
 from typing import Final
 
 from fctd.case.errors import InputError, nearest, show
-from fctd.case.surveys.form import KEYS, SURVEY
-from fctd.case.tables.headers import Choices, Line, find_header
+from fctd.case.tables.headers import Choices, Line, TableForm, find_header
 from fctd.case.tables.rows import Rows
 from fctd.case.tables.text import read_sheet
 from fctd.case.xml_file import has_doctype
@@ -21,21 +20,20 @@ _REFERENCE: Final = re.compile(rb"<(?:\w+:)?c\b[^<>]*?\br\s*=\s*[\"']([A-Z]{1,9}
 _UNREADABLE: Final = "a workbook (xlsx) that can be read"
 
 
-def read_workbook(content: bytes, sheet: str | None, columns: Choices) -> Rows:
-    """The rows of the named sheet, else of the only one with the headers of a survey.
+def read_workbook(content: bytes, form: TableForm, columns: Choices, sheet: str | None = None, which: str = "") -> Rows:
+    """The rows of the named sheet, else of the only one with the headers that the form needs.
 
-    Raises InputError for a file that is no workbook, a sheet that it does not have, bad headers, and where the package
-    is not installed.
+    which : how to say which one, where several have them.  Raises InputError for a file that is no workbook, a sheet
+    that it does not have, bad headers, and where the package is not installed.
     """
     sheets = _sheets(content)
     if sheet is not None and sheet not in sheets:
         raise InputError(nearest(sheet, sheets, "sheet"), key="sheet", value=sheet)
     filled = {name: rows for name, rows in sheets.items() if rows and sheet in (None, name)}
-    surveys = {k: rows for k, rows in filled.items() if find_header(rows, SURVEY, columns)[1] == {*KEYS}} or filled
-    if len(surveys) > 1:
-        names = ", ".join(map(show, surveys))
-        raise InputError(f"the name of the sheet that holds the survey in wellbore.sheet: {names}", key="sheet")
-    return read_sheet(next(iter(surveys.values()), []), SURVEY, columns)
+    fitting = {k: rows for k, rows in filled.items() if not form.lacking(find_header(rows, form, columns)[1])} or filled
+    if len(fitting) > 1:
+        raise InputError(f"{which}: {', '.join(map(show, fitting))}", key="sheet")
+    return read_sheet(next(iter(fitting.values()), []), form, columns)
 
 
 def _sheets(content: bytes) -> dict[str, list[Line]]:
