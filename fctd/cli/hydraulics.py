@@ -37,9 +37,9 @@ from fctd.cli.steady import Units, check_targets, file_option, in_units, metadat
 from fctd.hydraulics.closed_forms import TURBULENT, YIELDING
 from fctd.hydraulics.cuttings import Cuttings
 from fctd.hydraulics.pressures import PUMPED, SHARE, Circulation, Eccentricity, circulations
+from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, reworded, shown
 from fctd.steady.equilibrium import lie_along
-from fctd.store.tables import write_table
 
 if TYPE_CHECKING:
     import pandas as pd

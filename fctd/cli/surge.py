@@ -35,8 +35,8 @@ from fctd.cli.options import (
 from fctd.cli.pictures import PICTURE_HELP, draw_panels
 from fctd.cli.steady import Units, check_targets, file_option, in_units, metadata_of_case, row_bar
 from fctd.hydraulics.surge import ENDS, FASTEST, TRIPS, fastest_trips, surge_pressures
+from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, reworded, shown
-from fctd.store.tables import write_table
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -49,7 +49,7 @@ def _key(key: Key) -> Trace:
     symbol = {"mode": "lines+markers", "marker": {"symbol": SYMBOLS[key.marker], "size": 8}} if key.marker else {}
     return {
         "type": "scatter", "x": [None], "y": [None], "mode": "lines", "name": plain(key.name), "hoverinfo": "skip",
-        "legendgroup": plain(key.name), "line": _stroke(key.colour, key.dash, WIDTH), **symbol,
+        "legendgroup": plain(key.name), "line": stroke(key.colour, key.dash, WIDTH), **symbol,
     }  # fmt: skip
 
 
@@ -136,7 +136,7 @@ def _curve(curve: Curve, unit: str, *, several: bool) -> Iterator[Trace]:
     seen = curve.marks | curve.care
     yield {
         "x": curve.line, "y": curve.depth, "mode": "lines+markers", "name": name, "text": texts, "showlegend": False,
-        "line": _stroke(colour, curve.dash, WIDTH),
+        "line": stroke(colour, curve.dash, WIDTH),
         "marker": {
             "symbol": [f"{symbol}-open" if care else symbol for care in curve.care], "size": 8,
             "color": [colour if at else CLEAR for at in seen],
@@ -189,12 +189,12 @@ def _limit(line: LimitLine, unit: str) -> Trace:
     """A limit of an operation; the legend has each limit once."""
     return {
         "x": line.value, "y": line.depth, "mode": "lines", "name": line.name,
-        "line": _stroke(LOOKS[line.operation][0], line.dash, LIMIT_WIDTH),
+        "line": stroke(LOOKS[line.operation][0], line.dash, LIMIT_WIDTH),
         "hovertemplate": _shown(unit, "", f"{line.name}, {KINDS[line.operation].label}"),
     }  # fmt: skip
 
 
-def _stroke(colour: str, dash: Dash, width: float) -> dict[str, Any]:
+def stroke(colour: str, dash: Dash, width: float) -> dict[str, Any]:
     """A line; width [px]."""
     pixels = "solid" if dash == SOLID else ",".join(f"{part * width:g}px" for part in dash)
     return {"color": colour, "dash": pixels, "width": width}

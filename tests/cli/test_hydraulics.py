@@ -54,7 +54,7 @@ def test_pictures(cli: Command, tmp_path: Path, depths: str, suffix: str) -> Non
         (["--flow", "2000 L/s"], '--flow = "2000 L/s": expected a flow rate above 0 and at most 1 m^3/s'),
         (["--flow", "fast"], '--flow = "fast": expected a flow rate'),
         (["--set", "operations[0].flow=0"], "--flow is missing: expected a flow such as '2000 L/min'"),
-        (["--eccentricity", "2"], "--eccentricity = 2.0: expected a share"),
+        (["--eccentricity", "2"], "--eccentricity = \"2\": expected 'string' or a share at least 0 and at most 1"),
         (["--set", "bit.end=closed"], 'pumped_well.toml: bit.end = "closed": expected "open" or "float"'),
         (["--set", "bit.nozzles=[14]"], "14 looks like '14/32 in' or '14 mm'"),
         (["--set", "mud.fann.600=30"], "expected more than 40, the reading at 300 rev/min"),
