@@ -83,7 +83,8 @@ def panels_page(of: Panels) -> "go.Figure":
     for k, panel in enumerate(of.panels, start=1):
         for curve in panel.curves:
             trace = go.Scatter(
-                x=curve.value, y=curve.depth, name=curve.name, legendgroup=curve.name, line=stroke(*_look(curve), WIDTH_PX),
+                x=curve.value, y=curve.depth, name=curve.name, legendgroup=curve.name,
+                line=stroke(*_look(curve), WIDTH_PX),
                 mode="markers" if len(curve.depth) == 1 else "lines", showlegend=curve.name not in seen,
                 hovertemplate=f"%{{y:.1f}}: %{{x:.4g}}<extra>{curve.name}</extra>",
             )  # fmt: skip
