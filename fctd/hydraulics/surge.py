@@ -27,7 +27,7 @@ TRIPS: Final = ("trip_in", "trip_out")
 ENDS: Final = ("open", "closed", "float")
 FASTEST: Final = 2.0  # [m/s]: trips are not faster than the hoist
 SLOWEST: Final = 1e-3  # [m/s]: what is slower is no trip
-PLACES: Final = 60  # along the open hole, at which the window is looked at
+PLACES: Final = 200  # along the open hole, at which the window is looked at
 HALVINGS: Final = 20  # of the range of speeds
 
 
