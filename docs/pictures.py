@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 
 import fctd
 from fctd import plots
+from fctd.case.units import in_steps
 from fctd.hydraulics.pressures import circulation
-from fctd.model.depths import read_depths
 from fctd.plots.flow import losses_panels
 from fctd.plots.loads import ChartLook
 from fctd.store.parquet import read_frame
@@ -111,7 +111,7 @@ def stick_slip() -> Figure:
 def hydraulics() -> Figure:
     """Pressures of the example's mud over bit depth at three flows, and the densities that its hole feels."""
     case = fctd.load_case(ROOT / "examples" / "pumped_well.toml")
-    flows, depths = [1600 / 6e4, 2000 / 6e4, 2400 / 6e4], read_depths("shoe:td:50", case, "depths")
+    flows, depths = [1600 / 6e4, 2000 / 6e4, 2400 / 6e4], in_steps(case.shoes[-1], case.deepest, 50.0)
     last = circulation(case, flows[-1], depths[-1])
     table = fctd.pressure_losses(case, flows, depths)
     return plots.panels_figure(losses_panels(table, last, "si", ["API RP 13D, concentric"]))

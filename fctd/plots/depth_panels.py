@@ -8,8 +8,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from fctd.arrays import Array
-from fctd.plots.palette import DASHES, PALETTE, Dash
-from fctd.plots.style import POINTS, RC, Sheet, line_style
+from fctd.plots.palette import DASHES, PALETTE
+from fctd.plots.style import LINE_STYLES, POINTS, RC, Sheet
 
 if TYPE_CHECKING:
     import plotly.graph_objects as go
@@ -48,7 +48,7 @@ class Panels(NamedTuple):
 def panels_figure(of: Panels) -> Figure:
     """The picture, with the legend of all curves below the panels."""
     named = _named(of.panels)
-    handles = [Line2D([], [], label=name, **_drawn(curve)) for name, curve in named.items()]
+    handles = [Line2D([], [], label=name, **_look(curve)) for name, curve in named.items()]
     width = LEFT + len(of.panels) * (WIDTH + BETWEEN) - BETWEEN + RIGHT
     with mpl.rc_context(RC):
         sheet = Sheet(width, HEIGHT + BELOW, of.title, of.lines, handles)
@@ -58,7 +58,7 @@ def panels_figure(of: Panels) -> Figure:
                 LEFT + k * (WIDTH + BETWEEN), 0.0, WIDTH, HEIGHT, **({} if first is None else {"sharey": first})
             )
             for curve in panel.curves:
-                ax.plot(curve.value, curve.depth, **_drawn(curve), marker="o" if len(curve.depth) == 1 else None)
+                ax.plot(curve.value, curve.depth, **_look(curve), marker="o" if len(curve.depth) == 1 else None)
             ax.set_xlabel(panel.label)
             if first is None:
                 first = ax
@@ -75,16 +75,15 @@ def panels_page(of: Panels) -> "go.Figure":
     from plotly.subplots import make_subplots
 
     from fctd.plots.page import with_heading
-    from fctd.plots.traces import WIDTH as WIDTH_PX
     from fctd.plots.traces import stroke
 
     figure = make_subplots(cols=len(of.panels), shared_yaxes=True, horizontal_spacing=0.04)
     seen: set[str] = set()
     for k, panel in enumerate(of.panels, start=1):
         for curve in panel.curves:
+            look = stroke(COLOURS[curve.colour % len(COLOURS)], DASHES[curve.dash % len(DASHES)], 2.0)
             trace = go.Scatter(
-                x=curve.value, y=curve.depth, name=curve.name, legendgroup=curve.name,
-                line=stroke(*_look(curve), WIDTH_PX),
+                x=curve.value, y=curve.depth, name=curve.name, legendgroup=curve.name, line=look,
                 mode="markers" if len(curve.depth) == 1 else "lines", showlegend=curve.name not in seen,
                 hovertemplate=f"%{{y:.1f}}: %{{x:.4g}}<extra>{curve.name}</extra>",
             )  # fmt: skip
@@ -105,12 +104,5 @@ def _named(panels: Sequence[Panel]) -> dict[str, Curve]:
     return named
 
 
-def _look(curve: Curve) -> tuple[str, Dash]:
-    """Colour and dash of a curve."""
-    return COLOURS[curve.colour % len(COLOURS)], DASHES[curve.dash % len(DASHES)]
-
-
-def _drawn(curve: Curve) -> dict[str, Any]:
-    """The same as matplotlib takes it."""
-    colour, dash = _look(curve)
-    return {"color": colour, "linestyle": line_style(dash)}
+def _look(curve: Curve) -> dict[str, Any]:
+    return {"color": COLOURS[curve.colour % len(COLOURS)], "linestyle": LINE_STYLES[curve.dash % len(LINE_STYLES)]}

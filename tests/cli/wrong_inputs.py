@@ -66,8 +66,9 @@ FORCES: Final = "a force such as '50 kN' or '12 klbf' (units: N, daN, kN, MN, kg
 TORQUES: Final = "a torque such as '0.5 kN*m' or '400 ft*lbf' (units: N*m, kN*m, daN*m, kgf*m, ft*lbf, kft*lbf)"
 ROTATIONS: Final = "a rotation such as 60 or '60 rev/min' (units: rpm, rev/min, c/min, rev/s, rad/s)"
 FRICTIONS: Final = (
-    "a factor such as 0.25, a list of them such as 0.1,0.2,0.3, or factors by kind such as cased=0.2,open=0.3, where "
-    "each factor may be a pair such as 0.3/0.2, along and around the hole"
+    "a factor such as 0.25, a list of them such as 0.1,0.2,0.3, a fan FROM:TO:STEP such as 0.1:0.4:0.1, or factors by "
+    "kind such as cased=0.2,open=0.3, where each factor but those of a fan may be a pair such as 0.3/0.2, along and "
+    "around the hole"
 )
 
 # Refused, exit code 2.

@@ -36,10 +36,6 @@ def test_what_an_engine_leaves_out_is_refused(name: str) -> None:
     """All of it: a case of the feature is refused by a key of it, or by another one that it cannot do without."""
     needs(name)
     honours = engines.engine_class(name).honours
-    run, _ = prepare(CROSSED["wall"].make(True))
-    run.laws = run.laws._replace(given=True)
-    with pytest.raises(InputError, match=f"since {name} leaves out loads given to the string"):
-        refuse(run, {*honours, *CROSSED}, name)
     for feature in set(CROSSED) - set(honours) - {"helical_force", "overpull", "packer"}:  # no run has these
         run, _ = prepare(CROSSED[feature].make(True))
         with pytest.raises(InputError, match=f"since {name} leaves out"):
