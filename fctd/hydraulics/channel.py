@@ -18,7 +18,7 @@ from fctd.case.load import Case
 from fctd.case.rheology import FlowSpec, Rheology
 from fctd.hydraulics.closed_forms import Loss, annulus, bore
 from fctd.model.drillstring import String
-from fctd.model.fluids import Column
+from fctd.model.fluids import Column, depth_at
 from fctd.model.mud import hole_radius
 from fctd.model.wellbore import Wellbore
 
@@ -39,7 +39,8 @@ class Channel:
     of pipe and hole [m], eccentricity, yield stress, consistency, index and density of the mud; bore : rows of radius,
     yield stress, consistency, index and density; tools : pressure drop over the square of the flow [Pa s²/m⁶];
     nozzles : their area, infinite where the case gives none [m²], and what their drop is over that of an ideal flow;
-    end : of the string, "open", "closed" or "float", which lets mud out alone.
+    end : of the string, "open", "closed" or "float", which lets mud out alone, or "plugged"; heavier : by how much the
+    pressure outside is larger at the end, of mud at rest [Pa].
     """
 
     above: Array
@@ -50,6 +51,7 @@ class Channel:
     tools: Array
     nozzles: tuple[float, float]
     end: str
+    heavier: float = 0.0
 
     @cached_property
     def _annulus(self) -> tuple[bytes, NDArray[np.int64]]:
@@ -81,12 +83,23 @@ class Channel:
         """
         if flow > 0 and end == "closed":
             raise InputError('"open" or "float" with a flow through it', key="bit.end", value=end)
-        if flow > 0 or speed == 0 or end == "closed" or (end == "float" and speed > 0):
+        if flow > 0 and end == "plugged":
+            raise InputError("false with a flow through the string", key="mud.inside.plug", value=True)
+        if flow > 0 or speed == 0 or end in ("closed", "plugged") or (end == "float" and speed > 0):
             return flow
-        return self._shared(speed)
+        held = self.held(end)
+        if held and float(self.outside(0.0, speed).gradient @ self.wet) + held >= 0:
+            return 0.0  # the swab does not open the float
+        return self._shared(speed, held)
 
-    def _shared(self, speed: float) -> float:
+    def held(self, end: str) -> float:
+        """Pressure that a float bears at rest [Pa], which a swab must overcome before it opens; else 0."""
+        return max(self.heavier, 0.0) if end == "float" else 0.0
+
+    def _shared(self, speed: float, held: float) -> float:
         """Flow out of an open bit [m³/s] with which the pressures there are equal, while the string displaces mud.
+
+        held : pressure outside less that inside at rest [Pa].
 
         It is looked for between the flows of a table, and of finer ones for muds with a yield stress, whose gradients
         rise steeply from rest; between two flows the gradients are taken as straight.
@@ -101,14 +114,14 @@ class Channel:
         for k in range(1 + FINER * bool(yields)):
             flows, *gradients = (_table_of_flows if k == 0 else _find_table)(outside, inside, low, high, speed)
             lost = gradients[0] @ around + gradients[1] @ within
-            higher = lost + tools * flows * np.abs(flows) + self.bit_drop(flows)  # outside than inside
+            higher = held + lost + tools * flows * np.abs(flows) + self.bit_drop(flows)  # outside than inside
             at = min(max(int(np.argmax(higher * speed <= 0)), 1), len(flows) - 1)
             low, high = flows[at - 1 : at + 1].tolist()
         below, above = lost[at - 1 : at + 1].tolist()
 
         def between(through: float) -> float:
             straight = below + (above - below) * (through - low) / (high - low)
-            return float(straight + tools * through * abs(through) + self.bit_drop(through))
+            return float(held + straight + tools * through * abs(through) + self.bit_drop(through))
 
         return float(brentq(between, low, high, xtol=SHARED * abs(most), rtol=SHARED))
 
@@ -152,8 +165,17 @@ def channel_of(case: Case, string: String, hole: Wellbore, eccentricity: float |
     return Channel(
         string.above_bit, length, np.clip(bottom, 0.0, length), _table(n, around), _table(n, within),
         _tools(string, densities[0]), (case.bit.nozzle_area or np.inf, case.bit.discharge**-2),
-        "closed" if any(row.plug for row in case.mud.inside) else case.end,
+        "plugged" if any(row.plug for row in case.mud.inside) else case.end, _heavier(string, hole),
     )  # fmt: skip
+
+
+def _heavier(string: String, hole: Wellbore) -> float:
+    """Pressure outside less that inside at the end of a string, of mud at rest [Pa]."""
+    if string.fluids is None:
+        return 0.0
+    depth = depth_at(hole, np.array([string.bit_depth]))
+    inside, outside = string.fluids.pressures(np.zeros(1), depth, hole, string.bit_depth)
+    return float(outside[0] - inside[0])
 
 
 def _tools(string: String, density: Array | float) -> Array:

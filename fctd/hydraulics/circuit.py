@@ -57,14 +57,15 @@ def circulate(channel: Channel, flow: float, speed: float = 0.0, end: str | None
 
     end : of the string where it is not that of the channel.  Raises InputError for a flow through a closed end.
     """
-    through = channel.out_of_bit(flow, speed, channel.end if end is None else end)
+    end = channel.end if end is None else end
+    through = channel.out_of_bit(flow, speed, end)
     outside, inside = channel.outside(through, speed), channel.inside(through)
     drop = channel.bit_drop(through)
     around, below = np.zeros((2, len(inside) + 1))
     np.cumsum(outside.gradient * channel.wet, out=around[1:])
     if flow == 0 and through != 0:
         # Mud at rest in a bore bears what is less than its yield stress; its column begins without friction.
-        inside *= -(around[-1] + drop) / inside.sum()
+        inside *= -(around[-1] + drop + channel.held(end)) / inside.sum()
     below[:-1] = np.cumsum(inside[::-1])[::-1]
     given = -outside.lift * channel.wet
     if flow > 0:

@@ -19,6 +19,7 @@ from fctd.hydraulics.closed_forms import REGIMES
 from fctd.hydraulics.pressures import Eccentricity, Laid, Progress, Row, check_flows, lay
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.fluids import depth_at
+from fctd.model.string_in_hole import check_end
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -87,6 +88,7 @@ def trips_at(
 ) -> list[Trip]:
     """The trips of kinds and ends with the bit at a depth [m]."""
     laid = lay(case, bit_depth, eccentricity)
+    check_end(laid.string, laid.hole)
     return [Trip(laid, KINDS[kind].direction, one) for kind in operation for one in end]
 
 

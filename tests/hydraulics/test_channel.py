@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from fctd import build_wellbore
+from fctd.case.errors import InputError
 from fctd.hydraulics.channel import Channel, channel_of, flow_curves, has_flow_curve
 from fctd.model.drillstring import lay_out
 from tests.cases import make_case, pipe
@@ -57,5 +58,22 @@ def test_each_depth_has_the_flow_curve_of_its_fluid() -> None:
 
 def test_a_plug_closes_the_bore() -> None:
     inside = [{"to_md": 500.0, "density": 1200.0, "plug": True}, {"density": 1200.0}]
-    assert channel(inside=inside, float=True).end == "closed"
+    found = channel(inside=inside, float=True)
+    assert found.end == "plugged"
+    with pytest.raises(InputError, match=r"mud\.inside\.plug = true: expected false with a flow"):
+        found.out_of_bit(0.02, 0.0, found.end)
     assert channel(float=True).end == "float"
+
+
+def test_a_swab_opens_a_float_where_it_overcomes_what_it_holds() -> None:
+    """With air in the upper string the mud outside is heavier: a slow swab lets nothing out of the bore."""
+    light = channel(inside=[{"to_md": 200.0, "density": 0.0}, {"density": 1200.0}], float=True)
+    assert light.heavier == pytest.approx(1200 * 9.80665 * 200, rel=1e-6)
+    assert light.out_of_bit(0.0, -0.3, "float") == 0.0
+    alike = channel(float=True)
+    assert alike.held("float") == 0.0
+    out = alike.out_of_bit(0.0, -0.3, "float")
+    assert out == alike.out_of_bit(0.0, -0.3, "open") > 0
+    swab = -float(alike.outside(0.0, -5.0).gradient @ alike.wet)
+    assert swab > light.heavier
+    assert 0 < light.out_of_bit(0.0, -5.0, "float") < alike.out_of_bit(0.0, -5.0, "float")
