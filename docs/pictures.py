@@ -62,7 +62,7 @@ def limits() -> Figure:
     rig = {"block_weight": "200 kN", "hoist_capacity": "2000 kN"}
     case = fctd.load_case(WELL, {f"rig.{key}": value for key, value in rig.items()})
     kinds, depths = ["trip_in", "trip_out", "rotate_off_bottom"], [*range(1500, 3001, 250)]
-    look = ChartLook(margins=fctd.margin_table(case, kinds, depths))
+    look = ChartLook(margins=fctd.limits_of(case, kinds, depths))
     return plots.chart_figure(fctd.torque_drag(case, kinds, depths), "si", case, look)
 
 
@@ -113,7 +113,7 @@ def hydraulics() -> Figure:
     case = fctd.load_case(ROOT / "examples" / "pumped_well.toml")
     flows, depths = [1600 / 6e4, 2000 / 6e4, 2400 / 6e4], in_steps(case.shoes[-1], case.deepest, 50.0)
     last = circulation(case, flows[-1], depths[-1])
-    table = fctd.pressure_losses(case, flows, depths)
+    table = fctd.hydraulics_of(case, flows, depths)
     return plots.panels_figure(losses_panels(table, last, "si", ["API RP 13D, concentric"]))
 
 

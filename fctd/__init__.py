@@ -1,12 +1,15 @@
 """FCTD: fast contact torque and drag of a stiff drill string in a wellbore.
 
     case = fctd.load_case("well.toml")
+    told = fctd.check_case(case).warnings
     result = fctd.simulate(case)
     for record in fctd.Simulation(case): print(record["hookload_N"])
     point = fctd.equilibrium(case, operation="trip_out", bit_depth="8000 ft")
-    chart = fctd.torque_drag(case, operation=["trip_in", "trip_out"], bit_depths=range(1750, 2451, 10))
-    left = fctd.margin_table(case, bit_depths=[2450])
-    lost = fctd.pressure_losses(case, flow="2000 L/min")
+    chart = fctd.chart(case, operation=["trip_in", "trip_out"], bit_depths="shoe:td:50", friction=[0.2, 0.3])
+    rows = fctd.torque_drag(case, operation=["trip_in", "trip_out"], bit_depths=range(1750, 2451, 10))
+    left = fctd.limits_of(case, bit_depths="td")
+    known = fctd.run_uncertainty(fctd.run_sweep("sweep.toml"))
+    lost = fctd.hydraulics_of(case, flow="2000 L/min")
     trips = fctd.surge_pressures(case, speeds=[0.5])
     found = fctd.monitor(case, "readings.csv")
     finer = fctd.refine(case, tolerance=0.01).case
@@ -23,22 +26,29 @@ if TYPE_CHECKING:
     from fctd.calibration.result import Calibration
     from fctd.case.errors import InputError
     from fctd.case.load import Case, load_case
-    from fctd.hydraulics.pressures import pressure_losses
+    from fctd.hydraulics.pressures import hydraulics_of
     from fctd.hydraulics.surge import fastest_trips, surge_pressures
+    from fctd.model.first_case import new_case
     from fctd.model.wellbore import Contacts, Wellbore, build_wellbore, find_contacts
     from fctd.monitoring.monitor import Monitored, monitor
+    from fctd.results.checked import CheckedCase, check_case
     from fctd.results.tables import SimulationResult, open_result
     from fctd.simulation.simulate import Simulation, simulate
+    from fctd.steady.chart import Chart, chart
     from fctd.steady.equilibrium import equilibrium, lie_along
-    from fctd.steady.margin_table import margin_table
+    from fctd.steady.margin_table import limits_of
     from fctd.steady.refine import Refinement, refine
     from fctd.steady.steady_string import Equilibrium
     from fctd.steady.torque_drag import torque_drag
+    from fctd.sweep.swept import Swept, run_sweep, run_uncertainty
+    from fctd.sweep.uncertainty import Uncertainty
 
 # Where each public name stands; it is imported at its first use.
 _HOMES = {
     "Calibration": "fctd.calibration.result",
     "Case": "fctd.case.load",
+    "Chart": "fctd.steady.chart",
+    "CheckedCase": "fctd.results.checked",
     "Contacts": "fctd.model.wellbore",
     "Equilibrium": "fctd.steady.steady_string",
     "InputError": "fctd.case.errors",
@@ -46,20 +56,27 @@ _HOMES = {
     "Refinement": "fctd.steady.refine",
     "Simulation": "fctd.simulation.simulate",
     "SimulationResult": "fctd.results.tables",
+    "Swept": "fctd.sweep.swept",
+    "Uncertainty": "fctd.sweep.uncertainty",
     "Wellbore": "fctd.model.wellbore",
     "build_wellbore": "fctd.model.wellbore",
     "calibrate": "fctd.calibration.calibrate",
+    "chart": "fctd.steady.chart",
+    "check_case": "fctd.results.checked",
     "equilibrium": "fctd.steady.equilibrium",
     "fastest_trips": "fctd.hydraulics.surge",
     "find_contacts": "fctd.model.wellbore",
+    "hydraulics_of": "fctd.hydraulics.pressures",
     "lie_along": "fctd.steady.equilibrium",
+    "limits_of": "fctd.steady.margin_table",
     "load_case": "fctd.case.load",
-    "margin_table": "fctd.steady.margin_table",
     "monitor": "fctd.monitoring.monitor",
+    "new_case": "fctd.model.first_case",
     "open_result": "fctd.results.tables",
     "predict": "fctd.calibration.calibrate",
-    "pressure_losses": "fctd.hydraulics.pressures",
     "refine": "fctd.steady.refine",
+    "run_sweep": "fctd.sweep.swept",
+    "run_uncertainty": "fctd.sweep.swept",
     "simulate": "fctd.simulation.simulate",
     "surge_pressures": "fctd.hydraulics.surge",
     "torque_drag": "fctd.steady.torque_drag",
@@ -67,6 +84,8 @@ _HOMES = {
 __all__ = [
     "Calibration",
     "Case",
+    "Chart",
+    "CheckedCase",
     "Contacts",
     "Equilibrium",
     "InputError",
@@ -74,27 +93,40 @@ __all__ = [
     "Refinement",
     "Simulation",
     "SimulationResult",
+    "Swept",
+    "Uncertainty",
     "Wellbore",
     "build_wellbore",
     "calibrate",
+    "chart",
+    "check_case",
     "equilibrium",
     "fastest_trips",
     "find_contacts",
+    "hydraulics_of",
     "lie_along",
+    "limits_of",
     "load_case",
-    "margin_table",
     "monitor",
+    "new_case",
     "open_result",
     "predict",
-    "pressure_losses",
     "refine",
+    "run_sweep",
+    "run_uncertainty",
     "simulate",
     "surge_pressures",
     "torque_drag",
 ]
 
 
+# Packages of public names, which need packages of their own.
+_PACKAGES = ("plots", "view")
+
+
 def __getattr__(name: str) -> Any:
+    if name in _PACKAGES:
+        return import_module(f"fctd.{name}")
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     found = getattr(import_module(_HOMES[name]), name)
@@ -103,5 +135,5 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    """The public names."""
-    return sorted(__all__)
+    """The public names, and the packages of more."""
+    return sorted([*__all__, *_PACKAGES])

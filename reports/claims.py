@@ -32,6 +32,29 @@ class Claims:
         found = Counter(finding.verdict for finding in self.judgement.findings)
         return [(verdict, found[verdict]) for verdict in LOOKS if found[verdict]]
 
+    @property
+    def answer(self) -> str:
+        """Whether the paper's claims hold, in a sentence."""
+        found = dict(self.counts)
+        total, tested = len(self.judgement.findings), sum(found.get(verdict, 0) for verdict in DECIDED)
+        if not tested:
+            return "Not answered yet: no study has been run."
+        holding = found.get("holds", 0) + found.get("holds with limits", 0)
+        yes = "Yes" if holding == tested else "Mostly" if 2 * holding > tested else "Mostly not"
+        parts = [f"{n} {words[n > 1]}" for verdict, words in DECIDED.items() if (n := found.get(verdict, 0))]
+        if rest := total - tested:
+            parts.append(f"{rest} {'is' if rest == 1 else 'are'} not decided")
+        listed = parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and {parts[-1]}"
+        return f"{yes}: of {total} claims of the paper {listed}."
+
+
+# Verdicts that decide a claim, as a sentence says them of one claim and of several.
+DECIDED: dict[Verdict, tuple[str, str]] = {
+    "holds": ("holds", "hold"),
+    "holds with limits": ("holds within limits", "hold within limits"),
+    "does not hold": ("does not hold", "do not hold"),
+}
+
 
 def judged(results: Path, ledger: Path) -> Claims:
     """Judge the claims by a folder of results; a ledger that does not fit them is a problem of the page."""

@@ -13,7 +13,7 @@ from reports import chapters, results, wells, which_contact, words
 from reports.claims import LOOKS, judged
 from reports.figures import Tables
 from reports.figures.judged import WELLS
-from reports.figures.leading import LEADING
+from reports.figures.leading import LEADING, SHOWN
 from reports.sections import Picture, Section, anchor, section_of
 from validation.claims.ledger import CLAIMS
 
@@ -69,13 +69,14 @@ def _render(
         if study in first and tables:
             drawn[study] = section.draw(first[study].figure, tables, out)
     leading = [(each.study, each.figure.caption, drawn.get(each.study)) for each in LEADING]
+    leading.sort(key=lambda each: each[2] is None)  # keeps the order of those that are drawn
     claims = judged(stored, ledger)
     given = {
         "sections": sections,
         "claims": claims,
         "looks": LOOKS,
         "changes": changes,
-        "leading": leading,
+        "leading": leading[:SHOWN],
         "wells": wells.page_of(sections, measured, claims),
         "chapters": _chapters(sections),
         "paper": [(each, _ours(each.ours, sections)) for each in chapters.contents().paper],

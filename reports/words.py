@@ -110,7 +110,7 @@ def _power(found: re.Match[str]) -> str:
 
 
 def number(value: float) -> str:
-    """A number by itself: four digits, powers of ten where it is very large or small."""
+    """A number by itself: three digits, powers of ten where it is very large or small."""
     if math.isnan(value):
         return NOTHING
     if math.isinf(value):
@@ -119,7 +119,7 @@ def number(value: float) -> str:
     if value == round(value) and size < 1e9:
         return _fixed(value, 0)
     if 1e-3 <= size < 1e6:
-        return _shortest(value, max(0, 3 - math.floor(math.log10(size))))
+        return _shortest(value, max(0, 2 - math.floor(math.log10(size))))
     mantissa, exponent = f"{value:.2e}".split("e")
     return f"{_shortest(float(mantissa), 2)}{SPACE}×{SPACE}10{str(int(exponent)).translate(SUPERSCRIPT)}"
 
@@ -139,7 +139,7 @@ def column(values: "pd.Series[Any]") -> list[str]:
     sizes = [abs(value) for value in numbers if math.isfinite(value) and value != 0]
     if not sizes or max(sizes) >= 1e6 or max(sizes) < 1e-3:
         return [number(value) for value in numbers]
-    decimals = max(0, 3 - math.floor(math.log10(max(sizes))))
+    decimals = max(0, 2 - math.floor(math.log10(max(sizes))))
     if min(sizes) * 10**decimals < 10:
         return [number(value) for value in numbers]
     while decimals and all(f"{size:.{decimals}f}".endswith("0") for size in sizes):

@@ -6,6 +6,8 @@ import pkgutil
 import shutil
 import subprocess
 import sys
+import tomllib
+from importlib.resources import files
 from pathlib import Path
 
 import pytest
@@ -123,5 +125,21 @@ def test_no_name_hides_a_module() -> None:
             assert getattr(sys.modules[parent], name) is module, found.name
 
 
-def test_the_package_lists_its_public_names() -> None:
-    assert dir(fctd) == sorted(fctd.__all__)
+def test_packages_list_their_public_names() -> None:
+    """Completion of ``fctd.`` and of what it holds, before anything is imported."""
+    program = "import fctd; print(dir(fctd), dir(fctd.plots), dir(fctd.view), sep='; ')"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    listed = [sorted([*fctd.__all__, "plots", "view"]), sorted(fctd.plots.__all__), sorted(fctd.view.__all__)]
+    assert done.stdout.strip() == "; ".join(map(str, listed))
+
+
+def test_no_public_function_has_the_name_of_a_room() -> None:
+    """It would hide the room from whoever imports the package."""
+    rooms = {path.parent.name for path in SOURCE.glob("*/__init__.py")}
+    assert rooms & set(fctd.__all__) == set()
+
+
+def test_type_checkers_read_the_annotations() -> None:
+    assert "py.typed" in {path.name for path in files("fctd").iterdir()}
+    built = tomllib.loads((SOURCE.parent / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["setuptools"]
+    assert "py.typed" in built["package-data"]["fctd"]

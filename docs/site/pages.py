@@ -1,10 +1,14 @@
-"""Guides as pages: links to documents outside docs lead to their pages, names of functions to their descriptions."""
+"""Guides and notebooks as pages: links to documents outside docs lead to their pages, names of functions to their
+descriptions."""
 
 import re
+from pathlib import Path
 
 from pygments.lexers.special import TextLexer
 from sphinx.application import Sphinx
 from sphinx.util.typing import ExtensionMetadata
+
+from docs.site.notebooks import as_markdown
 
 # Documents beside docs, and the pages that include them.
 PAGES = {
@@ -14,6 +18,8 @@ PAGES = {
     "CONTRIBUTING.md": "project/contributing.md",
 }
 OUTSIDE = re.compile(rf"\]\(\.\./({'|'.join(map(re.escape, PAGES))})(#[\w-]+)?\)")
+# The place of a notebook in its page, from the folder of the page.
+NOTEBOOK = re.compile(r"^```\{notebook\} (\S+)\n```$", re.MULTILINE)
 CALLED = re.compile(r"(?<!`)`(fctd(?:\.\w+)+)`(?!`)")
 
 
@@ -23,9 +29,15 @@ def as_page(text: str) -> str:
     return CALLED.sub(r"{py:obj}`\1`", text)
 
 
+def with_notebooks(text: str, folder: Path) -> str:
+    """A page in a folder with the cells of its notebooks."""
+    return NOTEBOOK.sub(lambda found: as_markdown(folder / found[1]), text)
+
+
 def _read(app: Sphinx, name: str, source: list[str]) -> None:
-    if app.env.doc2path(name).suffix == ".md":
-        source[0] = as_page(source[0])
+    page = Path(app.env.doc2path(name))
+    if page.suffix == ".md":
+        source[0] = as_page(with_notebooks(source[0], page.parent))
 
 
 def setup(app: Sphinx) -> ExtensionMetadata:

@@ -18,7 +18,7 @@ Change = tuple[list[str | int], Any]
 FONT: Final = 'system-ui, "Segoe UI", "Noto Sans", "Liberation Sans", sans-serif'
 EMPTY: Final[dict[str, Any]] = {"data": [], "layout": {"xaxis": {"visible": False}, "yaxis": {"visible": False}}}
 LAYOUT: Final[dict[str, Any]] = {
-    "margin": {"l": 64, "r": 12, "t": 10, "b": 110}, "uirevision": "fixed", "plot_bgcolor": "#ffffff",
+    "margin": {"l": 64, "r": 12, "t": 58, "b": 24}, "uirevision": "fixed", "plot_bgcolor": "#ffffff",
     "paper_bgcolor": "#ffffff", "font": {"family": FONT, "size": 11},
     "legend": {"orientation": "h", "y": 0, "yref": "container", "yanchor": "bottom"},
 }  # fmt: skip
@@ -40,7 +40,8 @@ def changes_of(rows: Sequence[Mapping[str, Any]], case: Case, units: System, loo
         if name.startswith(("xaxis", "yaxis")):
             axis["gridcolor"] = "#e8e8e8"
         if name.startswith("xaxis"):  # in two lines, as the panels are narrow
-            axis["title"]["text"] = axis["title"]["text"].replace(" (", "<br>(")
+            text = axis["title"]["text"]
+            axis["title"]["text"] = text.replace(" (", "<br>(") if "(" in text else text.replace(", ", ",<br>")
     return [(["data"], [_packed(trace) for trace in traces_of(described)]), (["layout"], layout)]
 
 

@@ -78,7 +78,7 @@ def _write(
         depths = np.linspace(well.depths[0], well.depths[-1], VIEWED)
         save_view(well.strings_at(values, operation, depths.tolist()), path, colour, units)
     else:
-        chart = pd.DataFrame(well.chart(values, kinds))
+        chart = pd.DataFrame(well.chart(values, [*kinds, *asked]))
         if path.suffix in (".csv", ".xlsx"):
             table = in_field_units(chart) if units == "field" else chart
             about: dict[str, Any] = {"case": case.name, "units": units, "versions": versions()}

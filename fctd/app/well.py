@@ -19,7 +19,7 @@ from fctd.app.sessions import Source
 from fctd.app.sliders import FLOW, RPM, changes, rates_at, sliders_of
 from fctd.calibration.measured import read_measured
 from fctd.case.errors import InputError
-from fctd.case.friction import table_of
+from fctd.case.friction import Pair, changed, pairs_of, table_of
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.case.text import counted
@@ -28,6 +28,7 @@ from fctd.model.operations import rates_of_all
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.plots.loads import ChartLook, Load
 from fctd.plots.palette import BUCKLED
+from fctd.results.series import FRICTION_LABEL
 from fctd.results.unit_systems import System, reworded, shown
 from fctd.steady.equilibrium import Solver
 from fctd.steady.margin_table import COLUMNS, margin_rows
@@ -43,15 +44,29 @@ USUAL: Final = ("trip_out", "rotate_off_bottom", "trip_in")
 DEPTHS: Final = 70
 EVERY: Final = 3  # of the depths while a slider moves
 MOST_MEASURED: Final = 5_000  # rows
-# What else is asked of a chart among its operations: limits, and loads without the block.
-LIMITS, STRING = "limits", "string"
-EXTRAS: Final = {LIMITS: "limits of string and rig", STRING: "hook load without the block"}
+# What else is asked of a chart among its operations: a fan of friction factors, limits, and loads without the block.
+FAN, LIMITS, STRING = "fan", "limits", "string"
+AS_SET: Final = "as set"
+STEPS: Final = {"−0.05": -0.05, AS_SET: 0.0, "+0.05": 0.05}  # of a fan, added to all friction factors
+EXTRAS: Final = {
+    FAN: "friction 0.05 less and more", LIMITS: "limits of string and rig", STRING: "hook load without the block",
+}  # fmt: skip
 LIMIT_DEPTHS: Final = 5
 
 
 def load_of(operations: Sequence[str]) -> Load | None:
     """The load of a chart; None where the case says which it is."""
     return "string" if STRING in operations else None
+
+
+def _fan(case: Case, wanted: bool) -> dict[str, Case]:
+    """The case by ``STEPS`` of its friction factors, none below 0; as it is alone where no fan is wanted."""
+    pairs, found = pairs_of(case.wellbore.intervals), {}
+    for label, by in STEPS.items() if wanted else ():
+        more = [Pair(max(pair.along + by, 0.0), max(pair.around + by, 0.0)) for pair in pairs]
+        wellbore = case.wellbore.model_copy(update={"intervals": changed(case.wellbore.intervals, more)})
+        found[label] = case.model_copy(update={"wellbore": wellbore})
+    return found or {AS_SET: case}
 
 
 class Well:
@@ -121,7 +136,11 @@ class Well:
         case = self.moved(values)
         self.opened()
         depths = self.depths[::-1][::EVERY][::-1] if coarse else self.depths
-        rows = self._rows.solve(case, self._last[2], kinds, depths) if kinds else []
+        rows: list[dict[str, Any]] = []
+        for label, one in _fan(case, FAN in operations and not coarse).items():
+            hole_of = self._last[2].with_friction(table_of(one.wellbore.intervals))
+            found = self._rows.solve(one, hole_of, kinds, depths) if kinds else []
+            rows += [row | {FRICTION_LABEL: label} for row in found]
         points = self.measured(measured)
         margins = self.margins_of(case, kinds) if LIMITS in operations and kinds and not coarse else None
         look = ChartLook(load_of(operations), measured=points, margins=margins)
@@ -149,8 +168,13 @@ class Well:
         return pd.DataFrame(rows, columns=["operation", "bit_depth_m", *COLUMNS.values()])
 
     def chart(self, values: Mapping[str, object], operations: Sequence[str]) -> list[dict[str, Any]]:
-        """All rows of the chart for the sliders at values."""
-        return chart_rows(self.moved(values), [kind for kind in KINDS if kind in operations] or [*USUAL], self.depths)
+        """All rows of the chart for the sliders at values, of a fan too where it is among the operations."""
+        kinds, fan = [kind for kind in KINDS if kind in operations] or [*USUAL], FAN in operations
+        return [
+            row | ({FRICTION_LABEL: label} if fan else {})
+            for label, one in _fan(self.moved(values), fan).items()
+            for row in chart_rows(one, kinds, self.depths)
+        ]
 
     def check_measured(self, text: str) -> dict[str, Any]:
         """The number of measured rows of a text, and what is to be said of their units.

@@ -41,7 +41,7 @@ DEPTH: Final = replace(
     quantity=Quantity(dimension=LENGTH, at_least=0.0, at_most=DEEPEST),
 )
 HOOKLOAD: Final = replace(HOOK_LOAD, key="hookload", quantity=ANY_FORCE)
-TORQUE_WORDS: Final = "rotating rot free off bottom btm"  # that may stand beside the name of a torque
+TORQUE_WORDS: Final = "rotating rot rob free off bottom btm"  # that may stand beside the name of a torque
 OPERATION: Final = Field("operation", "operation, kind")
 NAME: Final = Field("id", "id, name, row")
 
@@ -117,7 +117,7 @@ def read_measured_file(
             _check_range(found, row, load.key)
     if tell is not None and (assumed := [column for column in rows.columns.values() if column.assumed]):
         units = ", ".join(f"{show(column.header)} in {column.unit}" for column in assumed)
-        tell(f"no header names a unit, so these are read: {units}; write the units into the headers if they are others")
+        tell(f"headers without units are read as: {units}; write the units into them if they are others")
     kinds = [_kind(found.rows, row) for row in range(len(found.rows))]
     return found._replace(rows=replace(found.rows, cells={**found.rows.cells, OPERATION.key: kinds}))
 

@@ -13,7 +13,7 @@ from fctd.case.tables.readings import HOOK_LOAD
 from fctd.case.tables.rows import Rows
 from fctd.case.units import FORCE, TORQUE, Quantity
 
-_WEIGHT: Final = "weight weights wt hook load hookload hkld hkl measured actual average avg mean rig"
+_WEIGHT: Final = "free weight weights wt hook load hookload hkld hkl measured actual average avg mean rig"
 
 
 def _weight(key: str, names: str) -> Field:
@@ -24,10 +24,10 @@ def _weight(key: str, names: str) -> Field:
 
 # The weights of a sheet, readings of the indicator, and the kind of operation in which each was read.
 WEIGHTS: Final = {
-    "pick_up": (_weight("pick_up", "pick up, PU, P/U, PUW, picking up, up"), "trip_out"),
-    "slack_off": (_weight("slack_off", "slack off, SO, S/O, SOW, slacking off, down, dn"), "trip_in"),
+    "pick_up": (_weight("pick_up", "pick up, P U, P U W, picking up, pulling, up"), "trip_out"),
+    "slack_off": (_weight("slack_off", "slack off, S O, S O W, slacking off, down, dn"), "trip_in"),
     "rotating": (
-        _weight("rotating", "rotating, rot, free rotating, rotating off bottom, rotate off bottom, rob, rtw"),
+        _weight("rotating", "rotating, rotate, rot, free rotating, rotating off bottom, rotate off bottom, rob, rtw"),
         "rotate_off_bottom",
     ),
 }

@@ -88,6 +88,10 @@ class FrictionSet:
         return tuple(own if new is None else _pair(new) for own, new in zip(pairs_of(intervals), picked, strict=True))
 
 
+# One set of factors as a call from Python takes it.
+FrictionChoice = float | str | Mapping[str, float | str] | FrictionSet
+
+
 def pairs_of(intervals: Sequence[IntervalSpec]) -> tuple[Pair, ...]:
     """The factors of intervals as they stand."""
     return tuple(Pair(interval.friction, interval.friction_around) for interval in intervals)
@@ -99,9 +103,15 @@ def table_of(intervals: Sequence[IntervalSpec]) -> Array:
 
 
 def changed(intervals: Sequence[IntervalSpec], factors: Sequence[Pair]) -> tuple[IntervalSpec, ...]:
-    """Intervals with other kinetic factors, one pair for each."""
+    """Intervals with other kinetic factors, one pair for each; static ones are scaled along."""
     return tuple(
-        interval.model_copy(update={"friction": new.along, "rotational_friction": _own_around(new)})
+        interval.model_copy(
+            update={
+                "friction": new.along,
+                "rotational_friction": _own_around(new),
+                "static_friction": interval.static_friction and (1 + interval.static_excess) * new.along,
+            }
+        )
         for interval, new in zip(intervals, factors, strict=True)
     )
 

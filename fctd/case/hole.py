@@ -17,7 +17,7 @@ from pydantic import Field, PrivateAttr, ValidationInfo, field_validator, model_
 
 from fctd.case import units
 from fctd.case.calipers.caliper import Caliper, CaliperSpec
-from fctd.case.errors import MISSING, InputError, Table, exclusive, known_keys
+from fctd.case.errors import InputError, Table, exclusive, known_keys
 from fctd.case.file_names import FileName, beside_case
 from fctd.case.fluids import WindowSpec
 from fctd.case.input_warnings import InputWarning
@@ -25,7 +25,7 @@ from fctd.case.surveys import doubts
 from fctd.case.surveys.form import SURVEY, ColumnKey, ColumnSpec, check_units
 from fctd.case.surveys.reading import read_survey
 from fctd.case.surveys.smoothing import smooth
-from fctd.case.surveys.stations import StationKey, Survey, Written, check
+from fctd.case.surveys.stations import StationKey, Survey, check_listed
 from fctd.case.tables.headers import Choice
 from fctd.case.wall import IntervalSpec, TortuositySpec
 
@@ -202,16 +202,4 @@ class WellboreSpec(Table):
         if self.survey is not None:
             choices = {str(key): Choice(column.header, column.unit) for key, column in (self.columns or {}).items()}
             return read_survey(self.survey, choices, self.sheet)
-        values = np.array(self.stations or (), dtype=float).reshape(-1, 3)
-        place = Written(
-            values,
-            ("m", "deg", "deg"),
-            lambda row, column: (f"[{row}][{column}]", MISSING),
-            range(len(values)),
-            "wellbore.stations[{}]",
-            "wellbore.stations[{}] to [{}]",
-        )
-        try:
-            return check(place)
-        except InputError as error:
-            raise error.at("stations") from None
+        return check_listed(np.array(self.stations or (), dtype=float).reshape(-1, 3))

@@ -1,5 +1,6 @@
 """The case: `load_case` reads a TOML file, applies overrides and validates; every float of a `Case` is SI."""
 
+import hashlib
 import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -15,6 +16,8 @@ from fctd.case.drilling import BitSpec
 from fctd.case.errors import MISSING, InputError, Table, naming
 from fctd.case.file_names import FileName
 from fctd.case.fluids import TemperatureSpec, check_downwards
+from fctd.case.friction import FrictionChoice, changed, friction_sets
+from fctd.case.from_python import as_written
 from fctd.case.hole import WellboreSpec
 from fctd.case.input_file import read_toml
 from fctd.case.input_warnings import InputWarning
@@ -174,6 +177,19 @@ class Case(Table):
         return [interval.to_md for interval in cased if interval.to_md < bottom]
 
     @property
+    def digest(self) -> str:
+        """A hash of all that the case says, with stations and caliper in place of the names of their files.
+
+        It reads survey and caliper; the same well has the same one on every machine, whatever its file is called.
+        """
+        of_files: Any = {"survey": True, "columns": True, "sheet": True, "stations": True, "caliper": {"log": True}}
+        told = self.model_dump_json(exclude={"file": True, "wellbore": of_files}, warnings=False)
+        caliper = self.wellbore.calipers
+        parts = [told.encode(), self.wellbore.trajectory.tobytes()]
+        parts += [] if caliper is None else [caliper.md.tobytes(), caliper.radii.tobytes()]
+        return hashlib.sha256(b"\0".join(parts)).hexdigest()[:16]
+
+    @property
     def warnings(self) -> tuple[InputWarning, ...]:
         """Probable mistakes of the case and of its operations (`doubts`); reads the survey."""
         return warnings_of(self)
@@ -212,6 +228,18 @@ class Case(Table):
                 check_bit_depth(md, top, bottom, f"operations[{i}].{key}", f"{md:g} m")
 
 
+def with_friction(case: Case, friction: FrictionChoice | None) -> Case:
+    """The case with one kinetic friction factor in every interval, or with factors by kind; None for its own.
+
+    Static factors are scaled along.  Raises InputError, which names the key ``friction``.
+    """
+    if friction is None:
+        return case
+    (chosen,), old = friction_sets([friction]), case.wellbore.intervals
+    wellbore = case.wellbore.model_copy(update={"intervals": changed(old, chosen.of(old))})
+    return case.model_copy(update={"wellbore": wellbore})
+
+
 @contextmanager
 def naming_file(case: Case) -> Iterator[None]:
     """Add the case's file to an InputError that is raised inside; InputError for what is no case, such as a path."""
@@ -232,22 +260,39 @@ def check_bit_depth(md: float, top: float, bottom: float, key: str, value: objec
         )
 
 
-def load_case(path: str | os.PathLike[str], overrides: Mapping[str, Any] | None = None) -> Case:
-    """The case of a TOML file, validated after the overrides; raises InputError for bad input.
+def load_case(
+    source: str | os.PathLike[str] | Mapping[str, Any] | Case, overrides: Mapping[str, Any] | None = None
+) -> Case:
+    """The case of a TOML file or of a dict, validated after the overrides; raises InputError for bad input.
 
+    source : path of the file; or its tables, in which the names of files are relative to the current folder; or a case,
+    of which the overrides make another one.
     overrides: dotted keys ("operations[0].speed" or "operations.0.speed") to values as in a case
     file; None deletes a key. A component or an interval may have its name in place of an index. The key "friction" sets
     the friction of every interval, or with {"cased": 0.2, "open": 0.3}, as "friction.open" does, that of the intervals
     of these kinds; "0.3/0.2" in place of a factor is one along the hole and one around it. The key
     "rotational_friction" sets the factor around the hole alone, in the same ways.
+
+    In a dict and in overrides the value of wellbore.stations may be a DataFrame, whose columns are named as those of a
+    survey file are, and other lists of tables, such as wellbore.intervals, DataFrames with a row for each.
+
+        >>> case = fctd.load_case("examples/my_well.toml", {"mud.density": "1.3 sg"})
+        >>> case.mud.density
+        1300.0
     """
-    path = Path(path)
+    path = None if isinstance(source, Mapping | Case) else _path(source)
     with naming(path):
-        raw = read_raw(path)
+        raw = read_raw(path) if path is not None else as_written(source)
         for key, value in (overrides or {}).items():
-            apply_override(raw, key, value)
-        case = make_case(raw, path.parent.absolute())
-    return case.model_copy(update={"file": path})
+            apply_override(raw, key, as_written(value, key))
+        case = make_case(raw, (Path() if path is None else path.parent).absolute())
+    return case if path is None else case.model_copy(update={"file": path})
+
+
+def _path(source: object) -> Path:
+    if not isinstance(source, str | os.PathLike):
+        raise InputError("the path of a case file, a dict of its tables, or a case", key="source", value=source)
+    return Path(source)
 
 
 def make_case(raw: dict[str, Any], folder: Path | None, like: Case | None = None) -> Case:

@@ -51,6 +51,8 @@ _WORDS: Final[Mapping[str, str]] = {
     "sg": "specific_gravity", "s.g.": "specific_gravity", "s.g": "specific_gravity", "ppf": "(pound/foot)",
     "pcf": "(pound/foot**3)", "ppg": "(pound/gallon)", "fpm": "(foot/minute)", "fph": "(foot/hour)",
     "nm": "(N*m)", "knm": "(kN*m)", "dan": "daN", "danm": "(daN*m)", "kdanm": "(kilodecanewton*m)",
+    **dict.fromkeys(("ftlb", "ftlbs", "ftlbf"), "(foot*lbf)"),
+    **dict.fromkeys(("kftlb", "kftlbs", "kftlbf"), "(kilofoot*lbf)"),
 }  # fmt: skip
 # Words that stand for several units: what each reading is called, and how to write it without doubt.
 _AMBIGUOUS: Final[Mapping[str, tuple[tuple[str, str, str], ...]]] = {

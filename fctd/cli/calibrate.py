@@ -55,7 +55,9 @@ Units = Annotated[
 
 def calibrate_command(
     case_file: CaseFile,
-    measured: Annotated[Path, typer.Argument(metavar="MEASURED.csv", help="Measured rows.", show_default=False)],
+    measured: Annotated[
+        Path, typer.Argument(metavar="MEASURED", help="Measured rows, .csv or .xlsx.", show_default=False)
+    ],
     fits: Annotated[
         list[str],
         typer.Option(

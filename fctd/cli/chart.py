@@ -15,7 +15,7 @@ from fctd.calibration.measured import read_measured
 from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
 from fctd.case.friction import parse_frictions
-from fctd.case.load import Case
+from fctd.case.load import Case, with_friction
 from fctd.case.text import printable
 from fctd.cli.chart_table import print_chart
 from fctd.cli.keeping import (
@@ -81,8 +81,8 @@ from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System
 from fctd.steady.chart_saver import ChartSaver
 from fctd.steady.equilibrium import Solver
-from fctd.steady.margin_table import margin_table
-from fctd.steady.torque_drag import Row, chart_rows, with_friction
+from fctd.steady.margin_table import limits_of
+from fctd.steady.torque_drag import Row, chart_rows
 from fctd.store.limits import LimitReached
 
 if TYPE_CHECKING:
@@ -271,9 +271,7 @@ def _chart(
                     bar.update(task, description="limits", completed=done, total=total)
                     limits.check()
 
-                margins = margin_table(
-                    case, kinds, depths, factors[0] if factors else None, **drive, progress=show_limits
-                )
+                margins = limits_of(case, kinds, depths, factors[0] if factors else None, **drive, progress=show_limits)
 
         # The last depth at which string and hole fit.
         possible = [row["bit_depth_m"] for row in rows if row["status"] != SteadyStatus.NOT_POSSIBLE]

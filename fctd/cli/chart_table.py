@@ -44,7 +44,7 @@ def print_chart(rows: list[Row], name: str, units: System, load: Load) -> None:
         *([Column("μ", overflow="fold")] if fan else []),
         *(Column(heading, justify="right", overflow="fold") for heading in loads),
         *([Column(f"buckled\n{units_of[DEPTH.name].label}", overflow="fold")] if buckled else []),
-        Column("status", overflow="fold"),
+        Column("status", min_width=len(SteadyStatus.CONVERGED)),
         box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
     )  # fmt: skip
     each, printed = max(SCREEN_ROWS // len(series), 1), 0
@@ -60,7 +60,7 @@ def print_chart(rows: list[Row], name: str, units: System, load: Load) -> None:
             if buckled:
                 values.append(_buckled(row, units_of[DEPTH.name].factor))
             names = (operation, friction) if fan else (operation,)
-            table.add_row(*(("",) * len(names) if k else names), *values, row["status"])
+            table.add_row(*(("",) * len(names) if k else names), *values, row["status"].replace("_", " "))
     screen.print(table)
     counts = ", ".join(f"{count} {status}" for status, count in Counter(row["status"] for row in rows).most_common())
     left_out = f"; {printed} of them above, all of them in a file by --out" if printed < len(rows) else ""

@@ -44,7 +44,7 @@ from fctd.cli.steady import (
 from fctd.model.depths import read_depth, read_depths
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, reworded, shown
-from fctd.steady.margin_table import USUAL, margin_table
+from fctd.steady.margin_table import USUAL, limits_of
 from fctd.steady.margins import FATIGUE, LACKING, MEANINGS, OVERPULL, SET_DOWN, SLIPS, TORQUE
 
 if TYPE_CHECKING:
@@ -104,7 +104,7 @@ def limits_command(
         def show(done: int, total: int) -> None:
             bar.update(task, description=printable(case.name), completed=done, total=total)
 
-        table = margin_table(case, kinds, bit_depths, **drive, progress=show)
+        table = limits_of(case, kinds, bit_depths, **drive, progress=show)
     written: list[Path] = []
     try:  # written before anything is printed, as the terminal may be closed
         if out is not None:

@@ -10,7 +10,7 @@ from rich.table import Column, Table
 
 from fctd.case.errors import InputError
 from fctd.case.operation_names import kinds_of
-from fctd.case.text import counted, file_name, printable
+from fctd.case.text import counted, printable
 from fctd.case.units import LENGTH
 from fctd.cli.options import Quiet, check_target, messages, print_written, read_quantity, screen
 from fctd.cli.pictures import DRAWN, check_pictures
@@ -19,11 +19,9 @@ from fctd.cli.sweep import SweepFile
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, in_field_units, long_in_field_units, shown
 from fctd.store.origin import versions
-from fctd.sweep.dataset import identity_of, open_dataset
-from fctd.sweep.design import sample_of, samples_of
 from fctd.sweep.indices import WITH_UNIT
 from fctd.sweep.spec import read_sweep
-from fctd.sweep.template import template_of
+from fctd.sweep.swept import dataset_of
 from fctd.sweep.uncertainty import Uncertainty, assess
 
 if TYPE_CHECKING:
@@ -79,11 +77,7 @@ def uncertainty_command(
     for path in files.values():
         check_target(path, "--out", (".csv",))
     spec = read_sweep(sweep_file)
-    dataset = open_dataset(folder if folder is not None else Path(file_name(spec.name, "-sweep")))
-    if dataset.about.get("identity") != identity_of(template_of(spec, sample_of(samples_of(spec), 0))):
-        raise InputError(
-            "the folder of this sweep (its file, case or survey is another)", key="--from", value=dataset.folder
-        )
+    dataset = dataset_of(spec, folder, "--from")
     operation = None if operation is None else kinds_of([operation])[0]
     depth = None if bit_depth is None else read_quantity(bit_depth, LENGTH, "--bit-depth", units)
     found = assess(dataset, spec, depth)

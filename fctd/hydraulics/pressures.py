@@ -175,7 +175,7 @@ class Circulation:
         return np.where(deep, pressure / (GRAVITY * np.where(deep, laid.depth, 1.0)), np.nan)
 
     def summary(self) -> Row:
-        """The row of ``pressure_losses``."""
+        """The row of ``hydraulics_of``."""
         area = self.laid.case.bit.nozzle_area
         jets = self.flow / area if area else np.nan
         drop, standpipe = self.circuit.bit_drop, self.standpipe
@@ -287,7 +287,7 @@ def circulations(
     return found
 
 
-def pressure_losses(
+def hydraulics_of(
     case: Case,
     flow: float | str | Sequence[float | str],
     bit_depths: Sequence[float | str] = (),
@@ -305,6 +305,11 @@ def pressure_losses(
     pump_power_W, impact_force_N, jet_speed_m_s, lift_N (that the flow takes off a vertical string), and reason.
 
     Raises InputError for unusable input, and where string and hole fit at none of the depths.
+
+        >>> case = fctd.load_case("examples/pumped_well.toml")
+        >>> lost = fctd.hydraulics_of(case, "2000 L/min")
+        >>> round(lost["standpipe_Pa"][0] / 1e5)
+        186
     """
     import pandas as pd  # slow to import
 

@@ -104,12 +104,17 @@ def surge_pressures(
     """A row for every operation, end, speed and bit depth, SI: what a trip at constant speed adds to the pressure.
 
     speeds [m/s], bit_depths [m], or texts with units; without depths that of the hole.  operation : trip_in or
-    trip_out; end : "open", "closed" or "float", by default that of the case.  eccentricity : see ``pressure_losses``.
+    trip_out; end : "open", "closed" or "float", by default that of the case.  eccentricity : see ``hydraulics_of``.
 
     Columns: operation, end, speed_m_s, bit_depth_m, surge_Pa at the bit (negative for a swab), shoe_surge_Pa at the
     last end of an interval above the bit, density_bit_kg_m3 (equivalent, of mud at rest and surge), into_bore_m3_s
     (through the bit), regime (the most turbulent along the annulus), lift_N (of a vertical string), and
     reason.  Raises InputError for unusable input, and where string and hole fit at none of the depths.
+
+        >>> case = fctd.load_case("examples/pumped_well.toml")
+        >>> run_in = fctd.surge_pressures(case, ["0.5 m/s"], [3000], "trip_in", "closed")
+        >>> round(float(run_in["surge_Pa"].iloc[0]) / 1e5, 1)
+        11.5
     """
     import pandas as pd  # slow to import
 
@@ -143,6 +148,10 @@ def fastest_trips(
     Columns: operation, end, bit_depth_m, fastest_m_s (0 where none is possible), md_m (where the window ends, NaN where
     the hoist sets the speed), time_s (of the trip between the first depth and this one, with the connections of
     [rig]), and reason.  Raises InputError, also for a case without a window.
+
+        >>> case = fctd.load_case("examples/pumped_well.toml")
+        >>> round(float(fctd.fastest_trips(case, [3000], "trip_out", "closed")["fastest_m_s"].iloc[0]), 2)
+        0.64
     """
     import pandas as pd  # slow to import
 

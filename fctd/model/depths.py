@@ -1,10 +1,12 @@
 """Bit depths as people write them, and those that are taken where none is asked for."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case
-from fctd.case.units import LENGTH, in_steps, typed
+from fctd.case.units import LENGTH, argument, in_steps, typed
 from fctd.model.operations import depth_range
 
 MOST_DEPTHS = 10_000  # more is a slip in the step
@@ -47,6 +49,31 @@ def read_depths(text: str, case: Case, key: str, bare: str = "m") -> list[float]
     if not hanging:
         raise InputError(f"a depth below string.top_md, {case.string.top_md:g} m", key=key, value=text)
     return hanging
+
+
+def depth_of(value: float | str, case: Case, key: str) -> float:
+    """A bit depth of a call from Python [m]: a number of metres, or a text as ``read_depth`` takes it."""
+    return read_depth(value, case, key) if isinstance(value, str) else argument(value, LENGTH, key)
+
+
+def depths_of(values: float | str | Sequence[float | str], case: Case, key: str) -> list[float]:
+    """Bit depths of a call from Python [m], which rise: one, several, or those of a text FROM:TO:STEP.
+
+    Raises InputError, which names the key, for others.
+    """
+    if isinstance(values, str) and ":" in values:
+        return read_depths(values, case, key)
+    if isinstance(values, str) or np.ndim(values) == 0:
+        return [depth_of(values, case, key)]  # type: ignore[arg-type]
+    if np.ndim(values) != 1:
+        raise InputError("a list of bit depths", key=key, value=values)
+    depths = [depth_of(value, case, f"{key}[{k}]") for k, value in enumerate(list(values))]  # type: ignore[arg-type]
+    if not depths:
+        raise InputError("at least one bit depth", key=key, value=[])
+    for before, here in zip([-np.inf, *depths], depths, strict=False):
+        if not before < here < np.inf:
+            raise InputError("finite bit depths, each below the one before", key=key, value=f"{here:g} m")
+    return depths
 
 
 def usual_depths(case: Case, count: int) -> list[float]:

@@ -91,6 +91,9 @@ class Wellbore:
         if not abs(covered - along) <= SAME_LENGTH:
             raise AssertionError(f"the pieces of the hole cover {covered:.6f} m of an axis of {along:.6f} m")
 
+    def __repr__(self) -> str:
+        return f"Wellbore({self.total_depth:g} m, {len(self.pieces)} pieces)"
+
     @property
     def stiffest_wall(self) -> float:
         """Largest wall stiffness [N/m per point, or N/m/m]; a wall that leans is stiffer (stored_walls.lean_wall)."""

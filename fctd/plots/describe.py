@@ -14,6 +14,7 @@ from fctd.plots.description import Curve, DepthAxis, Description, Group, Key, La
 from fctd.plots.limit_lines import limit_lines
 from fctd.plots.loads import (
     LOAD_COLUMNS,
+    MOST_CURVES,
     NAMES,
     PLAIN,
     TORQUE,
@@ -48,9 +49,7 @@ EDGE, APART = 0.015, 0.025
 def describe(chart: Chart, units: System = "si", case: Case | None = None, look: ChartLook = PLAIN) -> Description:
     """The description of a chart; the arguments are those of ``chart_figure``."""
     load, measured, series = look.load_of(case), look.measured, series_of(chart, units)
-    groups, frictions = groups_of(series), frictions_of(series)
-    if len(groups) > MOST_GROUPS:
-        raise InputError(f"at most {MOST_GROUPS} groups of curves in a picture", key="friction", value=len(groups))
+    frictions = frictions_of(series)
     columns = LOAD_COLUMNS[load], TORQUE
     lines = [limit_lines(look.margins, case, load, column) for column in columns]
     values = [[line.value for line in of] for of in lines]
@@ -59,12 +58,19 @@ def describe(chart: Chart, units: System = "si", case: Case | None = None, look:
         limits_of_torque(series, units, measured, values[1]),
     )
     metre = shown(DEPTH.name, units)
+    spans = [
+        (limit.high - limit.low) / shown(column, units).factor for limit, column in zip(limits, columns, strict=True)
+    ]
+    drawn = [len(_distinct(series, column, span)) for column, span in zip(columns, spans, strict=True)]
+    groups = [("", series)] if max(drawn) <= MOST_CURVES else groups_of(series)
+    if len(groups) > MOST_GROUPS:
+        raise InputError(f"at most {MOST_GROUPS} groups of curves in a picture", key="friction", value=len(groups))
 
     def panel(column: str, group: list[Series], lanes: dict[int, int]) -> Panel:
         k, unit = columns.index(column), shown(column, units)
         kinds = dict.fromkeys(one.operation for one in group)
         curves = []
-        for at, of in enumerate(_distinct(group, column, (limits[k].high - limits[k].low) / unit.factor)):
+        for at, of in enumerate(_distinct(group, column, spans[k])):
             one, factors = group[of[0]], _factors([group[i] for i in of], group)
             reasons = {text: reworded(str(text), units) for text in dict.fromkeys(one.columns["reason"])}
             rows, none = one.columns, np.full(len(one.columns[column]), np.nan)

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 # Units of pictures for quantities that no table has: SI unit, metric unit, field unit.
 _DENSITY: Final = ("kg/m^3", "kg/m^3", "lb/gal")
 _SPEED: Final = ("m/s", "m/s", "ft/min")
+_FLOW: Final = ("m^3/s", "L/min", "gallon/min")
 _PENETRATION: Final = ("m/s", "m/h", "ft/h")  # rate of a bit on bottom
 
 
@@ -42,6 +43,7 @@ def facts_of(
         speed, rpm = abs(rates[kind].speed), rates[kind].spin / rad_per_s(1.0)
         parts = [_in(speed, _PENETRATION if KINDS[kind].on_bottom else _SPEED, units, 3)] if speed else []
         parts += [f"{rpm:.3g} rev/min"] if rpm else []
+        parts += [_in(rates[kind].flow, _FLOW, units, 3)] if rates[kind].flow else []
         facts += [f"{KINDS[kind].label} {' and '.join(parts)}"]
     return facts
 
@@ -92,7 +94,11 @@ def _in(value: float, unit_of: tuple[str, str, str], units: System, digits: int 
     """An SI value with its unit."""
     si, metric, field = unit_of
     unit = field if units == "field" else metric
-    return f"{value * conversion(si, unit):.{digits}g} {unit}".replace("^3", "³").replace("lb/gal", "ppg")
+    return (
+        f"{value * conversion(si, unit):.{digits}g} {unit}".replace("^3", "³")
+        .replace("lb/gal", "ppg")
+        .replace("gallon/min", "gpm")
+    )
 
 
 def _load(value: float, column: str, units: System) -> str:

@@ -24,7 +24,7 @@ PRESSURES: Final = {
 def losses_panels(table: pd.DataFrame, last: Circulation, units: System, lines: Sequence[str] = ()) -> Panels:
     """Pressures lost against bit depth, and equivalent densities; along the hole where there is one depth.
 
-    table : of ``pressure_losses``, SI; last : the circulation with the largest flow at its last depth.
+    table : of ``hydraulics_of``, SI; last : the circulation with the largest flow at its last depth.
     """
     found = table[table["reason"] == "none"]
     metre, bar, density = (shown(name, units) for name in ("bit_depth_m", "standpipe_Pa", "ecd_bit_kg_m3"))

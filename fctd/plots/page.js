@@ -1,8 +1,9 @@
 // Panels side by side where the window has room for them, else in rows of as many as are readable.
 {
   const gd = document.getElementById("fctd");
-  const NARROWEST = 110, READABLE = 150, ROW = 420, BELOW = 90, TOP = 40, ENTRY = 20; // [px]
+  const NARROWEST = 110, READABLE = 150, ROW = 420, BELOW = 90, ENTRY = 20; // [px]
   const names = Object.keys(gd.layout).filter((key) => /^xaxis\d*$/.test(key));
+  const TOP = gd.layout.margin.t;
   const first = { height: gd.layout.height, "margin.t": gd.layout.margin.t, "margin.b": gd.layout.margin.b,
                   "margin.r": gd.layout.margin.r };
   const inRow = new Set(names.map((x) => gd.layout[x].domain[0])).size;

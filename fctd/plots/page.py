@@ -19,7 +19,7 @@ from fctd.plots.describe import describe
 from fctd.plots.facts import heading_of_chart, heading_of_profile
 from fctd.plots.loads import PLAIN, ChartLook
 from fctd.plots.palette import EDGE, LOOKS, QUIET
-from fctd.plots.traces import SHOE, SYMBOLS, buckled, layout_of, plain, traces_of
+from fctd.plots.traces import SHOE, SYMBOLS, TITLE, buckled, layout_of, plain, traces_of
 from fctd.plots.tracks import TRACKS, SideForce, depth_ends, label_of, limits_near, limits_of_track, peaks_of, values_of
 from fctd.results.columns import COLUMNS
 from fctd.results.unit_systems import System, shown
@@ -29,7 +29,8 @@ from fctd.store.whole_file import whole_file
 MARKS: Final = 12  # markers on a curve of a profile, which tell operations apart in grey
 PANEL: Final = 560  # height of a row of panels [px]
 LINE: Final = 18  # height of a line of the heading [px]
-ABOVE: Final = 40  # height above the panels of a page, whose heading is text [px]
+ABOVE: Final = 40  # height above the panels of a page, whose heading is text, and above what stands over them [px]
+GROUP: Final = 24  # height of the name of a group [px]
 # A page stays on its machine: plotly's own button would upload the chart.
 CONFIG: Final = {"displaylogo": False, "modeBarButtonsToRemove": ["sendChartToCloud"]}
 FOLDER: Final = Path(__file__).parent
@@ -44,9 +45,9 @@ def save_page(figure: go.Figure, path: Path) -> list[Path]:
     drawn, style = go.Figure(figure), (FOLDER / "page.css").read_text(encoding="utf-8")
     heading = drawn.layout.meta or {}
     if heading:
-        # The room above the panels, but for the titles of their groups.
-        saved = drawn.layout.margin.t - ABOVE
-        drawn.update_layout(title=None, meta=None, margin_t=ABOVE, height=drawn.layout.height - saved)
+        above = ABOVE + heading["over"]
+        saved = drawn.layout.margin.t - above
+        drawn.update_layout(title=None, meta=None, margin_t=above, height=drawn.layout.height - saved)
     lines = "".join(f"<p>{plain(line)}</p>" for line in heading.get("lines", ()))
     title = plain(heading.get("title", ""))
     with whole_file(path) as scratch:
@@ -68,7 +69,8 @@ def chart_page(
     described = describe(chart, units, case, look)
     figure = go.Figure(traces_of(described), layout_of(described))
     title, lines = heading_of_chart(chart, units, case, look.rates, look.warnings)
-    return with_heading(figure, title, lines, PANEL * len(described.groups))
+    over = TITLE + (GROUP if len(described.groups) > 1 else 0)
+    return with_heading(figure, title, lines, PANEL * len(described.groups), over)
 
 
 def profile_page(
@@ -147,16 +149,18 @@ def _peak(point: Equilibrium, depth: float, value: float, edge: float, unit: str
     )  # fmt: skip
 
 
-def with_heading(figure: go.Figure, title: str, lines: Sequence[str], height: int) -> go.Figure:
-    """The figure with its title, the lines below it, and the legend below the panels."""
-    top = 58 + LINE * (len(lines) + 1)
+def with_heading(figure: go.Figure, title: str, lines: Sequence[str], height: int, over: int = 0) -> go.Figure:
+    """The figure with its title, the lines below it, and the legend below the panels; over : height of what stands over
+    the panels [px].
+    """
+    top = 58 + LINE * (len(lines) + 1) + over
     small = "".join(f"<br><span style='font-size:12px;font-weight:normal'>{_wrapped(line)}</span>" for line in lines)
     extra = sum(_wrapped(line).count("<br>") for line in lines) * LINE
     title_text = f"<b>{plain(title)}</b>{small}"
     figure.update_layout(
         title={"text": title_text, "x": 0.01, "xanchor": "left", "y": 1, "yanchor": "top", "pad": {"t": 20}},
         # A page writes the same as text.
-        meta={"title": title, "lines": list(lines)},
+        meta={"title": title, "lines": list(lines), "over": over},
         height=height + top + extra + 80, margin={"t": top + extra, "l": 70, "r": 45, "b": 110},
         template="plotly_white", modebar={"orientation": "v"},  # beside the panels, not over the title
         legend={"orientation": "h", "y": 0, "yref": "container", "yanchor": "bottom"}, hovermode="closest",

@@ -14,6 +14,7 @@ from matplotlib.patches import Patch
 from fctd.case.errors import InputError
 from fctd.case.operations import KINDS
 from fctd.case.text import counted
+from fctd.plots import loads
 from fctd.plots.keys import in_words, labelled
 from fctd.plots.palette import DARK, LOOKS, PALETTE, QUIET
 from fctd.plots.style import RC, Sheet
@@ -37,7 +38,7 @@ def label_of(column: str, units: System) -> tuple[str, Shown]:
         unit = shown(column, units)
     except ValueError:
         unit = Shown(1.0, "")
-    name = COLUMNS[column].label if column in COLUMNS else _words(column, unit)
+    name = loads.NAMES.get(column) or (COLUMNS[column].label if column in COLUMNS else _words(column, unit))
     return f"{name}, {unit.label}" if unit.label else name, unit
 
 

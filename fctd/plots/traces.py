@@ -26,6 +26,8 @@ CLEAR: Final = "rgba(0,0,0,0)"
 WIDTH, LIMIT_WIDTH = 2.0, 1.5  # of lines [px]
 DOMAINS: Final = ((0.0, 0.57), (0.61, 1.0))  # of loads and torques
 BETWEEN: Final = 0.3  # share of the height that groups leave between them, all together
+TITLE: Final = 46  # height of an axis of loads with its title, which stand above a panel [px]
+HIGHEST: Final = 0.06  # share of the depths within which the name of a shoe stands below its line
 LINE, LONGEST = 60, 300  # characters of a line and of a text under the pointer
 
 
@@ -64,14 +66,15 @@ def layout_of(described: Description) -> dict[str, Any]:
         if group.name:
             layout["annotations"].append({
                 "text": plain(group.name), "xref": "paper", "yref": "paper", "x": 0, "y": bottom + height,
-                "xanchor": "left", "yanchor": "bottom", "showarrow": False,
+                "xanchor": "left", "yanchor": "bottom", "yshift": TITLE, "showarrow": False,
             })  # fmt: skip
         for col, panel in enumerate(group.panels):
             number = 2 * row + col + 1
             k = str(number) if number > 1 else ""
             layout[f"xaxis{k}"] = {
                 "title": {"text": panel.label}, "range": [panel.limits.low, panel.limits.high],
-                "domain": list(DOMAINS[col]), "anchor": f"y{k}", "nticks": 6, "zeroline": False,
+                "domain": list(DOMAINS[col]), "anchor": f"y{k}", "side": "top", "nticks": 5, "tickangle": 0,
+                "zeroline": False,
             }  # fmt: skip
             layout[f"yaxis{k}"] = {
                 "range": [depth.lower, depth.upper], "domain": [bottom, min(bottom + height, 1.0)], "anchor": f"x{k}",
@@ -85,7 +88,9 @@ def layout_of(described: Description) -> dict[str, Any]:
 
 def _mark(layout: dict[str, Any], described: Description, panel: Panel, k: str, *, named: bool) -> None:
     """Add shoes, names of intervals and the span of loads at which slack-off is spent."""
-    across = {"xref": f"x{k} domain", "yref": f"y{k}"}
+    across, depth = {"xref": f"x{k} domain", "yref": f"y{k}"}, described.depth
+    # One above it would stand over the axis.
+    highest = depth.upper + HIGHEST * (depth.lower - depth.upper)
     for mark in described.marks:
         if mark.shoe:
             ends = {"x0": 0, "x1": 1, "y0": mark.depth, "y1": mark.depth}
@@ -93,7 +98,8 @@ def _mark(layout: dict[str, Any], described: Description, panel: Panel, k: str, 
         if named:
             layout["annotations"].append({
                 "text": ", ".join(map(plain, mark.lines)), **across, "x": 1, "y": mark.depth, "xanchor": "right",
-                "yanchor": "bottom", "showarrow": False, "font": {"size": 11, "color": QUIET},
+                "yanchor": "bottom" if mark.depth > highest else "top", "showarrow": False,
+                "font": {"size": 11, "color": QUIET},
             })  # fmt: skip
     if panel.spent is not None:
         layout["shapes"].append({

@@ -1,16 +1,24 @@
-"""Results as notebooks show them: a small table."""
+"""Results as notebooks show them: a small table, and a picture."""
 
 from __future__ import annotations
 
+import io
 from collections.abc import Mapping
+from html import escape
+from importlib import import_module
 from math import isnan
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
+from fctd.case.errors import InputError
 from fctd.results.columns import COLUMNS, LOADS
-from fctd.results.unit_systems import shown
+from fctd.results.unit_systems import System, shown
 
 if TYPE_CHECKING:
-    pass
+    from os import PathLike
+
+    import pandas as pd
+    from matplotlib.figure import Figure
 
 # Loads that say most: hook load and surface torque.
 MAIN = LOADS[:2]
@@ -24,12 +32,47 @@ def html_table(title: str, rows: Mapping[str, str]) -> str:
     return table.replace(' style="text-align: right;"', ' style="text-align: left;"')
 
 
-def load_rows(loads: Mapping[str, float]) -> dict[str, str]:
+def html_of(title: str, table: pd.DataFrame, most: int = 12) -> str:
+    """A table below a title, as HTML; of a long one the first and the last rows.  Texts are escaped."""
+    return f"<p><b>{escape(title)}</b></p>{table.to_html(max_rows=most, index=False, float_format='{:.5g}'.format)}"
+
+
+def load_rows(loads: Mapping[str, float], units: System = "si") -> dict[str, str]:
     """Labels of columns and their values with units, "hook load": "957.9 kN"; a dash for NaN."""
     rows = {}
     for name, value in loads.items():
-        unit = shown(name, "si")
+        unit = shown(name, units)
         rows[COLUMNS[name].label] = (
             "–" if isnan(value) else f"{value * unit.factor:z.{COLUMNS[name].digits}f} {unit.label}"
         )
     return rows
+
+
+class Picture:
+    """A picture of a result, which notebooks show.  figure : matplotlib's, to change or to add to."""
+
+    def __init__(self, figure: Figure) -> None:
+        self.figure = figure
+
+    def save(self, path: str | PathLike[str]) -> list[Path]:
+        """Write it as .png, .svg or .pdf; returns the file.  Raises InputError where it cannot be written."""
+        files: list[Path] = drawers().save(self.figure, Path(path))
+        return files
+
+    def _repr_png_(self) -> bytes:
+        image = io.BytesIO()
+        self.figure.savefig(image, format="png")
+        return image.getvalue()
+
+
+def drawers() -> Any:
+    """``fctd.plots``, which stands above the rooms of the results, and so is found by its name."""
+    return import_module("fctd.plots")
+
+
+def picture(name: str, *of: Any, **options: Any) -> Picture:
+    """The picture that a function of ``fctd.plots`` draws; raises InputError where its package is missing."""
+    try:
+        return Picture(getattr(drawers(), name)(*of, **options))
+    except ModuleNotFoundError as error:
+        raise InputError(f"the package {error.name} (pip install 'fctd[plot]')", key="plot") from None

@@ -130,6 +130,15 @@ class Note:
         return f"{self.text}: {self.remedy}"
 
 
+@dataclass(frozen=True)
+class RowNote(Note):
+    """The note of a row of a chart.  friction : label of its factors; bit_depth [m]."""
+
+    operation: str = ""
+    friction: str = ""
+    bit_depth: float = math.nan
+
+
 def note_of(code: str, text: str, excess: float, place: float | None = None) -> Note:
     """A note with the remedy of its code."""
     return Note(code, text, MEANINGS[code].remedy, place, excess)

@@ -15,7 +15,7 @@ from fctd.case.input_file import check_regular
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case
 from fctd.case.text import counted
-from fctd.results.display import MAIN, html_table, load_rows
+from fctd.results.display import MAIN, Picture, html_table, load_rows, picture
 from fctd.results.notes import Note, as_metadata, from_metadata
 from fctd.results.status import RunStatus
 from fctd.results.unit_systems import System, in_field_units
@@ -72,6 +72,10 @@ class SimulationResult:
         rows = {"status": str(self.status), "records": str(len(self.history)), **load_rows(loads)}
         return html_table(f"{self.case.name}{self._end}", rows)
 
+    def plot(self, units: System = "si") -> Picture:
+        """Hook load, torque, rotation and depth over time, and where the string touched."""
+        return picture("run_figure", self, units)
+
     @property
     def _end(self) -> str:
         if self.history.empty:
@@ -79,13 +83,14 @@ class SimulationResult:
         last = self.history.iloc[-1]
         return f", {last['operation']} at {last['bit_depth_m']:.1f} m"
 
-    def save(self, folder: Path, csv: bool = False, units: System = "si") -> list[Path]:
+    def save(self, folder: str | os.PathLike[str], csv: bool = False, units: System = "si") -> list[Path]:
         """Write the tables of ``TABLES`` as the results in ``folder``; returns the files written.
 
         They take the place of an earlier run's tables all at once; other files in the folder stay.  units : of the CSV
         files; the Parquet files are SI, as ``open_result`` reads them.  Raises InputError where the folder cannot be
         written.
         """
+        folder = Path(folder)
         metadata = {
             "case": self.case.model_dump(mode="json"),
             "status": self.status,

@@ -107,7 +107,7 @@ def _flat(value: Any, key: str = "") -> Iterator[tuple[str, Any]]:
             yield from _flat(inner, f"{key}.{name}" if key else str(name))
     elif not isinstance(value, list | tuple):
         if value is not None:
-            yield key, value if isinstance(value, Real) and not isinstance(value, bool) else _plain(value)
+            yield key, _plain(value) if isinstance(value, bool) or not isinstance(value, Real) else value
     elif len(value) > _MOST:
         yield key, f"{len(value)} rows"
     elif any(isinstance(item, Mapping | list | tuple) for item in value):

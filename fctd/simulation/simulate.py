@@ -8,7 +8,8 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from fctd.case.load import Case, naming_file
+from fctd.case.friction import FrictionChoice
+from fctd.case.load import Case, naming_file, with_friction
 from fctd.mechanics import topdrive
 from fctd.mechanics.energy import Energy
 from fctd.mechanics.faults import UnstableError
@@ -333,16 +334,20 @@ def simulate(
     contact: WallQuery | None = None,
     settling: Settling | None = None,
     checkpointer: Checkpointer | None = None,
+    friction: FrictionChoice | None = None,
 ) -> SimulationResult:
     """Simulate a case's operations.
 
     contact : another contact method, built for the hole of this case, that finds the wall at every step;
     friction, force law and step stay the same.  settling : called while the string settles before the start.
-    checkpointer : keeps the run while it lasts.
+    checkpointer : keeps the run while it lasts.  friction : kinetic factors as of ``fctd.equilibrium``, along which
+    static ones are scaled; None for the case's own.
 
     Returns all records up to the end of the run: ``status`` is ``completed`` or the reason for the stop, ``message``
     its time.  Raises InputError for a case that cannot be simulated.
     """
+    with naming_file(case):
+        case = with_friction(case, friction)
     simulation = Simulation(case, contact, settling=settling)
     try:
         if checkpointer is not None:

@@ -10,11 +10,12 @@ import numpy as np
 
 from fctd.arrays import Array
 from fctd.case.errors import InputError
-from fctd.case.load import Case, check_bit_depth, naming_file
+from fctd.case.friction import FrictionChoice
+from fctd.case.load import Case, check_bit_depth, naming_file, with_friction
 from fctd.case.operation_names import kinds_of
 from fctd.case.solver import RESOLVING
-from fctd.case.units import LENGTH, argument
 from fctd.mechanics import state
+from fctd.model.depths import depth_of
 from fctd.model.drillstring import lay_out
 from fctd.model.operations import SteadyRates, steady_rates
 from fctd.model.string_in_hole import check_end, check_fit
@@ -121,15 +122,19 @@ def equilibrium(
     speed: float | str | None = None,
     rpm: float | str | None = None,
     flow: float | str | None = None,
+    *,
+    friction: FrictionChoice | None = None,
 ) -> Equilibrium:
-    """The steady string of an operation with the bit at ``bit_depth`` [m], or a text such as "8000 ft".
+    """The steady string of an operation with the bit at ``bit_depth`` [m], or a text: "8000 ft", "td" or "shoe".
 
     operation : a kind of operation.  speed [m/s], rpm, flow [m³/s], or texts with units : by default those of the
-    case's operation of that kind, else the kind's defaults.  Weight on bit and bit torque are the case's.  Raises
-    InputError for input that cannot be used; ``status`` says whether a balance was found.
+    case's operation of that kind, else the kind's defaults.  friction : factors as one set of ``torque_drag``, None for
+    the case's own.  Weight on bit and bit torque are the case's.  Raises InputError for input that cannot be used;
+    ``status`` says whether a balance was found.
     """
     with naming_file(case):
-        depth = argument(bit_depth, LENGTH, "bit_depth")
+        depth = depth_of(bit_depth, case, "bit_depth")
+        case = with_friction(case, friction)
         (kind,) = kinds_of([operation])
         return Solver(case).solve(kind, steady_rates(case, kind, speed, rpm, flow), depth)
 
@@ -137,8 +142,13 @@ def equilibrium(
 def lie_along(case: Case, bit_depth: float) -> tuple[Array, Array]:
     """Where a case's string lies with the bit at a depth [m]: distances from the bit (n,) [m], falling, and ``lie_of``.
 
-    For the ``eccentricity`` of ``pressure_losses``, ``surge_pressures`` and ``fastest_trips``.  Raises InputError where
+    For the ``eccentricity`` of ``hydraulics_of``, ``surge_pressures`` and ``fastest_trips``.  Raises InputError where
     string and hole do not fit, or no steady string is found.
+
+        >>> case = fctd.load_case("examples/pumped_well.toml")
+        >>> above, share = fctd.lie_along(case, 3000.0)
+        >>> bool(share[-1] > share[0])  # beside the bit it lies farther aside than in the vertical hole at the top
+        True
     """
     laid = Solver(case).lay_out(bit_depth)
     share = lie_of(laid)

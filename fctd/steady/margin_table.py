@@ -6,13 +6,15 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Final
 
 from fctd.case.errors import InputError
-from fctd.case.load import Case, naming_file
+from fctd.case.friction import FrictionChoice
+from fctd.case.load import Case, naming_file, with_friction
 from fctd.case.operation_names import kinds_of
-from fctd.case.units import LENGTH, argument
+from fctd.model.depths import depths_of
 from fctd.model.operations import SteadyRates, rates_of_all
+from fctd.results.attrs import attrs_of
 from fctd.steady.equilibrium import Solver
 from fctd.steady.margins import Margin, margins
-from fctd.steady.torque_drag import FrictionChoice, Row, with_friction
+from fctd.steady.torque_drag import Row
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -30,10 +32,10 @@ USUAL: Final = ("trip_out", "trip_in", "rotate_off_bottom")
 Progress = Callable[[int, int], None]
 
 
-def margin_table(
+def limits_of(
     case: Case,
     operation: str | Sequence[str] = USUAL,
-    bit_depths: Sequence[float | str] = (),
+    bit_depths: float | str | Sequence[float | str] = "td",
     friction: FrictionChoice | None = None,
     speed: float | str | None = None,
     rpm: float | str | None = None,
@@ -42,8 +44,8 @@ def margin_table(
 ) -> pd.DataFrame:
     """A row for every margin of every operation and bit depth, SI.
 
-    operation : kind or kinds.  bit_depths [m], or texts with units; without any the depth of the hole.  friction : None
-    for the case's own.  speed [m/s], rpm, flow [m³/s] : see ``equilibrium``.
+    operation : kind or kinds.  bit_depths, ``attrs`` : as of ``torque_drag``.  friction : None for the case's own.
+    speed [m/s], rpm, flow [m³/s] : see ``equilibrium``.
 
     Columns: operation, bit_depth_m, and those of ``Margin``: margin (overpull, set_down, torque, slips, fatigue, or
     none where no steady string was found), limit (the first that is reached), part and md_m (where), share_used (of
@@ -57,9 +59,10 @@ def margin_table(
 
     with naming_file(case):
         kinds = kinds_of(operation)
-        depths = [argument(depth, LENGTH, "bit_depths") for depth in bit_depths] or [case.depths[1]]
+        depths = depths_of(bit_depths, case, "bit_depths")
         rates = rates_of_all(case, kinds, speed, rpm, flow)
-        solver = Solver(case if friction is None else with_friction(case, friction))
+        case = with_friction(case, friction)
+        solver = Solver(case)
         rows: list[Row] = []
         unfit: list[InputError] = []
         for done, depth in enumerate(depths):
@@ -73,13 +76,15 @@ def margin_table(
                 progress(done + 1, len(depths))
         if len(unfit) == len(depths):
             raise unfit[0]
-    return pd.DataFrame(rows)
+    table = pd.DataFrame(rows)
+    table.attrs = attrs_of(case, kinds, {"speed": speed, "rpm": rpm, "flow": flow})
+    return table
 
 
 def margin_rows(
     solver: Solver, kinds: Sequence[str], rates: Mapping[str, SteadyRates], depth: float, **options: bool
 ) -> list[Row]:
-    """The rows of ``margin_table`` at a bit depth [m]; options : of ``margins``.
+    """The rows of ``limits_of`` at a bit depth [m]; options : of ``margins``.
 
     Raises InputError where string and hole do not fit.
     """

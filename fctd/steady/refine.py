@@ -23,12 +23,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fctd.case.errors import InputError
-from fctd.case.load import Case, check_bit_depth, naming_file
+from fctd.case.friction import FrictionChoice
+from fctd.case.load import Case, check_bit_depth, naming_file, with_friction
 from fctd.case.operation_names import kinds_of
-from fctd.case.units import LENGTH, argument, bare
+from fctd.case.text import counted
+from fctd.case.units import bare
 from fctd.mechanics.state import MAX_SEGMENTS
 from fctd.model import layouts
+from fctd.model.depths import depth_of
 from fctd.model.operations import rates_of_all
+from fctd.results.display import html_of
 from fctd.results.notes import Note, worst
 from fctd.results.status import RefineStatus
 from fctd.steady.chords import largest_chord, shorter_cylinders
@@ -52,7 +56,7 @@ ANSWERS, UNANSWERED = 3, 2
 WORTH = 0.9
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Refinement:
     """The result of a refinement: the last case that was solved, with its estimated error.
 
@@ -80,6 +84,13 @@ class Refinement:
     notes: tuple[Note, ...] = ()
     resolved: int = 0
 
+    def __repr__(self) -> str:
+        found = f"{counted(self.segments, 'segment')}, {100 * self.error:.2g} % left"
+        return f"Refinement({self.case.name!r}: {self.status}, {found})"
+
+    def _repr_html_(self) -> str:
+        return html_of(repr(self), self.steps)
+
 
 def refine(
     case: Case,
@@ -92,18 +103,22 @@ def refine(
     rpm: float | str | None = None,
     flow: float | str | None = None,
     progress: Progress | None = None,
+    *,
+    friction: FrictionChoice | None = None,
 ) -> Refinement:
     """Cut the string of a case finer until hook load and torque are within ``tolerance`` (0.01 is 1 %).
 
-    operation : kind or kinds, by default that of the case's first operation; bit_depth [m], by default that operation's
-    end.  graded : short segments in bends and near the bit, long ones elsewhere, if that takes at least a tenth fewer
-    segments than one length for all; a graded string is valid for this bit depth only.  most : segments at most.  speed
-    [m/s], rpm, flow [m³/s] : see ``torque_drag``.  Errors are relative to the load, or to a tenth of the string's
-    weight (hook load) or of Σ r μ F_n (torque) where that is more; without rotation to all of Σ r μ F_n.  The solver
-    lays out the buckled stretch of a string, unless the case sets ``solver.buckling``.  Raises InputError for bad
-    input.
+    operation : kind or kinds, by default that of the case's first operation; bit_depth [m], or a text as of
+    ``equilibrium``, by default that operation's end.  graded : short segments in bends and near the bit, long ones
+    elsewhere, if that takes at least a tenth fewer segments than one length for all; a graded string is valid for this
+    bit depth only.  most : segments at most.  speed [m/s], rpm, flow [m³/s] : see ``torque_drag``.  friction : factors
+    as of ``equilibrium``, which the refined case has too.  Errors are relative to the load, or to a tenth of the
+    string's weight (hook load) or of Σ r μ F_n (torque) where that is more; without rotation to all of Σ r μ F_n.  The
+    solver lays out the buckled stretch of a string, unless the case sets ``solver.buckling``.  Raises InputError for
+    bad input.
     """
     with naming_file(case):
+        case = with_friction(case, friction)
         kinds = _kinds(case, operation)
         depth = _depth(case, kinds[0], bit_depth)
         _check(case, tolerance, most, depth)
@@ -252,7 +267,7 @@ def _kinds(case: Case, operation: str | Sequence[str] | None) -> list[str]:
 def _depth(case: Case, kind: str, bit_depth: float | str | None) -> float:
     """The given bit depth, else the end of the case's first operation of that kind, else of its first operation."""
     if bit_depth is not None:
-        return argument(bit_depth, LENGTH, "bit_depth")
+        return depth_of(bit_depth, case, "bit_depth")
     if not case.operations:
         raise InputError("a bit depth, as the case has no operation", key="bit_depth")
     return next((o for o in case.operations if o.kind == kind), case.operations[0]).end_md

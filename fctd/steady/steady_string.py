@@ -19,11 +19,12 @@ from fctd.model.tortuosity import shortfall
 from fctd.model.wellbore import Wellbore
 from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling
 from fctd.results.columns import IN_CHART, Column
-from fctd.results.display import MAIN, html_table, load_rows
+from fctd.results.display import MAIN, Picture, html_table, load_rows, picture
 from fctd.results.limits import WORST
 from fctd.results.notes import Note, flow_law, flow_lie, homogenised, limit_notes, rig_notes
 from fctd.results.profile import profile_table
 from fctd.results.status import SteadyStatus
+from fctd.results.unit_systems import System
 from fctd.steady.continuation import CONVERGED, NOT_FINITE
 from fctd.steady.laid_string import LaidString
 from fctd.steady.pose import PLACE
@@ -88,6 +89,10 @@ class Equilibrium:
     def _repr_html_(self) -> str:
         title = f"{self.case.name}: {self.operation}, bit at {self.bit_depth:g} m"
         return html_table(title, {"status": str(self.status), **self._load_rows(IN_CHART)})
+
+    def plot(self, units: System = "si") -> Picture:
+        """The string from the top to the bit: tension, torque, side force and so on over depth."""
+        return picture("profile_figure", [self], units)
 
     def _load_rows(self, of: Sequence[Column]) -> dict[str, str]:
         return load_rows({load.name: load.value(self) if self.answered else float("nan") for load in of})

@@ -8,15 +8,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fctd.case.errors import InputError
-from fctd.case.friction import FrictionSet, changed, friction_set, friction_sets, own_label, table_of
-from fctd.case.load import Case, naming_file
+from fctd.case.friction import FrictionChoice, FrictionSet, friction_sets, own_label, table_of
+from fctd.case.load import Case, naming_file, with_friction
 from fctd.case.operation_names import kinds_of
-from fctd.case.units import LENGTH, argument
+from fctd.model.depths import depths_of
 from fctd.model.operations import SteadyRates, rates_of_all
 from fctd.model.wellbore import Wellbore, build_wellbore
+from fctd.results.attrs import attrs_of
 from fctd.results.buckling import UNKNOWN
 from fctd.results.columns import IN_CHART, SHAPES, SHARES
-from fctd.results.notes import codes_of
+from fctd.results.notes import Note, RowNote, codes_of
 from fctd.results.status import SteadyStatus
 from fctd.steady import batch
 from fctd.steady.carried_shape import Carried
@@ -31,7 +32,6 @@ if TYPE_CHECKING:
 
 # Called after every row with the number of rows done and their total.
 Progress = Callable[[int, int], None]
-FrictionChoice = float | str | Mapping[str, float | str] | FrictionSet
 Row = dict[str, Any]
 # Largest number of rows in a batch: the progress of a chart comes in steps of it.
 ROWS = 16
@@ -40,7 +40,7 @@ ROWS = 16
 def torque_drag(
     case: Case,
     operation: str | Sequence[str],
-    bit_depths: Sequence[float | str],
+    bit_depths: float | str | Sequence[float | str],
     friction: FrictionChoice | Sequence[FrictionChoice] | None = None,
     speed: float | str | None = None,
     rpm: float | str | None = None,
@@ -50,7 +50,8 @@ def torque_drag(
 ) -> pd.DataFrame:
     """A row per operation, friction and depth.
 
-    operation : kind or kinds.  bit_depths [m], or texts with units : rising.  friction : None for the case's own,
+    operation : kind or kinds.  bit_depths [m], or texts as of ``equilibrium`` : one or several, rising, or those of a
+    text FROM:TO:STEP such as "shoe:td:50".  friction : None for the case's own,
     or what is set in turn, each a kinetic factor for every interval or factors by kind, such as {"cased": 0.2,
     "open": 0.3}; a text "0.3/0.2" is a factor along the hole and one around it.  speed [m/s], rpm : see
     ``equilibrium``; only for kinds that have them.  flow [m³/s] : of the pumps, for all kinds.  threads : by
@@ -72,17 +73,34 @@ def torque_drag(
     one that is ``unstable`` because no steady shape was found.  At a depth where string and hole do not fit the status
     is ``not_possible``.
 
-    Raises InputError for unusable input, and where string and hole fit at none of the depths.
+    ``attrs`` of the table say its units, case, warnings and version (``attrs_of``).  Raises InputError for unusable
+    input, and where string and hole fit at none of the depths.
     """
+    drive = {"speed": speed, "rpm": rpm, "flow": flow}
+    rows = chart_rows(case, operation, bit_depths, friction, **drive, progress=progress, threads=threads)
+    return table_of_rows(rows, case, operation, friction, drive)
+
+
+def table_of_rows(
+    rows: Sequence[Row],
+    case: Case,
+    operation: str | Sequence[str],
+    friction: FrictionChoice | Sequence[FrictionChoice] | None,
+    drive: Mapping[str, float | str | None],
+) -> pd.DataFrame:
+    """Rows of ``chart_rows`` as the table of ``torque_drag``, with ``attrs`` (``attrs_of``)."""
     import pandas as pd  # slow to import, and a command that prints rows needs none
 
-    return pd.DataFrame(chart_rows(case, operation, bit_depths, friction, speed, rpm, flow, progress, threads))
+    kinds, sets = kinds_of(operation), () if friction is None else friction_sets(friction)
+    table = pd.DataFrame(rows)
+    table.attrs = attrs_of(case, kinds, drive, sets)
+    return table
 
 
 def chart_rows(
     case: Case,
     operation: str | Sequence[str],
-    bit_depths: Sequence[float | str],
+    bit_depths: float | str | Sequence[float | str],
     friction: FrictionChoice | Sequence[FrictionChoice] | None = None,
     speed: float | str | None = None,
     rpm: float | str | None = None,
@@ -93,15 +111,16 @@ def chart_rows(
     known: Sequence[list[Row]] = (),
     above: dict[str, Carried] | None = None,
     keep: Callable[[list[Row]], None] | None = None,
+    notes: list[RowNote] | None = None,
 ) -> list[Row]:
     """The rows of ``torque_drag``, each a mapping from column to value.
 
     known : the rows of the first depths, where another process has computed them; above : the shapes of its last
     resolved rows by their loads, which change with the rows; keep : called with the rows of each other depth, in their
-    order.
+    order; notes : gets those of the rows that are computed here, in the order of the rows.
     """
     with naming_file(case):
-        depths = _check_depths(bit_depths)
+        depths = depths_of(bit_depths, case, "bit_depths")
         kinds = kinds_of(operation)
         rates = rates_of_all(case, kinds, speed, rpm, flow)
         sets = None if friction is None else friction_sets(friction)
@@ -123,6 +142,8 @@ def chart_rows(
                         progress((len(rows) - 1) * len(chart.loads) + len(rows[-1]), total)
                 if keep is not None:
                     keep(rows[-1])
+        if notes is not None:
+            notes += chart.notes_of(depths)
         if unfit and misfits + len(unfit) == len(depths):
             raise unfit[0]
         return [row for series in zip(*rows, strict=True) for row in series]
@@ -149,6 +170,7 @@ class _Chart:
         self.solvers, self.rates, self._above = solvers, rates, above
         self.loads = [(kind, k) for kind in kinds for k in range(len(solvers))]
         self._batches = batch.Batches(solvers[0][1].case, [solver.hole for _, solver in solvers])
+        self._notes: dict[tuple[str, int, float], tuple[Note, ...]] = {}
 
     def attempt(self, depths: Sequence[float]) -> list[AtDepth]:
         """What one attempt finds at some bit depths [m]; several threads may call it."""
@@ -171,7 +193,7 @@ class _Chart:
         rates = self.rates[kind]
         point = solver.first(kind, rates, string, next(answers))
         if point is not None:
-            return _row(label, solver, kind, depth, point)
+            return self._answer(kind, k, depth, point)
 
         def by_other_methods() -> Row:
             above = self._above.pop(loads := f"{kind} {k}", None)
@@ -181,9 +203,23 @@ class _Chart:
                 return _row(label, solver, kind, depth, None, str(error))
             if point.carried is not None:
                 self._above[loads] = point.carried
-            return _row(label, solver, kind, depth, point)
+            return self._answer(kind, k, depth, point)
 
         return by_other_methods
+
+    def _answer(self, kind: str, k: int, depth: float, point: Equilibrium) -> Row:
+        if point.notes:
+            self._notes[kind, k, depth] = point.notes
+        return _row(*self.solvers[k], kind, depth, point)
+
+    def notes_of(self, depths: Sequence[float]) -> list[RowNote]:
+        """The notes of the rows so far, in the order of the rows."""
+        return [
+            RowNote(**vars(note), operation=kind, friction=self.solvers[k][0], bit_depth=depth)
+            for kind, k in self.loads
+            for depth in depths
+            for note in self._notes.get((kind, k, depth), ())
+        ]
 
 
 def _parts(depths: Sequence[float], most: int, threads: int) -> Iterator[Sequence[float]]:
@@ -203,13 +239,6 @@ def _solvers(case: Case, hole: Wellbore, sets: Sequence[FrictionSet] | None) -> 
         return [(own_label(intervals), Solver(case, hole))]
     cases = [(one.label, with_friction(case, one)) for one in sets]
     return [(label, Solver(one, hole.with_friction(table_of(one.wellbore.intervals)))) for label, one in cases]
-
-
-def with_friction(case: Case, friction: FrictionChoice) -> Case:
-    """The case with one kinetic friction factor in every interval, or with factors by kind."""
-    old = case.wellbore.intervals
-    intervals = changed(old, friction_set(friction).of(old))
-    return case.model_copy(update={"wellbore": case.wellbore.model_copy(update={"intervals": intervals})})
 
 
 def own_friction(case: Case) -> dict[str, float]:
@@ -248,15 +277,3 @@ def _row(label: str, solver: Solver, kind: str, depth: float, point: Equilibrium
         "notes": codes_of(() if point is None else point.notes),
         "reason": (misfit if point is None else point.message) or "none",
     }
-
-
-def _check_depths(bit_depths: Sequence[float | str]) -> list[float]:
-    if np.ndim(bit_depths) != 1:
-        raise InputError("a list of numbers of metres", key="bit_depths", value=bit_depths)
-    depths = [argument(depth, LENGTH, f"bit_depths[{k}]") for k, depth in enumerate(bit_depths)]
-    if not depths:
-        raise InputError("at least one bit depth", key="bit_depths", value=[])
-    for before, here in zip([-np.inf, *depths], depths, strict=False):
-        if not before < here < np.inf:
-            raise InputError("finite bit depths, each below the one before", key="bit_depths", value=f"{here:g} m")
-    return depths

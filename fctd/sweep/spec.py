@@ -4,6 +4,7 @@ A number is bare or has its unit, as in a case file; all numbers of one paramete
 """
 
 import os
+from collections.abc import Mapping
 from decimal import Decimal
 from itertools import pairwise
 from pathlib import Path
@@ -13,9 +14,10 @@ from pydantic import Field, StrictBool, field_validator, model_validator
 
 from fctd.case import units
 from fctd.case.errors import InputError, Table
+from fctd.case.from_python import as_written
 from fctd.case.operation_names import KindName
 from fctd.case.operations import KINDS
-from fctd.case.raw_case import read_model, split_key
+from fctd.case.raw_case import checked, read_model, split_key
 from fctd.case.spellings import split
 from fctd.sweep.limits import LimitSpec
 from fctd.sweep.survey_errors import SurveyErrors
@@ -227,14 +229,15 @@ class UncertaintySpec(Table):
 class SweepSpec(Table):
     """A sweep file.
 
-    ``case`` is relative to it; ``set`` has keys and values for all samples.  ``samples`` is the number of a drawn
-    method; of ``saltelli`` it is the base number, a power of 2, and of ``morris`` the number of trajectories.
+    ``case`` is relative to it, or, from Python, the tables of a case; ``set`` has keys and values for all samples.
+    ``samples`` is the number of a drawn method; of ``saltelli`` it is the base number, a power of 2, and of ``morris``
+    the number of trajectories.
     ``time_limit`` [s] is for one sample.  With ``bad_samples`` "rows" a sample whose values no case can have is a row
     with the reason; with "refuse" the sweep does not begin.  ``file`` is the file that the sweep was read from.
     """
 
     name: str = Field(description="a name in quotes")
-    case: Path = Field(description="the name of a case file, relative to the sweep file")
+    case: Path | dict[str, Any] = Field(description="the name of a case file, relative to the sweep file")
     method: Method
     samples: Samples | None = None
     seed: units.Seed = 0
@@ -315,11 +318,18 @@ class SweepSpec(Table):
             raise InputError("a power of 2, as Sobol's sequence needs", key="samples")
 
 
-def read_sweep(path: str | os.PathLike[str]) -> SweepSpec:
-    """The sweep of a TOML file, whose case is then a path from the current folder.
+def read_sweep(source: str | os.PathLike[str] | Mapping[str, Any]) -> SweepSpec:
+    """The sweep of a TOML file, or of its tables; its case is then a path from the current folder.
 
-    Raises InputError, which names file, key and value.
+    In place of a path, tables may hold those of a case, or a ``Case``.  Raises InputError, which names file, key and
+    value.
     """
-    path = Path(path)
+    if isinstance(source, Mapping):
+        return checked(SweepSpec, as_written(source), {})
+    if not isinstance(source, str | os.PathLike):
+        raise InputError("the path of a sweep file, or a dict of its tables", key="sweep", value=source)
+    path = Path(source)
     spec = read_model(SweepSpec, path, "a sweep file", context={})
+    if not isinstance(spec.case, Path):
+        raise InputError("the name of a case file in quotes", key="case", value=spec.case, file=path)
     return spec.model_copy(update={"case": path.parent / spec.case, "file": path})

@@ -3,6 +3,7 @@
 import copy
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
@@ -76,7 +77,7 @@ def draw_of(spec: SweepSpec, sample: int) -> int:
 
 def _base(spec: SweepSpec, raw: dict[str, Any], first: Sample) -> Case:
     """The sweep's case: as it stands, or with the values of its first sample, where a parameter has a key it needs."""
-    folder = spec.case.parent.absolute()
+    folder = (spec.case.parent if isinstance(spec.case, Path) else Path()).absolute()
     try:
         return make_case(raw, folder)
     except InputError:
@@ -118,18 +119,19 @@ def template_of(spec: SweepSpec, first: Sample) -> Template:
     Raises InputError for a case file or fixed keys that cannot be used; it names the case's file where the fault is
     there.
     """
+    file = None if isinstance(spec.case, dict) else spec.case
     try:
-        raw = read_raw(spec.case)
+        raw = copy.deepcopy(spec.case) if isinstance(spec.case, dict) else read_raw(spec.case)
         for key, value in in_order(spec.set):
             set_value(raw, key, value, "")
-        base = _base(spec, raw, first).model_copy(update={"file": spec.case})
+        base = _base(spec, raw, first).model_copy(update={"file": file})
     except InputError as error:
         for fault in (error, *error.more):
             if fault.key in spec.set:
                 raise InputError(fault.expected, key=f"set.{fault.key}", value=fault.value) from error.__cause__
         if isinstance(error.__cause__, OSError):
             raise InputError(error.expected, key="case", value=spec.case) from error.__cause__
-        raise error.in_file(spec.case) from error.__cause__
+        raise (error.at("case") if file is None else error.in_file(file)) from error.__cause__
     _check_apart(spec, raw)
     if base.wellbore.survey is not None:
         raw["wellbore"]["survey"] = base.wellbore.survey

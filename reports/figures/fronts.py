@@ -8,8 +8,8 @@ from reports.figures import Tables, figure, style
 
 # Errors smaller than this are drawn here: the exact ones have no place on a logarithmic axis [mm, %].
 LEAST_MM, LEAST_PERCENT = 1e-3, 1e-3
-# More methods than colours: a second round of them has empty markers.
-COLOURS = 6
+# A second round of markers is empty.
+MARKERS = 6
 
 
 @figure(
@@ -47,5 +47,5 @@ def fronts(tables: Tables, distance: Axes, torque: Axes) -> None:
 
 
 def _series(ax: Axes, rows: pd.DataFrame, index: int, label: str) -> None:
-    look = style.marked(index) | {"markerfacecolor": "white" if index >= COLOURS else style.COLOURS[index % COLOURS]}
+    look = style.marked(index) | {"markerfacecolor": style.colour(index) if index < MARKERS else "white"}
     ax.plot(rows["ns_1000"], rows["error"], **look | {"linewidth": 1.0}, label=label)

@@ -1,4 +1,4 @@
-"""The three pictures at the top of the page, small enough to stand side by side."""
+"""The pictures at the top of the page, small enough to stand side by side."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -110,6 +110,20 @@ def stiff_and_measured(tables: Tables) -> Canvas:
     return canvas
 
 
+def force_of_segments(tables: Tables) -> Canvas:
+    """Total contact force of the scaled section against time, of beam finite elements and of rigid segments."""
+    table = tables["force"]
+    canvas, ax = _subplots()
+    for index, model in enumerate(table["model"].unique()):
+        rows = table[table["model"] == model]
+        ax.plot(rows["time_s"], rows["total_N"] / 1e3, **style.line(index), label=model)
+    ax.set(xlabel="time, s", ylabel="contact force, kN", ylim=(0, None))
+    _legend(canvas, ax)
+    return canvas
+
+
+# The first three that can be drawn stand on the first screen; what needs public data has a substitute.
+SHOWN = 3
 LEADING = [
     Leading(
         "contact_accuracy",
@@ -125,5 +139,10 @@ LEADING = [
         "volve_f4",
         Figure("measured", "The stiff string against a public well's readings", stiff_and_measured),
         "chart",
+    ),
+    Leading(
+        "scaled_section",
+        Figure("force_of_segments", "Contact force of rigid segments and of beam finite elements", force_of_segments),
+        "force",
     ),
 ]

@@ -41,6 +41,11 @@ RC: dict[RcKeyType, Any] = plots.RC | {
 COLOURS, DASHES = list(palette.PALETTE.values()), plot_style.LINE_STYLES
 QUIET, SHADE = palette.QUIET, palette.SHADE
 MARKERS = ["o", "s", "^", "D", "v", "P"]
+# Colours of further series, where there are more than six; the same dashes and markers come again with them.
+MORE_COLOURS = [
+    "#E69F00", "#7A5195", "#8C564B", "#9A9D00", "#7F7F7F", "#A7D129", "#F2A58E", "#00B5BD", "#5B1A1A", "#B5A0E0",
+    "#2E5E2E", "#E8D800",
+]  # fmt: skip
 # A friction law looks the same in every figure.
 LAWS = {"paper": 0, "coulomb": 1, "karnopp": 2}
 
@@ -57,9 +62,15 @@ SIDES = [-90, 0, 90, 180, 270]
 SIDE_LABELS = ["left", "0°\nhigh", "90°\nright", "180°\nlow", "left"]
 
 
+def colour(index: int) -> str:
+    """The colour of series number ``index``."""
+    every = [*COLOURS, *MORE_COLOURS]
+    return every[index % len(every)]
+
+
 def line(index: int) -> dict[str, Any]:
     """The style of series number ``index`` drawn as a line."""
-    return {"color": COLOURS[index % 6], "linestyle": DASHES[index % 6]}
+    return {"color": colour(index), "linestyle": DASHES[index % 6]}
 
 
 def marked(index: int) -> dict[str, Any]:
@@ -69,12 +80,11 @@ def marked(index: int) -> dict[str, Any]:
 
 def dots(index: int, *, filled: bool = True) -> dict[str, Any]:
     """The style of series number ``index`` drawn as separate points."""
-    colour = COLOURS[index % 6]
     return {
-        "color": colour,
+        "color": colour(index),
         "linestyle": "none",
         "marker": MARKERS[index % 6],
-        "markerfacecolor": colour if filled else "white",
+        "markerfacecolor": colour(index) if filled else "white",
     }
 
 

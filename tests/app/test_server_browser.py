@@ -110,12 +110,24 @@ def test_a_slider_moves_all_pictures(page: Any) -> None:
     assert page.locator("#sliders output").nth(1).inner_text() == "0.25"
 
 
+# How far the legend of the chart reaches over its panels [px], below 0 where it stands clear of them.
+COVERED = """() => {
+  const chart = document.querySelector("#loads .js-plotly-plot"), { t, h } = chart._fullLayout._size;
+  const top = (part) => part.getBoundingClientRect().top;
+  return top(chart) + t + h - top(chart.querySelector(".infolayer .legend"));
+}"""
+
+
 def test_names_are_text_and_nothing_is_wider_than_the_page(page: Any) -> None:
     assert page.locator("h1").inner_text() == NAME
     assert page.locator("a[href*=example]").count() == 0
     for width in (400, 1280, 1920):
         page.set_viewport_size({"width": width, "height": 800})
         until(page, lambda: overflow(page) <= 0)  # pictures follow the window
+        until(page, lambda: -100 < page.evaluate(COVERED) <= 0)
+    labels = page.locator("[role=slider]").evaluate_all("of => of.map((one) => one.getAttribute('aria-label'))")
+    assert len(labels) == len(set(labels)) > 5
+    assert all(labels)
 
 
 def test_a_survey_that_is_chosen_becomes_a_case_and_a_case_is_run(page: Any) -> None:

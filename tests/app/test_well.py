@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 import fctd
 from fctd.app.sessions import Source
-from fctd.app.well import DEPTHS, EVERY, LIMIT_DEPTHS, LIMITS, STRING, Well
+from fctd.app.well import DEPTHS, EVERY, FAN, LIMIT_DEPTHS, LIMITS, STRING, Well
 from fctd.case.errors import InputError
 from fctd.case.operations import KINDS as OPERATIONS
 from fctd.model.depths import usual_depths
@@ -96,6 +96,8 @@ def test_the_rotation_turns_what_turns(well: Well) -> None:
 
 def test_measured_rows_are_points(well: Well) -> None:
     assert well.check_measured(ROWS) == {"rows": 2, "told": []}
+    found = well.check_measured("Depth\tPU\tSO\n500\t150\t140\n")
+    assert (found["rows"], found["told"][0][:50]) == (2, 'headers without units are read as: "Depth" in m, "')
     assert well.check_measured(" ") == {"rows": 0, "told": []}
     for text in (ROWS, ROWS.replace(",", "\t")):
         loads, depths = drawn(solved(well, measured=text), f"measured, {UP}")
@@ -153,7 +155,7 @@ def test_limits_are_drawn_where_they_are_asked_for_and_no_slider_moves(well: Wel
     assert not len(found[(*KINDS, LIMITS), True])
     assert not len(found[tuple(KINDS), False])
     yields = found[(*KINDS, LIMITS), False][:LIMIT_DEPTHS]
-    table = fctd.margin_table(well.case, "trip_out", [well.depths[0], well.depths[-1]])
+    table = fctd.limits_of(well.case, "trip_out", [well.depths[0], well.depths[-1]])
     expected = table.loc[table["limit"] == "yield", "hookload_N"] / 1e3
     assert yields[[0, -1]] == pytest.approx(expected.to_numpy(), rel=1e-5)
 
@@ -162,3 +164,17 @@ def test_the_load_is_the_indicators_where_the_block_is_known_but_for_one_who_ask
     well = Well(source(f"{TEXT}\n[rig]\nblock_weight = '50 kN'\n"), tmp_path, "si")
     read, string = (drawn(solved(well, operations=[*KINDS, *more]), UP)[0] for more in ([], [STRING]))
     np.testing.assert_allclose(read, string + 50.0, rtol=1e-6)
+
+
+def test_a_fan_has_the_curves_of_less_and_more_friction_where_no_slider_moves(well: Well) -> None:
+    found = solved(well, operations=[*KINDS, FAN])
+    loads, _ = drawn(found, UP)
+    assert len(loads) == 3 * DEPTHS
+    for part, by in zip(np.split(loads, 3), (-0.05, 0.0, 0.05), strict=True):
+        factors = {"cased": 0.2 + by, "open": 0.25 + by}
+        rows = fctd.torque_drag(well.case, "trip_out", well.depths, friction=factors)
+        np.testing.assert_allclose(part, rows["hookload_N"] / 1e3, rtol=1e-6)
+    assert len(drawn(solved(well, operations=[*KINDS, FAN], coarse=True), UP)[0]) == -(-DEPTHS // EVERY)
+    table = well.chart({}, [*KINDS, FAN])
+    assert len(table) == 3 * len(KINDS) * DEPTHS
+    assert {row["friction_label"] for row in table} == {"−0.05", "as set", "+0.05"}

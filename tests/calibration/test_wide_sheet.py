@@ -28,7 +28,7 @@ SHEET = "{}\n1000,125,123,124,2\n2000,158,-,155,\n3000,,,,\n"
     [
         "Depth (ft),PU (klbs),SO (klbs),ROT (klbs),TQ (kft-lbs)",
         "MD_ft,PickUp_Klbs,Slackoff_Klbs,Rotating_Klbs,Rot_Torque_kft_lbf",
-        "Bit Depth [ft],P/U Wt. (klb),S/O Wt. (klb),Free rotating weight (klbf),Off Bottom Torque (kft.lbf)",
+        "Bit Depth [ft],P.U. Wt. (klb),S/O Wt. (klb),Free rot weight (klbf),ROB Torque (kft.lbf)",
         "Measured Depth,Pick-up,Slack-off,Rotating,Torque\n(ft),(klbf),(klbf),(klbf),(kft.lbf)",
         "DEPTH,PU,SO,ROT,TQ",
     ],
@@ -48,27 +48,28 @@ def test_a_sheet_is_a_row_for_each_reading(headers: str, tmp_path: Path) -> None
 
 
 def test_units_that_no_header_names(tmp_path: Path) -> None:
-    """They are those of the command, which says so, or the sheet is refused; one that is named asks for all."""
+    """They are those of the command, which says so, or the sheet is refused; one that is named must be one of them."""
     told: list[str] = []
     path = tmp_path / "sheet.csv"
     path.write_text("MD,PU,SO,ROT\n900,500,450,470\n")
     (up, *_), _ = read_rows(path, well(), {}, measured=True, units="si", tell=told.append)
     assert up.hookload == (5e5, 5e5)
     assert told == [
-        'no header names a unit, so these are read: "MD" in m, "PU" in kN, "SO" in kN, "ROT" in kN; write the units '
-        "into the headers if they are others"
+        'headers without units are read as: "MD" in m, "PU" in kN, "SO" in kN, "ROT" in kN; write the units into them '
+        "if they are others"
     ]
     with pytest.raises(InputError, match=r'row 1 = .*"ROT".: expected headers with their units, such as "MD .m."'):
         read_rows(path, well(), {}, measured=True)
+    assert len(rows_of(tmp_path, "MD (ft),PU,SO\n900,500,450\n", "field")) == 2
     with pytest.raises(InputError, match="headers with their units"):
-        rows_of(tmp_path, "MD (ft),PU,SO\n900,500,450\n", "field")
+        rows_of(tmp_path, "MD (ft),PU,SO\n900,500,450\n", "si")
 
 
 def test_what_stands_beside_the_weights(tmp_path: Path) -> None:
     """Rotation is that of the rotating string, speed that of the others; a torque without a weight is a reading."""
     text = "name,day,Depth (m),PU (kN),SO (kN),TQ (kN.m),RPM,Speed (m/min),Remark\nA,1 May,900,500,,3,80,12,late\n"
     up, turning = rows_of(tmp_path, text)
-    assert (up.id, up.day, up.rates) == ("A, pick-up", "1 May", (pytest.approx(-0.2), 0.0))
+    assert (up.id, up.day, up.rates) == ("A, pick-up", "1 May", (pytest.approx(-0.2), 0.0, 0.0))
     assert (turning.id, turning.operation, turning.hookload) == ("A, rotating", "rotate_off_bottom", None)
     assert turning.rates.spin == pytest.approx(80 * np.pi / 30)
 

@@ -153,7 +153,8 @@ WRONG: list[tuple[str, Keys, str | bytes, str]] = [
         "another file",
         {},
         "date,torque_kN_m\n2007-10-22,7",
-        "expected a row of headers such as md_m, inc_deg, azi_deg in the first 100 rows",
+        "expected a row of headers such as md_m, inc_deg, azi_deg in the first 100 rows, or headers in other words in "
+        "the case: columns.md = {header = \"HEADER\"} (for init: --columns 'md=HEADER')",
     ),
     (
         "prose",

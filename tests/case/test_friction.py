@@ -7,7 +7,9 @@ import pytest
 
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionSet, Pair, changed, friction_sets, own_label, parse_frictions, table_of
+from fctd.case.load import with_friction
 from fctd.case.wall import IntervalSpec
+from tests.cases import make_case
 
 
 def intervals(*rows: tuple[float, float, str | None]) -> list[IntervalSpec]:
@@ -148,3 +150,19 @@ def test_python_refuses_others(value: Any) -> None:
 )
 def test_the_label_of_the_case_as_it_stands(rows: list[tuple[float, float, str | None]], label: str) -> None:
     assert own_label(intervals(*rows)) == label
+
+
+def test_a_case_with_other_friction_has_its_static_factors_scaled_along() -> None:
+    rows = [
+        {"to_md": 500.0, "diameter": 0.2159, "friction": 0.2, "static_friction": 0.3, "kind": "cased"},
+        {"to_md": 1000.0, "diameter": 0.2159, "friction": 0.25, "kind": "open"},
+    ]
+    case = make_case(wellbore={"intervals": rows}, contact={"friction_law": "karnopp"})
+    found = with_friction(case, {"cased": 0.4, "open": "0.3/0.1"}).wellbore.intervals
+    assert [(i.friction, i.friction_around, i.static_friction) for i in found] == [
+        (0.4, 0.4, pytest.approx(0.6)),
+        (0.3, 0.1, None),
+    ]
+    assert with_friction(case, None) is case
+    with pytest.raises(InputError, match=r"^friction = "):
+        with_friction(case, -1.0)

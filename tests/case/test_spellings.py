@@ -20,7 +20,7 @@ WRITTEN: list[tuple[units.Dimension, float, list[str]]] = [
     (
         units.TORQUE,
         400 * FOOT * LBF,
-        ["400 ft-lb", "400 ft·lbf", "400 ft-lbf", "400 ft*lbf", "400 lb-ft", "0.4 kft-lb"],
+        ["400 ft-lb", "400 ft·lbf", "400 ft-lbf", "400 ft*lbf", "400 lb-ft", "0.4 kft-lb", "400 ftlb", "0.4 kftlbs"],
     ),
     (units.LINEAR_MASS, 19.5 * POUND / FOOT, ["19.5 ppf", "19.5 lb/ft", "19.5 lbf/ft", "19.5 lbm/ft", "19.5 LB/FT"]),
     (units.LINEAR_MASS, 30.0, ["30 kg/m", "294.1995 N/m", "30 kgf/m"]),

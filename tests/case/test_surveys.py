@@ -356,7 +356,7 @@ def test_a_vertical_station_is_added_at_0() -> None:
 def test_real_surveys(name: str, count: int, last: tuple[float, float, float]) -> None:
     """Counts and last stations are read off the files; none of them has a warning."""
     if not (DATA / name).is_file():
-        pytest.skip(f"{DATA / name} is missing: public well surveys, folder from FCTD_DATA, see README")
+        pytest.skip(f"{DATA / name} is missing: public well surveys, folder from FCTD_DATA, see docs/claims.md")
     survey = read_survey(DATA / name)
     assert len(survey.stations) == count
     md, inclination, azimuth = survey.stations[-1]

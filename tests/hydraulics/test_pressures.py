@@ -12,7 +12,7 @@ from fctd.case.load import Case
 from fctd.case.rheology import Rheology
 from fctd.hydraulics.closed_forms import annulus
 from fctd.hydraulics.cuttings import Cuttings
-from fctd.hydraulics.pressures import circulation, lay, pressure_losses
+from fctd.hydraulics.pressures import circulation, hydraulics_of, lay
 from tests.cases import make_case, pipe
 
 G, PSI, INCH, GPM, PPG = 9.80665, 6894.757, 0.0254, 6.30902e-5, 119.8264
@@ -91,11 +91,11 @@ def test_cuttings_weigh_in_the_annulus_where_the_hole_is_not_steep() -> None:
 
 
 def test_depths_and_flows_make_rows_and_what_does_not_fit_says_why() -> None:
-    table = pressure_losses(well(), ["1200 L/min", 0.03], [500.0, "1000 m", 1200.0])
+    table = hydraulics_of(well(), ["1200 L/min", 0.03], [500.0, "1000 m", 1200.0])
     assert table["flow_m3_s"].tolist() == pytest.approx([0.02] * 3 + [0.03] * 3)
     assert table["reason"].str.startswith("not_possible").tolist() == [False, False, True] * 2
     assert table["standpipe_Pa"].notna().tolist() == [True, True, False] * 2
-    beside = pressure_losses(well(), FLOW, eccentricity=0.8)
+    beside = hydraulics_of(well(), FLOW, eccentricity=0.8)
     assert beside["annulus_drop_Pa"][0] < 0.6 * table["annulus_drop_Pa"][1]
 
 
@@ -115,7 +115,7 @@ def test_what_cannot_be_pumped_is_told_in_a_sentence(
     case: dict[str, Any], flow: float | str, eccentricity: float, told: str
 ) -> None:
     with pytest.raises(InputError, match=told) as caught:
-        pressure_losses(well(**case), flow, eccentricity=eccentricity)
+        hydraulics_of(well(**case), flow, eccentricity=eccentricity)
     assert "\n" not in str(caught.value)
 
 

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fctd import Case, equilibrium, margin_table, simulate
+from fctd import Case, equilibrium, limits_of, simulate
 from fctd.case.errors import InputError
 from fctd.mechanics.own_contact import GAP
 from fctd.model.drillstring import lay_out
@@ -235,5 +235,5 @@ def test_the_waves_of_a_pushed_string_have_the_friction_of_its_fittings() -> Non
 
 
 def test_no_torque_at_the_bit_is_looked_for_below_a_swivel() -> None:
-    rows = margin_table(case(swivel=True), ["rotate_off_bottom"], [DEPTH])
+    rows = limits_of(case(swivel=True), ["rotate_off_bottom"], [DEPTH])
     assert rows.loc[rows["margin"] == "torque", "reason"].tolist() == ["no torque passes the swivel above liner"]

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fctd.case.errors import InputError
-from fctd.model.depths import MOST_DEPTHS, read_depth, read_depths, usual_depths
+from fctd.model.depths import MOST_DEPTHS, depth_of, depths_of, read_depth, read_depths, usual_depths
 from tests.cases import make_case, pipe
 from tests.cli.tiny import FOOT
 from tests.plots.made import well
@@ -33,6 +33,16 @@ def test_the_grid_has_a_limit() -> None:
     assert len(read_depths(f"1:{MOST_DEPTHS}:1", SHOD, "--depths")) == MOST_DEPTHS
     with pytest.raises(InputError):
         read_depths(f"1:{MOST_DEPTHS + 1}:1", SHOD, "--depths")
+
+
+def test_calls_from_python_take_numbers_and_texts() -> None:
+    assert [depth_of(given, SHOD, "at") for given in (1750, np.float64(1.5), "5000 ft", "td", "shoe")] == [
+        1750, 1.5, 1524, 2000, 1500,
+    ]  # fmt: skip
+    assert depths_of("shoe:td:200", SHOD, "at") == read_depths("shoe:td:200", SHOD, "at")
+    assert depths_of("td", SHOD, "at") == depths_of([2000.0], SHOD, "at") == [2000]
+    assert depths_of(["500 m", "shoe", "td"], SHOD, "at") == [500, 1500, 2000]
+    assert depths_of(range(1000, 2001, 500), SHOD, "at") == [1000, 1500, 2000]
 
 
 def test_words_stand_for_the_shoe_and_the_end_of_the_hole() -> None:

@@ -122,7 +122,7 @@ def test_opposite_directions_have_no_arc(inclination: float, azimuth: float) -> 
     assert np.isfinite(survey.minimum_curvature(stations).start).all()
 
 
-needs_data = pytest.mark.skipif(data_folder() is None, reason="public data folder is missing (see README)")
+needs_data = pytest.mark.skipif(data_folder() is None, reason="public data folder is missing (see docs/claims.md)")
 
 
 @needs_data

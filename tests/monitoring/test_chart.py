@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from fctd.case.errors import InputError
+from fctd.case.load import with_friction
 from fctd.monitoring.chart import CASED_STEP, FACTORS, HELD, Chart, fit_of
 from fctd.monitoring.stretches import Mode
 from fctd.steady.equilibrium import equilibrium
-from fctd.steady.torque_drag import with_friction
 from tests.cases import make_case
 from tests.monitoring.made import BLOCK, chart, well
 

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from fctd.case.load import Case, load_case
-from fctd.hydraulics.pressures import circulation, pressure_losses
+from fctd.hydraulics.pressures import circulation, hydraulics_of
 from fctd.hydraulics.surge import fastest_trips, surge_pressures
 from fctd.plots.flow import losses_panels, surge_panels
 
@@ -22,7 +22,7 @@ def case() -> Case:
 
 
 def test_losses_over_depths() -> None:
-    table = pressure_losses(case(), [0.02, 0.03], DEPTHS)
+    table = hydraulics_of(case(), [0.02, 0.03], DEPTHS)
     panels = losses_panels(table, circulation(case(), 0.03, 3000.0), "si")
     slow, fast = (curve for curve in panels.panels[0].curves if curve.name == "standpipe")
     first = table[table["flow_m3_s"] == 0.02]

@@ -53,18 +53,18 @@ def test_bands_are_those_of_the_percentiles(tmp_path: Path) -> None:
     found = made(tmp_path)
     figure = plots.bands_figure(found)
     hookload, torque = figure.axes
-    assert (hookload.get_xlabel(), torque.get_xlabel()) == ("hook load, kN", "surface torque, kN·m")
+    assert (hookload.get_xlabel(), torque.get_xlabel()) == ("hook load (string), kN", "surface torque, kN·m")
     table = found.percentiles
     middle = table[(table["column"] == "hookload_N") & (table["percentile"] == 50)]["value"].to_numpy() / 1e3
     assert any(np.allclose(line.get_xdata(), middle) for line in hookload.lines)
     assert texts_that_overlap(figure) == []
-    assert plots.bands_figure(found, "field").axes[0].get_xlabel() == "hook load, klbf"
+    assert plots.bands_figure(found, "field").axes[0].get_xlabel() == "hook load (string), klbf"
 
 
 def test_what_the_solver_leaves_out_of_balance_is_not_drawn_as_torque(tmp_path: Path) -> None:
     """The string only slides: its torque is 0 but for 3 N·m beside a hook load of up to 1.4 MN."""
     (axes,) = plots.bands_figure(made(tmp_path, torque=3.0)).axes
-    assert axes.get_xlabel() == "hook load, kN"
+    assert axes.get_xlabel() == "hook load (string), kN"
 
 
 def test_a_tornado_has_its_bars_in_order(tmp_path: Path) -> None:
@@ -80,8 +80,8 @@ def test_effects_of_morris_have_the_unit_of_the_result(tmp_path: Path) -> None:
     """The hook load is 900 kN (1 + friction): a step of 2/3 is from the eighth to five eighths of its distribution."""
     found = made(tmp_path, 'method = "morris"\nsamples = 8\n')
     (si,), (field,) = (plots.tornado_figure(found, units=units).axes for units in ("si", "field"))
-    assert si.get_title(loc="left") == "hook load: mean absolute effect (Morris), kN"
-    assert field.get_title(loc="left") == "hook load: mean absolute effect (Morris), klbf"
+    assert si.get_title(loc="left") == "hook load (string): mean absolute effect (Morris), kN"
+    assert field.get_title(loc="left") == "hook load (string): mean absolute effect (Morris), klbf"
     low, high = (max(bar.get_width() for bar in axes.patches) for axes in (field, si))
     assert high == pytest.approx(4.4482216 * low)
     step = 0.05 * (stats.norm.ppf(0.625) - stats.norm.ppf(0.125))
@@ -113,7 +113,7 @@ def test_a_map_has_a_cell_for_every_sample_of_a_grid_and_points_for_others(tmp_p
     values = np.asarray(mesh.get_array()).reshape(3, 4)
     assert values[0] == pytest.approx([900 * (1 + friction) for friction in (0.1, 0.2, 0.3, 0.4)])
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("friction factor", "weight on bit, kN")
-    assert bar.get_ylabel() == "hook load, kN"
+    assert bar.get_ylabel() == "hook load (string), kN"
     (tmp_path / "drawn").mkdir()
     points = plots.map_figure(made(tmp_path / "drawn"), ["friction.open", "mud.density"], "hookload_N")
     assert len(points.axes[0].collections[0].get_offsets()) == 40

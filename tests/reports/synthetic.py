@@ -186,4 +186,13 @@ def judged_well(well: str) -> dict[str, pd.DataFrame]:
     return {"judged": judged, "scores": scores, "widths": widths}
 
 
-STUDIES = {of.__name__: of for of in (overlap, ownership, contact_accuracy, paper_well, volve_f4)}
+def scaled_section() -> dict[str, pd.DataFrame]:
+    time = np.linspace(0.0, 10.0, 21)
+    force = pd.concat(
+        pd.DataFrame({"time_s": time, "total_N": scale * 1e3 * time, "model": model})
+        for scale, model in ((1.0, "beam"), (0.98, "30 segments"))
+    )
+    return {"force": force}
+
+
+STUDIES = {of.__name__: of for of in (overlap, ownership, contact_accuracy, paper_well, volve_f4, scaled_section)}

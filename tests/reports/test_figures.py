@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from references import contact, rivals
 from reports import figures
 from reports.figures import style
 from validation.harness.registry import STUDIES
@@ -61,6 +62,15 @@ def test_series_differ_in_lightness_from_their_neighbours():
 
     light = [lightness(colour) for colour in style.COLOURS]
     assert min(abs(a - b) for a, b in itertools.pairwise(light)) > 0.03
+
+
+def test_every_contact_method_has_a_colour_of_its_own():
+    """Those of rivals too, and some of users."""
+    count = len(contact.METHODS) + len(rivals.METHODS) + 3
+    colours = np.array([mpl.colors.to_rgb(style.colour(k)) for k in range(count)])
+    apart = np.linalg.norm(colours[:, None] - colours, axis=2)
+    assert apart[~np.eye(len(colours), dtype=bool)].min() > 0.15
+    assert style.dots(7)["color"] == style.line(7)["color"] == style.colour(7)
 
 
 def test_the_first_row_is_on_top_and_zero_in_the_middle():

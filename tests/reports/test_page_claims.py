@@ -9,7 +9,8 @@ def test_claims_stand_on_top_with_verdict_number_bound_and_study(render, claims,
     text = words_of(html)
     assert problems == []
     counts = "✓ holds: 1 ◐ holds with limits: 2 ✗ does not hold: 2 – cannot be tested: 1 ○ not yet run: 1"
-    assert f"The paper's claims: {counts}" in text
+    answer = "Mostly: of 7 claims of the paper 1 holds, 2 hold within limits, 2 do not hold and 2 are not decided."
+    assert f"Is it so? {answer} {counts}" in text
     holds = "5.2 No &lt;gap&gt; is left. ✓ holds 0.5 kN·m (at most 1 kN·m) largest jump: jumps Bound: target."
     assert f"{holds} python -m validation jumps" in text
     assert "never told" not in text

@@ -1,9 +1,13 @@
 """Results in notebooks and at the prompt: short, with units, escaped."""
 
+import sys
+
 import numpy as np
+import pytest
 
 from fctd import equilibrium, simulate
-from fctd.results.display import html_table, load_rows
+from fctd.case.errors import InputError
+from fctd.results.display import html_table, load_rows, picture
 from tests.cases import make_case
 
 
@@ -36,6 +40,22 @@ def test_a_simulation() -> None:
     hookload = float(result.history["hookload_N"].iloc[-1])
     assert f"{hookload / 1e3:.1f} kN" in result._repr_html_()
     assert np.isfinite(hookload)
+
+
+def test_results_draw_themselves() -> None:
+    """Notebooks show what a method ``plot`` returns."""
+    point = equilibrium(make_case(), "trip_out", "td", friction=0.3)
+    assert point.case.wellbore.intervals[0].friction == 0.3
+    drawn = point.plot("field")
+    assert drawn._repr_png_().startswith(b"\x89PNG")
+    assert "ft" in drawn.figure.axes[0].get_ylabel()
+
+
+def test_a_picture_whose_package_is_missing_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    monkeypatch.delitem(sys.modules, "fctd.plots.profile", raising=False)
+    with pytest.raises(InputError, match=r"expected the package matplotlib \(pip install 'fctd\[plot\]'\)"):
+        picture("profile_figure", [])
 
 
 def test_a_case() -> None:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fctd import equilibrium, lie_along, pressure_losses
+from fctd import equilibrium, hydraulics_of, lie_along
 from fctd.case.errors import InputError
 from fctd.steady.equilibrium import Solver
 from fctd.steady.lie import lie_of
@@ -47,9 +47,9 @@ def test_pressures_of_a_flow_may_be_those_of_the_string_where_it_lies() -> None:
     mud = {"density": 1200.0, "viscosity": 0.03, "eccentricity": "string"}
     case = make_case([[0, 0, 0], [500, 0, 0], [800, 60, 0], [1200, 60, 0]], SLEEVES, mud=mud)
     lost = [
-        float(pressure_losses(case, 0.03, [1100.0], eccentricity)["annulus_drop_Pa"].iloc[0])
+        float(hydraulics_of(case, 0.03, [1100.0], eccentricity)["annulus_drop_Pa"].iloc[0])
         for eccentricity in (0.0, lie_along, 1.0)
     ]
     assert lost[0] > lost[1] > lost[2] > 0
     with pytest.raises(InputError, match=r"eccentricity is missing: expected a number, or fctd\.lie_along"):
-        pressure_losses(case, 0.03)
+        hydraulics_of(case, 0.03)

@@ -5,7 +5,7 @@ import pytest
 
 import fctd
 from fctd.case.errors import InputError
-from fctd.steady.margin_table import COLUMNS, USUAL, margin_table
+from fctd.steady.margin_table import COLUMNS, USUAL, limits_of
 from fctd.steady.margins import MEANINGS, Margin
 from tests.cases import make_case, pipe
 
@@ -13,7 +13,7 @@ CASE = make_case(rig={"hoist_capacity": 1e6, "largest_torque": 20e3, "slip_lengt
 
 
 def test_a_row_for_each_margin_with_the_columns_of_the_guide() -> None:
-    table = fctd.margin_table(CASE, bit_depths=[500.0, "900 m"])
+    table = fctd.limits_of(CASE, bit_depths=[500.0, "900 m"])
     assert list(table.columns) == ["operation", "bit_depth_m", *COLUMNS.values()]
     assert tuple(COLUMNS) == Margin._fields
     assert list(table["bit_depth_m"].unique()) == [500.0, 900.0]
@@ -35,13 +35,13 @@ def test_a_row_for_each_margin_with_the_columns_of_the_guide() -> None:
 
 
 def test_without_depths_the_bit_is_at_the_bottom_of_the_hole() -> None:
-    assert list(margin_table(CASE, "trip_out")["bit_depth_m"].unique()) == [1000.0]
+    assert list(limits_of(CASE, "trip_out")["bit_depth_m"].unique()) == [1000.0]
 
 
 def test_friction_is_that_which_is_asked_for() -> None:
     bend = [[0, 0, 0], [200, 0, 0], [600, 60, 0], [1000, 60, 0]]
     case = make_case(bend, [pipe(None, None, segment_length=20.0)], mud={"density": 1200.0})
-    pulls = [margin_table(case, "trip_out", [900.0], friction=mu)["force_at_bit_N"].iloc[0] for mu in (0.1, 0.3)]
+    pulls = [limits_of(case, "trip_out", [900.0], friction=mu)["force_at_bit_N"].iloc[0] for mu in (0.1, 0.3)]
     assert pulls[0] > 1.1 * pulls[1]
 
 
@@ -53,20 +53,20 @@ def test_depths_at_which_the_string_does_not_fit_have_a_reason() -> None:
         ]
     }
     case = make_case(components=[pipe(None, None, segment_length=20.0)], wellbore=narrow)
-    table = margin_table(case, "trip_out", [700.0, 900.0])
+    table = limits_of(case, "trip_out", [700.0, 900.0])
     assert list(table["margin"]) == ["overpull", "none"]
     assert table["reason"].iloc[1].startswith("not_possible: ")
     assert np.isnan(table["force_at_bit_N"].iloc[1])
     with pytest.raises(InputError, match="contact_diameter"):
-        margin_table(case, "trip_out", [900.0])
+        limits_of(case, "trip_out", [900.0])
 
 
 def test_progress_is_told_by_depth() -> None:
     seen: list[tuple[int, int]] = []
-    margin_table(CASE, "trip_out", [500.0, 900.0], progress=lambda done, total: seen.append((done, total)))
+    limits_of(CASE, "trip_out", [500.0, 900.0], progress=lambda done, total: seen.append((done, total)))
     assert seen == [(1, 2), (2, 2)]
 
 
 def test_an_unknown_kind_is_refused() -> None:
     with pytest.raises(InputError, match="trip_out"):
-        margin_table(CASE, "trip_ou", [900.0])
+        limits_of(CASE, "trip_ou", [900.0])

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from fctd.case.load import with_friction
 from fctd.model.operations import steady_rates
 from fctd.steady.equilibrium import Solver
 from fctd.steady.sensitivity import Changed, solve_with_changes
-from fctd.steady.torque_drag import with_friction
 from tests.cases import level_case, make_case
 
 

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fctd import InputError, equilibrium, load_case, torque_drag
+from fctd.case.load import with_friction
 from fctd.model.operations import SteadyRates
 from fctd.steady.carried_shape import Carried
 from fctd.steady.equilibrium import Solver
@@ -16,7 +17,6 @@ from fctd.steady.laid_string import LaidString
 from fctd.steady.problem import Problem
 from fctd.steady.reading import Answer
 from fctd.steady.steady_string import Equilibrium
-from fctd.steady.torque_drag import with_friction
 from tests.cases import level_case, make_case, pipe
 
 STATIONS = [[0, 0, 0], [300, 0, 0], [600, 50, 0], [900, 50, 0]]
@@ -157,8 +157,8 @@ def test_friction_that_differs_along_and_around_the_hole() -> None:
         ),
         ({"friction": []}, "friction = []: expected at least one friction factor"),
         ({"speed": -1.0}, "speed = -1.0: expected a speed above 0"),
-        ({"bit_depths": "500 m"}, 'bit_depths = "500 m": expected a list of numbers of metres'),
-        ({"bit_depths": 500.0}, "bit_depths = 500.0: expected a list of numbers of metres"),
+        ({"bit_depths": [[500.0]]}, "bit_depths = [[500.0]]: expected a list of bit depths"),
+        ({"bit_depths": "bottom"}, 'bit_depths = "bottom": expected a length such as'),
         ({"bit_depths": [500, "600 kg"]}, 'bit_depths[1] = "600 kg": expected a length such as'),
         ({"friction": "0.2"}, 'friction = "0.2": expected a friction factor'),
         ({"friction": [0.1, "0.2"]}, 'friction = "0.2": expected a friction factor'),

@@ -27,7 +27,7 @@ Rows = Iterator[dict[str, Any]]  # of a table, by its columns
 NEEDS: dict[Need, str] = {
     "data": (
         "the public data folder is missing: surveys and field measurements from open registries; "
-        "set the environment variable FCTD_DATA to its path, see README"
+        "set the environment variable FCTD_DATA to its path, see docs/claims.md"
     ),
 }
 

@@ -20,7 +20,10 @@ DRIFTS = (2.0, 1.0, 0.25)
 
 
 def settings(name: str, quick: bool) -> Iterator[dict[str, Any]]:
-    """Options of a method, from coarse to fine: quick, one of them."""
+    """Options of a method, from coarse to fine: quick, one of them.
+
+    Of a method of another kind, the ``examples`` of each of its options.
+    """
     keys = contact.method_class(name).Options.model_fields
     if "cell" in keys:
         yield from ({"cell": cell} for cell in (CELLS[:1] if quick else CELLS))
@@ -37,7 +40,8 @@ def settings(name: str, quick: bool) -> Iterator[dict[str, Any]]:
         lengths = LENGTHS[2:3] if quick else LENGTHS
         yield from ({"cylinder_length": length, "overlap": min(0.2, 0.5 * length)} for length in lengths)
     else:
-        yield {}
+        tried = [{key: value} for key, field in keys.items() for value in field.examples or ()] or [{}]
+        yield from (tried[len(tried) // 2 :][:1] if quick else tried)
 
 
 def label(name: str, options: Mapping[str, Any]) -> str:
@@ -48,8 +52,9 @@ def label(name: str, options: Mapping[str, Any]) -> str:
     if "facets" in options:
         smooth = ", smooth" if options.get("smooth_normals") else ""
         return f"{name}, {options['facets']} facets, {options['ring_spacing']:g} m{smooth}"
-    length = options.get("cylinder_length", options.get("drift"))
-    return name if length is None else f"{name}, {length:g} m"
+    lengths = [f"{options[key]:g} m" for key in ("cylinder_length", "drift") if key in options]
+    others = [f"{key} {value}" for key, value in options.items() if key not in ("cylinder_length", "overlap", "drift")]
+    return ", ".join([name, *lengths, *others])
 
 
 def built(case: Case, names: Iterable[str], quick: bool) -> tuple[dict[str, ContactMethod], pd.DataFrame, list[str]]:

@@ -15,6 +15,7 @@ import pandas as pd
 
 from fctd import Case, Equilibrium
 from fctd.case.errors import InputError
+from fctd.case.load import with_friction
 from fctd.mechanics import state
 from fctd.model import layouts
 from fctd.model.frames import hole_frame
@@ -30,7 +31,6 @@ from fctd.steady.feed import ARRIVING, End, FedString, Start
 from fctd.steady.problem import Allowance, Problem, Share
 from fctd.steady.steady_string import HOMOGENISED
 from fctd.steady.tangent import NORMAL_FORCE
-from fctd.steady.torque_drag import with_friction
 from validation.cases.wells import real_well
 from validation.harness.study import Context
 from validation.parts import random_wells

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from fctd import torque_drag
-from fctd.steady.torque_drag import with_friction
+from fctd.case.load import with_friction
 from references.soft_string.integration import soft_string
 from validation.cases import load
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows

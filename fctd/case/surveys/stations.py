@@ -11,7 +11,7 @@ from typing import Final, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.case.errors import InputError
+from fctd.case.errors import MISSING, InputError
 from fctd.case.units import DEEPEST
 
 StationKey = Literal["md", "inc", "azi"]
@@ -129,6 +129,19 @@ def check(written: Written) -> Survey:
         checked = np.vstack([[0.0, 0.0, checked[0, 2]], checked])
         kept = np.concatenate([[TIE_IN], kept])
     return Survey(to_radians(checked), written, kept)
+
+
+def check_listed(values: NDArray[np.float64]) -> Survey:
+    """The checked survey of stations (n, 3) [m, deg, deg] that a case itself holds; InputError as of ``check``."""
+    key = "wellbore.stations[{}]"
+
+    def where(row: int, column: int) -> tuple[str, object]:
+        return f"[{row}][{column}]", MISSING
+
+    try:
+        return check(Written(values, ("m", "deg", "deg"), where, range(len(values)), key, f"{key} to [{{}}]"))
+    except InputError as error:
+        raise error.at("stations") from None
 
 
 def to_radians(stations: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -160,7 +160,10 @@ def with_units(
     units = {key: _unit(column, stated, form, choices.get(key, Choice()).unit) for key, column in columns.items()}
     needing = {key: column for key, column in columns.items() if column.field.quantity and column.field.bare is None}
     lacking = {key: column for key, column in needing.items() if units[key] is None}
-    assumed = form.assumed if form.assumed and lacking == needing else {}
+    usual = form.assumed or {}
+    named = [(column.field, unit) for key, column in needing.items() if (unit := units[key]) is not None]
+    agree = all(of.dimension in usual and _same(of, unit, usual[of.dimension]) for of, unit in named)
+    assumed = usual if agree else {}
     if not all(column.field.dimension in assumed for column in lacking.values()):
         # A time is a date or a number, which needs a unit too; beside a date it has none.
         found_out = [column for key, column in columns.items() if units[key] == ""]
@@ -188,7 +191,9 @@ def no_unit(columns: Sequence[Column], form: TableForm, titles: Sequence[Line] =
 
 def _no_units(columns: Sequence[Column], form: TableForm) -> NoUnitError:
     """The error of several columns, with all that is to be said of them at once."""
-    examples = [show(f"{column.header} ({column.field.example})") for column in columns[:_SHOWN]]
+    usual = form.assumed or {}
+    units = [usual.get(column.field.dimension, column.field.example) for column in columns[:_SHOWN]]
+    examples = [show(f"{column.header} ({unit})") for column, unit in zip(columns, units, strict=False)]
     expected = f"headers with their units, such as {', '.join(examples)}"
     if form.paste is not None:
         rigs = [column for column in columns if column.field.dimension in RIG_UNITS["field"]]

@@ -121,7 +121,9 @@ def _lay_out(heads: Sequence[Line], rows: Sequence[Line], form: TableForm, choic
         expected = f"a row of headers above the numbers, such as {form.example}"
         raise InputError(expected, key=f"row {top[0]}", value=", ".join(top[1]))
     if not named:  # whatever file this is, its text is not quoted: a case may be someone else's
-        raise InputError(f"a row of headers such as {form.example} in the first {TITLES} rows")
+        remedy = form.remedy(form.needed(())[0][0], ["HEADER"], "")
+        other = f", or headers in other words {remedy}" if remedy else ""
+        raise InputError(f"a row of headers such as {form.example} in the first {TITLES} rows{other}")
     found = headers.find_columns(top, form, choices)
     below = [(number, _split(cells, separator, number, len(top[1]))) for number, cells in rows[index + 1 :]]
     stated = headers.find_units(below, found.values())

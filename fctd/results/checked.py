@@ -1,0 +1,99 @@
+"""What was understood of a case, as tables: ``fctd check`` from Python."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from html import escape
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from fctd.case.friction import factors_label
+from fctd.case.input_warnings import InputWarning
+from fctd.case.load import Case, naming_file
+from fctd.case.text import counted
+from fctd.model.summary import Summary, segments_in_words, summarise
+from fctd.results.display import html_of, html_table
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+@dataclass(frozen=True, repr=False)
+class CheckedCase:
+    """What was understood of a case, to compare with a well plan.
+
+    summary : path, weights and parts of the string; segments : their number and lengths, in words; warnings : probable
+    mistakes.
+    """
+
+    summary: Summary
+    segments: str
+    warnings: tuple[InputWarning, ...]
+
+    @property
+    def facts(self) -> dict[str, str]:
+        """Path and weights with their units."""
+        path, case = self.summary.path, self.summary.case
+        return {
+            "total depth, measured": f"{path.depth:.1f} m ({counted(path.stations, 'station')})",
+            "true vertical depth": f"{path.vertical_depth:.1f} m",
+            "departure": f"{path.departure:.1f} m",
+            "greatest inclination": f"{np.degrees(path.inclination):.1f}° at {path.inclination_at:.0f} m",
+            "greatest dog-leg": f"{np.degrees(path.dogleg) * 30:.2f}°/30 m from {path.dogleg_from:.0f} m",
+            "string in air": f"{self.summary.air / 1e3:.1f} kN",
+            "string in mud": f"{self.summary.buoyed / 1e3:.1f} kN",
+            "block weight": f"{case.rig.block_weight / 1e3:.1f} kN",
+            "segments": self.segments,
+        }
+
+    @property
+    def hole(self) -> pd.DataFrame:
+        """A row for each interval: name, kind, from_md_m, to_md_m, diameter_m, friction (its factors)."""
+        import pandas as pd  # slow to import
+
+        intervals = self.summary.case.wellbore.intervals
+        starts = [0.0, *(interval.to_md for interval in intervals)]
+        return pd.DataFrame(
+            {
+                "name": interval.name or "", "kind": interval.kind or "", "from_md_m": start, "to_md_m": interval.to_md,
+                "diameter_m": interval.diameter, "friction": factors_label([interval]),
+            }
+            for start, interval in zip(starts, intervals, strict=False)
+        )  # fmt: skip
+
+    @property
+    def string(self) -> pd.DataFrame:
+        """A row for each component from the top down, the bit at the bottom.
+
+        Columns: name, from_md_m, to_md_m, mass_kg_m, air_N and buoyed_N (its weight), and clearance_m in each interval,
+        clearance_1_m, clearance_2_m and so on.
+        """
+        import pandas as pd
+
+        return pd.DataFrame(
+            {
+                "name": part.name, "from_md_m": part.from_md, "to_md_m": part.to_md, "mass_kg_m": part.mass,
+                "air_N": part.air, "buoyed_N": part.buoyed,
+                **{f"clearance_{k}_m": of for k, of in enumerate(part.clearances, start=1)},
+            }
+            for part in self.summary.parts
+        )  # fmt: skip
+
+    def __repr__(self) -> str:
+        return f"CheckedCase({self.summary.case.name!r}: {counted(len(self.warnings), 'warning')}, {self.segments})"
+
+    def _repr_html_(self) -> str:
+        told = "".join(f"<p>warning: {escape(str(warning))}</p>" for warning in self.warnings)
+        tables = html_table(self.summary.case.name, self.facts), html_of("hole", self.hole)
+        return "".join((told, *tables, html_of("string", self.string)))
+
+
+def check_case(case: Case) -> CheckedCase:
+    """What was understood of a case, and its probable mistakes.
+
+    Raises InputError for a survey that cannot be used, and for a string that does not fit the hole.
+    """
+    with naming_file(case):
+        summary = summarise(case)
+        return CheckedCase(summary, segments_in_words(case, summary.string()), case.warnings)
