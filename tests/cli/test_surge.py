@@ -36,7 +36,7 @@ def test_the_guide_has_the_numbers_of_its_well() -> None:
     """Speeds of trips from the bottom, equivalent density, and the parts of the standpipe pressure."""
     guide, case = GUIDE.read_text(encoding="utf-8"), fctd.load_case(WELL)
     trips = fctd.fastest_trips(case, [3000.0], "trip_out", ["closed", "open"])["fastest_m_s"]
-    lost = fctd.pressure_losses(case, "2000 L/min").iloc[0]
+    lost = fctd.hydraulics_of(case, "2000 L/min").iloc[0]
     parts = [lost[f"{name}_drop_Pa"] for name in ("surface", "bore", "tool", "bit", "annulus")]
     for number in (*(f"{speed:.2f} m/s" for speed in trips), f"{lost['ecd_bit_kg_m3'] / 1e3:.3f} − 1.25"):
         assert number in guide
