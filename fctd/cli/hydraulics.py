@@ -11,7 +11,7 @@ from rich.table import Column, Table
 
 from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
-from fctd.case.load import Case
+from fctd.case.load import Case, naming_file
 from fctd.case.text import counted, printable
 from fctd.case.units import DENSITY, LENGTH, SPEED, Dimension
 from fctd.cli.chart import DEPTHS_HELP
@@ -133,7 +133,7 @@ def hydraulics_command(
             raise InputError(heavier, key="--cuttings-density", value=cuttings_density)
     warnings = warnings_of(case, flow=pumped[0])
     told = tell(case, warnings, strict=strict, units=units)
-    with row_bar(quiet) as bar:
+    with naming_file(case), row_bar(quiet) as bar:
         task = bar.add_task(printable(case.name), total=None)
 
         def show(done: int, total: int) -> None:

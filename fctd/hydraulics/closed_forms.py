@@ -101,15 +101,20 @@ def annulus(
     radius = filled(outer, wide, FULL) * wide
     widening = 2 * np.log(wide / radius)  # of area, its logarithm
     area = np.pi * radius**2 * np.expm1(widening)
-    velocity = np.asarray(flow) / area + clinging(radius / wide, rheology.index) * np.asarray(speed)
-    width = 2 * (wide - radius)
+    width, ratio, moves = 2 * (wide - radius), radius / wide, np.any(speed)
+    velocity = np.asarray(flow) / area
+    if moves:
+        velocity = velocity + clinging(ratio, rheology.index) * np.asarray(speed)
     wall = _wall(velocity, width, rheology, density, slot=1, speed=speed)
-    gradient = 4 * wall.stress / width * _eccentric(radius / wide, eccentricity, rheology, wall)
-    drag = 2 * np.asarray(speed) / (radius * widening)
-    rate = wall.rate + np.abs(drag)
-    dragged = rheology.stress(rate) * wall.rise * (drag / np.where(rate > 0, rate, 1.0))
-    pull = np.pi * pull_square(radius, wide, eccentricity, rheology.index, wall.yield_share)
-    lift = pull * gradient + 2 * np.pi * radius * dragged
+    gradient = 4 * wall.stress / width
+    if np.any(eccentricity):
+        gradient = gradient * _eccentric(ratio, eccentricity, rheology, wall)
+    lift = np.pi * pull_square(radius, wide, eccentricity, rheology.index, wall.yield_share) * gradient
+    if moves:
+        drag = 2 * np.asarray(speed) / (radius * widening)
+        rate = wall.rate + np.abs(drag)
+        dragged = rheology.stress(rate) * wall.rise * (drag / np.where(rate > 0, rate, 1.0))
+        lift = lift + 2 * np.pi * radius * dragged
     return Loss(*np.broadcast_arrays(gradient, lift, wall.regime, wall.yield_share))
 
 

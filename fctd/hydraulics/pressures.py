@@ -14,9 +14,8 @@ from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.load import Case, check_bit_depth, naming_file
 from fctd.case.rheology import Rheology
-from fctd.case.rig import MudSpec
 from fctd.case.units import FLOW, FLOW_UNITS, Number, Quantity
-from fctd.hydraulics.channel import Channel, channel_of
+from fctd.hydraulics.channel import Channel, channel_of, has_flow_curve
 from fctd.hydraulics.circuit import Circuit, circulate
 from fctd.hydraulics.closed_forms import REGIMES, bore
 from fctd.hydraulics.cuttings import Cuttings, share_of_cuttings, transport_ratio
@@ -54,7 +53,7 @@ class Laid:
 
     @cached_property
     def ends(self) -> Array:
-        return self.string.bit_depth - self.string.above_bit
+        return self.string.top_md + np.append(0.0, np.cumsum(self.string.length))
 
     @cached_property
     def depth(self) -> Array:
@@ -249,8 +248,9 @@ def circulation(
     return Circulation(laid, flow, circulate(laid.channel, flow), cuttings)
 
 
-def check_flows(mud: MudSpec) -> None:
-    """Raise InputError for a mud of whose flow the case says nothing."""
+def check_flows(case: Case) -> None:
+    """Raise InputError for a mud of whose flow the case says nothing, and where none has friction."""
+    mud = case.mud
     rows = (mud.inside or (mud,)) + (mud.outside or (mud,))
     if mud.curve is None and any(row.curve is None for row in rows):
         raise InputError(
@@ -258,6 +258,8 @@ def check_flows(mud: MudSpec) -> None:
             "has no friction without them",
             key="mud.fann",
         )
+    if not has_flow_curve(case):
+        raise InputError("above 0, or mud.fann or mud.rheology: nothing has friction", key="mud.viscosity", value=0.0)
 
 
 def circulations(
@@ -268,7 +270,7 @@ def circulations(
 
     Raises InputError where they fit at none of the depths.
     """
-    check_flows(case.mud)
+    check_flows(case)
     found: list[Circulation | Row] = []
     unfit: list[InputError] = []
     for flow in flows:

@@ -31,7 +31,7 @@ TRIPS: Final = ("trip_in", "trip_out")
 ENDS: Final = ("open", "closed", "float")
 FASTEST: Final = 2.0  # [m/s]: trips are not faster than the hoist
 SLOWEST: Final = 1e-3  # [m/s]: what is slower is no trip
-PLACES: Final = 60  # along the open hole, at which the window is looked at
+PLACES: Final = 200  # along the open hole, at which the window is looked at
 HALVINGS: Final = 20  # of the range of speeds
 
 
@@ -189,11 +189,11 @@ def _time(case: Case, depth: Array, speed: Array) -> Array:
 
 
 def _asked(
-    case: Case, bit_depths: float | str | Sequence[float | str], operation: str | Sequence[str], end: str | Sequence[str],
-    eccentricity: Eccentricity,
+    case: Case, bit_depths: float | str | Sequence[float | str], operation: str | Sequence[str],
+    end: str | Sequence[str], eccentricity: Eccentricity,
 ) -> tuple[list[float], list[str], list[str], Eccentricity]:  # fmt: skip
     """Depths [m], operations, ends and eccentricity that are asked for, checked."""
-    check_flows(case.mud)
+    check_flows(case)
     depths = depths_of(bit_depths, case, "bit_depths") if np.size(bit_depths) else [case.deepest]
     kinds = kinds_of(operation)
     ends = [end] if isinstance(end, str) else list(end) or [case.end]

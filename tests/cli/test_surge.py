@@ -1,14 +1,17 @@
 """``fctd surge``: tables on the screen and in files, pictures, refusals."""
 
+import re
 from pathlib import Path
 
 import pandas as pd
 import pytest
 
+import fctd
 from fctd.cli.options import screen
 from tests.commands import Command
 
 WELL = Path(__file__).parents[2] / "examples" / "pumped_well.toml"
+GUIDE = WELL.parents[1] / "docs" / "hydraulics.md"
 
 
 @pytest.fixture(autouse=True)
@@ -27,6 +30,18 @@ def test_surges_and_the_fastest_trips(cli: Command, tmp_path: Path) -> None:
     slow = fastest[fastest["operation"] == "trip_out"]
     assert slow["fastest_m_s"].is_monotonic_decreasing
     assert f"{slow['time_s'].iloc[-1] / 3600:.2f} h between 1500 and 3000 m" in said.out
+
+
+def test_the_guide_has_the_numbers_of_its_well() -> None:
+    """Speeds of trips from the bottom, equivalent density, and the parts of the standpipe pressure."""
+    guide, case = GUIDE.read_text(encoding="utf-8"), fctd.load_case(WELL)
+    trips = fctd.fastest_trips(case, [3000.0], "trip_out", ["closed", "open"])["fastest_m_s"]
+    lost = fctd.hydraulics_of(case, "2000 L/min").iloc[0]
+    parts = [lost[f"{name}_drop_Pa"] for name in ("surface", "bore", "tool", "bit", "annulus")]
+    for number in (*(f"{speed:.2f} m/s" for speed in trips), f"{lost['ecd_bit_kg_m3'] / 1e3:.3f} − 1.25"):
+        assert number in guide
+    table = guide[guide.index("| part | lost |") : guide.index("The annulus adds")]
+    assert re.findall(r"([\d.]+) bar", table) == [f"{part / 1e5:.1f}" for part in parts]
 
 
 def test_all_ends_in_field_units(cli: Command) -> None:
