@@ -17,6 +17,12 @@ _NAMES: Final[Mapping[str, tuple[str, ...]]] = {
     "drill_rotating": ("rotary drilling",),
     "drill_sliding": ("slide drilling",),
 }
+# Words of several kinds, and which.
+_SEVERAL: Final = {
+    "drilling": "drill_rotating or drill_sliding",
+    "reaming": "back_ream, or trip_in with a rotation (rpm) downwards",
+    "tripping": "trip_in or trip_out",
+}
 USUAL: Final = ("pick-up", "slack-off", "rotating", "PU", "SO", "ROT")  # in help and messages
 # The words of some legends have a comma, which else stands between two names.
 _LABELS: Final = [r",\s*".join(map(re.escape, kind.label.split(", "))) for kind in KINDS.values() if "," in kind.label]
@@ -44,7 +50,9 @@ def read_kind(name: object, others: Sequence[str] = ()) -> str:
     """The kind of operation that a name is of, or one of the other words; InputError for another text."""
     kind = kind_named(name)
     if kind is None and name not in others:
-        raise InputError(nearest(name, [*KINDS, *others, *USUAL], "kind"), value=name)
+        several = _SEVERAL.get(_plain(str(name)))
+        expected = f"the kind {several}" if several else nearest(name, [*KINDS, *others, *USUAL], "kind")
+        raise InputError(expected, value=name)
     return kind or str(name)
 
 

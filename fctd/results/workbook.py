@@ -9,9 +9,8 @@ from numbers import Integral, Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
-from fctd.case.units import conversion
 from fctd.results.columns import COLUMNS
-from fctd.results.unit_systems import MEASURES, measure_of
+from fctd.results.unit_systems import MEASURES, measure_of, shown
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -19,11 +18,9 @@ if TYPE_CHECKING:
 # Digits after the point by unit; of other numbers, such as friction factors and shares.
 _DIGITS: Final = {
     "kN*m": 2, "kft*lbf": 2, "MPa": 1, "ksi": 1, "kN": 1, "klbf": 1, "m": 2, "ft": 1, "mm": 1, "in": 3, "deg": 1,
+    "bar": 1, "psi": 0, "kg/m^3": 0, "ppg": 2, "L/min": 0, "gpm": 0, "kW": 1, "hp": 1, "ft/min": 1, "ft/s": 1, "s": 1,
 }  # fmt: skip
 _OTHERS: Final = 3
-# Units at the end of a name that is not in SI units, the longer ones first.
-_ENDINGS: Final = tuple(sorted({unit for of in MEASURES for unit in (of.si, of.field)} | {"mm", "in"}, key=len))[::-1]
-_RATES: Final = {"_m3_s": "m³/s", "_m_s": "m/s", "_rad_s": "rad/s", "_s": "s"}  # written as they are
 _NARROWEST, _WIDEST = 12, 60  # characters of a column
 _MOST: Final = 40  # items of a list that are written out
 
@@ -36,23 +33,27 @@ class Heading(NamedTuple):
     format: str
 
 
+def _ending(unit: str) -> str:
+    return "_" + unit.replace("*", "_").replace("/", "_").replace("^", "")
+
+
+# Units at the end of a name, the longer ones first.
+_MEASURED: Final = {unit for measure in MEASURES for unit in (measure.table, measure.field)}
+_UNITS: Final = sorted({*_MEASURED, *_DIGITS, "m/s", "m^3/s", "rad/s"}, key=len, reverse=True)
+
+
 def heading_of(column: str) -> Heading:
     """The heading of a column of a table, in SI or in field units: ``hookload_N`` is "hook load (kN)", in kN."""
-    measure, factor, label = measure_of(column), 1.0, COLUMNS[column].label if column in COLUMNS else ""
-    rate = next((end for end in _RATES if column.endswith(end)), "")
-    if rate or column.endswith("_deg"):
-        unit, stem = _RATES.get(rate, "deg"), column.removesuffix(rate or "_deg")
-    elif measure is not None:
-        unit, stem = measure.si, column.removesuffix("_" + measure.table.replace("*", "_"))
-        factor = conversion(measure.table, unit)
-    else:
-        endings = ((unit, "_" + unit.replace("*", "_")) for unit in _ENDINGS)
-        unit, stem = next(((u, column.removesuffix(end)) for u, end in endings if column.endswith(end)), ("", column))
-        label = next((of.label for of in COLUMNS.values() if of.stem == stem), label)
-    digits = _DIGITS.get(unit, _OTHERS)
-    shown = f" ({unit.replace('*', '·').replace('deg', '°')})" if unit else ""
-    words = stem.replace("hookload", "hook_load").replace("_", " ")
-    return Heading((label or words) + shown, factor, "0." + "0" * digits)
+    unit = next((unit for unit in _UNITS if column.endswith(_ending(unit))), "")
+    stem, measure = column.removesuffix(_ending(unit)) if unit else column, measure_of(column)
+    known = COLUMNS.get(column) or next((of for of in COLUMNS.values() if unit and of.stem == stem), None)
+    label = stem.replace("hookload", "hook_load").replace("_", " ") if known is None else known.label
+    factor = 1.0
+    if measure is not None and unit == measure.table:
+        factor, unit = shown(column, "si").factor, measure.si
+    sign = unit.replace("*", "·").replace("^3", "³").replace("deg", "°")
+    digits = "0" * _DIGITS.get(unit, _OTHERS)
+    return Heading(label + (f" ({sign})" if sign else ""), factor, f"0.{digits}".removesuffix("."))
 
 
 def to_workbook(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) -> None:

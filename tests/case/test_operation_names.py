@@ -35,7 +35,8 @@ def test_the_words_of_legends_may_have_a_comma() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "near"), [("pickups", "the kind pick-up"), ("dance", "pick-up, slack-off"), (3, "SO")]
+    ("name", "near"),
+    [("pickups", "the kind pick-up"), ("dance", "pick-up, slack-off"), (3, "SO"), ("Drilling", "drill_rotating or")],
 )
 def test_refused(name: object, near: str) -> None:
     with pytest.raises(InputError, match=near):

@@ -26,6 +26,9 @@ calamine = pytest.importorskip("python_calamine")
         ("clearance_m", Heading("clearance (mm)", 1e3, "0.0")),
         ("inclination_deg", Heading("inclination (°)", 1.0, "0.0")),
         ("speed_m_s", Heading("speed (m/s)", 1.0, "0.000")),
+        ("jet_speed_ft_s", Heading("jet speed (ft/s)", 1.0, "0.0")),
+        ("standpipe_psi", Heading("standpipe (psi)", 1.0, "0")),
+        ("start_s", Heading("start (s)", 1.0, "0.0")),
         ("friction", Heading("friction", 1.0, "0.000")),
     ],
 )
