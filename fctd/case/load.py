@@ -172,7 +172,7 @@ class Case(Table):
 
         It reads survey and caliper; the same well has the same one on every machine, whatever its file is called.
         """
-        of_files = {"survey": True, "columns": True, "sheet": True, "stations": True, "caliper": {"log": True}}
+        of_files: Any = {"survey": True, "columns": True, "sheet": True, "stations": True, "caliper": {"log": True}}
         told = self.model_dump_json(exclude={"file": True, "wellbore": of_files})
         caliper = self.wellbore.calipers
         parts = [told.encode(), self.wellbore.trajectory.tobytes()]

@@ -1,6 +1,6 @@
 """What a table knows of itself: units, case, warnings and version, as JSON in the ``attrs`` of its DataFrame."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from functools import cache
 from importlib.metadata import version
 from typing import Any
@@ -21,14 +21,16 @@ def attrs_of(
     drive: Mapping[str, float | str | None],
     frictions: Sequence[FrictionSet] = (),
     units: System = "si",
-) -> dict[str, Any]:
+) -> dict[Hashable | None, Any]:
     """The ``attrs`` of a table of steady strings, which Parquet files keep: JSON alone.
 
     units : of its columns; case : name and ``Case.digest``; warnings : probable mistakes of the case and of what was
     asked for, see ``InputWarning``; version : of this program.  kinds, drive, frictions : operations, their speed, rpm
     and flow where they are given, and the sets of friction factors.
     """
-    rates = {name: None if of is None else argument(of, _DIMENSIONS[name], name) for name, of in drive.items()}
+    rates: dict[str, Any] = {
+        name: None if of is None else argument(of, _DIMENSIONS[name], name) for name, of in drive.items()
+    }
     warnings = warnings_of(case, kinds, **rates, frictions=frictions)
     return {
         "units": units,
