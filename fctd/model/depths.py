@@ -63,8 +63,8 @@ def depths_of(values: float | str | Sequence[float | str], case: Case, key: str)
     """
     if isinstance(values, str) and ":" in values:
         return read_depths(values, case, key)
-    if isinstance(values, str) or np.ndim(values) == 0:
-        return [depth_of(values, case, key)]  # type: ignore[arg-type]
+    if isinstance(values, str | float | int | np.number):
+        return [depth_of(values, case, key)]
     if np.ndim(values) != 1:
         raise InputError("a list of bit depths", key=key, value=values)
     depths = [depth_of(value, case, f"{key}[{k}]") for k, value in enumerate(list(values))]  # type: ignore[arg-type]

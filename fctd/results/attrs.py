@@ -1,6 +1,6 @@
 """What a table knows of itself: units, case, warnings and version, as JSON in the ``attrs`` of its DataFrame."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from functools import cache
 from importlib.metadata import version
 from typing import Any
@@ -21,7 +21,7 @@ def attrs_of(
     drive: Mapping[str, float | str | None],
     frictions: Sequence[FrictionSet] = (),
     units: System = "si",
-) -> dict[str, Any]:
+) -> dict[Hashable | None, Any]:
     """The ``attrs`` of a table of steady strings, which Parquet files keep: JSON alone.
 
     units : of its columns; case : name and ``Case.digest``; warnings : probable mistakes of the case and of what was

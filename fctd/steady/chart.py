@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from fctd.case.friction import FrictionChoice
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case
 from fctd.case.text import counted
@@ -14,7 +15,7 @@ from fctd.model.operations import SteadyRates, rates_of_all
 from fctd.results.display import Picture, drawers, html_of, picture
 from fctd.results.notes import RowNote
 from fctd.results.unit_systems import System, in_field_units, reworded
-from fctd.steady.torque_drag import FrictionChoice, Progress, chart_rows, table_of_rows
+from fctd.steady.torque_drag import Progress, chart_rows, table_of_rows
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -74,7 +75,8 @@ class Chart:
         return f"Chart({self.case.name!r}, {counted(len(self.rows), 'row')}: {kinds})"
 
     def _repr_html_(self) -> str:
-        return html_of(repr(self), self.table.iloc[:, [self.rows.columns.get_loc(name) for name in _SHOWN]])
+        names = dict(zip(self.rows.columns, self.table.columns, strict=True))  # in SI units, and as they are shown
+        return html_of(repr(self), self.table[[names[name] for name in _SHOWN]])
 
 
 def chart(
@@ -90,7 +92,7 @@ def chart(
 ) -> Chart:
     """The chart of ``torque_drag``, with the same arguments, as an object that plots itself; raises as it does."""
     notes: list[RowNote] = []
-    drive = {"speed": speed, "rpm": rpm, "flow": flow}
+    drive: dict[str, Any] = {"speed": speed, "rpm": rpm, "flow": flow}
     rows = chart_rows(case, operation, bit_depths, friction, **drive, progress=progress, threads=threads, notes=notes)
     table = table_of_rows(rows, case, operation, friction, drive)
     warnings = tuple(InputWarning(**told) for told in table.attrs["warnings"])

@@ -76,7 +76,7 @@ def torque_drag(
     ``attrs`` of the table say its units, case, warnings and version (``attrs_of``).  Raises InputError for unusable
     input, and where string and hole fit at none of the depths.
     """
-    drive = {"speed": speed, "rpm": rpm, "flow": flow}
+    drive: dict[str, Any] = {"speed": speed, "rpm": rpm, "flow": flow}
     rows = chart_rows(case, operation, bit_depths, friction, **drive, progress=progress, threads=threads)
     return table_of_rows(rows, case, operation, friction, drive)
 

@@ -182,6 +182,9 @@ class CorrelationSpec(Table):
     coefficient: Probability
 
 
+BitDepth = units.MeasuredDepth | Literal["td", "shoe"]
+
+
 class WorkSpec(Table):
     """What is computed of each sample: a steady ``chart``, an ``equilibrium``, a ``refine`` search, or ``simulate``.
 
@@ -191,8 +194,8 @@ class WorkSpec(Table):
 
     kind: Literal["chart", "equilibrium", "refine", "simulate"] = "chart"
     operations: tuple[KindName, ...] = ()
-    depths: str | tuple[units.MeasuredDepth, ...] | None = None
-    bit_depth: units.MeasuredDepth | None = None
+    depths: str | tuple[BitDepth, ...] | None = None
+    bit_depth: BitDepth | None = None
     speed: units.PositiveSpeed | None = None
     rpm: units.PositiveRpm | None = None
     flow: units.Flow | None = None

@@ -10,7 +10,7 @@ from typing import Any, Final
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case
-from fctd.model.depths import read_depths
+from fctd.model.depths import depth_of, depths_of
 from fctd.model.operations import rates_of_all
 from fctd.results.columns import LOADS
 from fctd.results.notes import codes_of
@@ -37,10 +37,9 @@ class Task:
 
 def task_of(spec: WorkSpec, case: Case) -> Task:
     """The work of a sweep; raises InputError for depths or rates that the case cannot have."""
-    written = spec.depths if spec.depths is not None else ()
-    depths = tuple(read_depths(written, case, "work.depths") if isinstance(written, str) else written)
+    depths = () if spec.depths is None else tuple(depths_of(spec.depths, case, "work.depths"))
     if spec.bit_depth is not None:
-        depths = (spec.bit_depth,)
+        depths = (depth_of(spec.bit_depth, case, "work.bit_depth"),)
     if spec.kind != "simulate":
         rates_of_all(case, spec.operations, spec.speed, spec.rpm, spec.flow)
     elif not case.operations:

@@ -18,7 +18,10 @@ from fctd.case.load import KINDS, load_case
 from fctd.cli import main
 from fctd.model.operations import rad_per_s, steady_rates
 from fctd.results.notes import MEANINGS
+from fctd.sweep.run import prepare
+from fctd.sweep.spec import read_sweep
 from references import __main__ as references
+from reports import figures
 from tests.browsers import needs_browser
 from tests.case import survey_files
 from validation.harness.registry import STUDIES
@@ -296,6 +299,23 @@ def test_studies_are_called_by_their_names() -> None:
     named = set(re.findall(r"python -m validation ([a-z]\w*)", text)) | set(re.findall(r"[Ss]tudy\s+`(\w+)`", text))
     assert len(named) >= 5
     assert named <= {*STUDIES, "claims"}
+
+
+def test_figures_of_the_paper_lead_to_studies_and_figures() -> None:
+    text = (ROOT / "docs" / "claims.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| (?:Fig|times).*?\| (`.*`) \| `(\w+)-(\w+)` \|$", text, re.MULTILINE)
+    drawn = {(study, figure.name) for study, those in figures.by_study().items() for figure in those}
+    assert len(rows) == 8
+    assert {(study, name) for _, study, name in rows} <= drawn
+    assert set(re.findall(r"\w+", "".join(studies for studies, *_ in rows))) <= STUDIES.keys()
+
+
+def test_the_sweep_file_of_the_guide_runs(checkout: Path) -> None:
+    (block,) = blocks(ROOT / "docs" / "sweep.md", "toml")
+    Path("sweep.toml").write_text(block, encoding="utf-8")
+    runner, samples = prepare(read_sweep("sweep.toml"))
+    assert len(samples) == 200
+    assert runner.task.depths == (1500.0, 2000.0, 2500.0, 3000.0)
 
 
 def test_pictures_are_small_and_those_of_the_command() -> None:
