@@ -23,6 +23,9 @@ from fctd.model.mud import hole_radius
 from fctd.model.wellbore import Wellbore
 
 FRICTIONLESS = Rheology.newtonian(0.0)
+# Short tools that fill more of the hole's diameter are bits and stabilisers, which let mud pass between their blades;
+# pipe is taken to leave at least a gap.
+BLADED, FULLEST = 0.9, 0.98
 # Within so much of the flow that the string displaces the flow through an open bore is known.
 SHARED = 1e-10
 # Number of flows through an open bore between whose pressures the flow is looked for; of finer tables.
@@ -156,14 +159,16 @@ def flow_curves(case: Case, string: String) -> tuple[Rheology, Rheology]:
 
 def channel_of(case: Case, string: String, hole: Wellbore, eccentricity: float | Array = 0.0) -> Channel:
     """The channel of a laid-out string; eccentricity (n,) : offset of the pipe over its clearance, 0 to 1."""
-    n, length = string.segments, string.length
+    n, length, wide = string.segments, string.length, hole_radius(hole, string.top_md, string.length)
     inside, outside = flow_curves(case, string)
     densities = string.densities or (case.mud.density, case.mud.density)
-    bottom = string.top_md + np.cumsum(length)
-    around = (string.of("outer"), hole_radius(hole, string.top_md, length), eccentricity, *outside, densities[1])
+    bottom, outer = string.top_md + np.cumsum(length), string.of("outer")
+    bladed = (string.of("point") != 0) & (outer > BLADED * wide)
+    wet = np.where(bladed, 0.0, np.clip(bottom, 0.0, length))
+    around = (np.minimum(outer, FULLEST * wide), wide, eccentricity, *outside, densities[1])
     within = (string.of("inner"), *inside, densities[0])
     return Channel(
-        string.above_bit, length, np.clip(bottom, 0.0, length), _table(n, around), _table(n, within),
+        string.above_bit, length, wet, _table(n, around), _table(n, within),
         _tools(string, densities[0]), (case.bit.nozzle_area or np.inf, case.bit.discharge**-2),
         "plugged" if any(row.plug for row in case.mud.inside) else case.end, _heavier(string, hole),
     )  # fmt: skip

@@ -83,7 +83,8 @@ def panels_page(of: Panels) -> "go.Figure":
         for curve in panel.curves:
             look = stroke(COLOURS[curve.colour % len(COLOURS)], DASHES[curve.dash % len(DASHES)], 2.0)
             trace = go.Scatter(
-                x=curve.value, y=curve.depth, name=curve.name, legendgroup=curve.name, line=look,
+                x=curve.value if len(curve.depth) else [None], y=curve.depth if len(curve.depth) else [None],
+                name=curve.name, legendgroup=curve.name, line=look,
                 mode="markers" if len(curve.depth) == 1 else "lines", showlegend=curve.name not in seen,
                 hovertemplate=f"%{{y:.1f}}: %{{x:.4g}}<extra>{curve.name}</extra>",
             )  # fmt: skip

@@ -77,3 +77,17 @@ def test_a_swab_opens_a_float_where_it_overcomes_what_it_holds() -> None:
     swab = -float(alike.outside(0.0, -5.0).gradient @ alike.wet)
     assert swab > light.heavier
     assert 0 < light.out_of_bit(0.0, -5.0, "float") < alike.out_of_bit(0.0, -5.0, "float")
+
+
+def test_mud_passes_between_the_blades_of_a_bit_as_wide_as_its_hole() -> None:
+    """Without friction or drag; pipe that fills its hole has a large and finite one."""
+    parts = [pipe(0.3, 1, outer=0.3, contact="point"), pipe(None, None, segment_length=50.0)]
+    wall = {"intervals": [{"to_md": 500, "diameter": 0.3, "friction": 0.2}]}
+    case = make_case([[0, 0, 0], [500, 0, 0]], parts, wellbore=wall, mud={"density": 1200.0, "viscosity": 0.03})
+    of = channel_of(case, lay_out(case, 400.0), build_wellbore(case))
+    assert of.wet[-1] == 0
+    assert of.wet.sum() == pytest.approx(399.7)
+    full = make_case([[0, 0, 0], [500, 0, 0]], [pipe(None, None, outer=0.3, segment_length=50.0)], wellbore=wall,
+                     mud={"density": 1200.0, "viscosity": 0.03})  # fmt: skip
+    tight = channel_of(full, lay_out(full, 400.0), build_wellbore(full))
+    assert 1e6 < float(tight.outside(0.03, 0.0).gradient @ tight.wet) < 1e10
