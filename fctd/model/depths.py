@@ -67,7 +67,7 @@ def depths_of(values: float | str | Sequence[float | str], case: Case, key: str)
         return [depth_of(values, case, key)]
     if np.ndim(values) != 1:
         raise InputError("a list of bit depths", key=key, value=values)
-    depths = [depth_of(value, case, f"{key}[{k}]") for k, value in enumerate(list(values))]  # type: ignore[arg-type]
+    depths = [depth_of(value, case, f"{key}[{k}]") for k, value in enumerate(list(values))]
     if not depths:
         raise InputError("at least one bit depth", key=key, value=[])
     for before, here in zip([-np.inf, *depths], depths, strict=False):

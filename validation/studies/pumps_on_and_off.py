@@ -96,7 +96,7 @@ def run(context: Context) -> Outcome:
         tables={"forge": of_forge, "f4": of_f4, "series": pd.DataFrame([counted])},
         checks=[
             Check("16A(78)-32: least recorded difference of pumps on and off over the most that lift and jets explain",
-                  float(differences.min()) / float(of_forge["in_all_kN"].max()), 1.2, "at_most", "",
+                  float(differences.to_numpy(float).min()) / float(of_forge["in_all_kN"].max()), 1.2, "at_most", "",
                   "a model of the flow explains what is recorded"),
             Check("15/9-F-4: places where the string stands without rotation, with pumps on and off",
                   counted["places_with_both_without_rotation"], 10, "at_least", "", "a pair that tells the lift"),
