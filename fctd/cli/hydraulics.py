@@ -34,7 +34,6 @@ from fctd.cli.options import (
 )
 from fctd.cli.pictures import PICTURE_HELP, draw_panels
 from fctd.cli.steady import Units, check_targets, file_option, in_units, metadata_of_case, row_bar
-from fctd.hydraulics.closed_forms import TURBULENT, YIELDING
 from fctd.hydraulics.cuttings import Cuttings
 from fctd.hydraulics.pressures import PUMPED, SHARE, Circulation, Eccentricity, circulations
 from fctd.results.table_files import write_table
@@ -46,6 +45,7 @@ if TYPE_CHECKING:
 
 SCREEN_ROWS: Final = 30
 # Columns of a row on the screen, with headings.
+WORTH_SAYING: Final = 0.025  # share of the pressure in the annulus
 SHOWN: Final = {
     "bit_depth_m": "bit", "standpipe_Pa": "standpipe", "surface_drop_Pa": "surface", "bore_drop_Pa": "bore",
     "tool_drop_Pa": "tools", "bit_drop_Pa": "at the bit", "annulus_drop_Pa": "annulus",
@@ -208,10 +208,10 @@ def _print(case: Case, table: "pd.DataFrame", found: Sequence[Circulation], unit
     for reason, of in table[table["reason"] != "none"].groupby("reason", sort=False):
         depths = ", ".join(f"{depth * shown('bit_depth_m', units).factor:.0f}" for depth in of["bit_depth_m"].unique())
         screen.print(f"at {depths} {shown('bit_depth_m', units).label}: {reworded(str(reason), units)}", soft_wrap=True)
-    if any(_yields(one) for one in found):
+    if (off := max((one.circuit.too_high for one in found), default=0.0)) > WORTH_SAYING:
         messages.print(
-            "RP 13D may be up to 40 % high where the yield stress is most of the stress at the wall, as in part of the "
-            "annulus here: more flow or less yield stress makes it exact within 2.5 %",
+            f"RP 13D may be {100 * off:.0f} % high in the annulus, where much of the stress at the wall is yield "
+            "stress: with more flow or less yield stress it is exact within 2.5 %",
             soft_wrap=True,
         )
     if any(one.cuttings is not None and np.isnan(one.ratios).any() for one in found):
@@ -219,11 +219,6 @@ def _print(case: Case, table: "pd.DataFrame", found: Sequence[Circulation], unit
             "cuttings: no estimate where the hole is steeper than 30°, and no weight in the density there",
             soft_wrap=True,
         )
-
-
-def _yields(one: Circulation) -> bool:
-    loss = one.circuit.annulus
-    return bool(((loss.yield_share > YIELDING) & (loss.regime < TURBULENT)).any())
 
 
 def _table(of: "pd.DataFrame", units: System) -> Table:

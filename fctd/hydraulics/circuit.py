@@ -12,7 +12,7 @@ import numpy as np
 from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.hydraulics.channel import Channel, has_flow_curve
-from fctd.hydraulics.closed_forms import TURBULENT, YIELDING, Loss
+from fctd.hydraulics.closed_forms import Loss, excess
 
 
 @dataclass(frozen=True)
@@ -36,10 +36,14 @@ class Circuit:
 
     @property
     def doubted(self) -> float:
-        """Lift where much of the stress at the wall of the annulus is yield stress [N]: RP 13D is too high there."""
-        loss = self.annulus
-        yields = (loss.yield_share > YIELDING) & (loss.regime < TURBULENT)
-        return float(np.abs(self.given[yields]).sum())
+        """By how much the law of the annulus may make the lift too large [N]: where its mud mostly yields."""
+        return float(np.abs(self.given) @ excess(self.annulus))
+
+    @property
+    def too_high(self) -> float:
+        """By what share the law of the annulus may make its pressure too high."""
+        lost = np.abs(np.diff(self.outside))
+        return float(lost @ excess(self.annulus)) / max(float(lost.sum()), 1e-300)
 
     @property
     def lift(self) -> float:

@@ -20,9 +20,7 @@ from fctd.results.buckling import Buckling
 from fctd.results.limits import LIMITS, Place, place_of
 from fctd.results.profile import place_in_words
 
-# By how much RP 13D's laminar law may be too high for a mud that mostly yields (study annular_flow), and the share of a
-# string's weight that is worth a note.
-LAW_OFF, HARDLY = 0.4, 0.01
+HARDLY = 0.01  # share of a string's weight that is worth a note
 FULL: Final = LimitsSpec()  # all of each capacity may be used
 # Codes of notes on what string and rig bear, whose probability a sweep tells.
 BORNE: Final = (*(limit.code for limit in LIMITS), "hoist", "drive", "slips")
@@ -144,9 +142,8 @@ def note_of(code: str, text: str, excess: float, place: float | None = None) -> 
     return Note(code, text, MEANINGS[code].remedy, place, excess)
 
 
-def flow_law(doubted: float, weight: float) -> Note | None:
-    """The note on a lift [N] by a law that is up to ``LAW_OFF`` too high, beside a string of a weight [N]."""
-    off = LAW_OFF * doubted
+def flow_law(off: float, weight: float) -> Note | None:
+    """The note on a lift that may be too large by so much, beside a string of a weight [N]."""
     text = f"the pull of the mud along the string may be {off / 1e3:.0f} kN too large"
     return note_beyond("flow_law", text, off, HARDLY * weight)
 
