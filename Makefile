@@ -7,8 +7,8 @@
 # make lint        check style, types and allowed imports
 # make bullet      build pybullet from source, which has no wheel for Python 3.12 and later: needs a C++ compiler and
 #                  about six minutes of one core
-# make rivals      install the packages of rivals.lock beside those of the suite in an environment of their own,
-#                  .venv-rivals (some 0.6 GB more); .venv-rivals/bin/python -m validation --rivals compares with them
+# make rivals      install the packages of rivals.lock (some 0.6 GB) in an environment of their own, .venv-rivals, which
+#                  sees those of the suite too; .venv-rivals/bin/python -m validation --rivals compares with them
 # make next-numba  try the newest numba in an environment of its own, .venv-next: the compiled code and its cache
 # make clean       remove results, report and caches; the environment in .venv stays
 #
@@ -64,10 +64,14 @@ bullet: $(STAMP)
 
 rivals: .venv-rivals/installed
 
-.venv-rivals/installed: requirements.lock rivals.lock pyproject.toml
-	$(PYTHON) -m venv .venv-rivals
-	.venv-rivals/bin/python -m pip install --quiet --disable-pip-version-check --only-binary=:all: -r requirements.lock -r rivals.lock
-	.venv-rivals/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
+# The environment sees the suite's packages, so that pip finds those of the first lock installed. What is never imported
+# is not compiled.
+.venv-rivals/installed: $(STAMP) rivals.lock
+	$(BIN)/python -m venv --without-pip .venv-rivals
+	$(BIN)/python -c 'from sysconfig import get_path as path; \
+	open(path("purelib", vars={"base": ".venv-rivals"}) + "/suite.pth", "w").write("import site; site.addsitedir(%r)\n" % path("purelib"))'
+	.venv-rivals/bin/python -m pip install --quiet --disable-pip-version-check --no-compile --only-binary=:all: \
+	-r requirements.lock -r rivals.lock
 	.venv-rivals/bin/python -m pip check --disable-pip-version-check
 	@touch $@
 
