@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import pandas as pd
 import pytest
 
 import fctd
@@ -47,6 +48,8 @@ def test_input_that_cannot_be_used() -> None:
     rows = measured_rows(well(), {"rig.block_weight": 230e3}, blank_rows(well())[-2:-1])
     with pytest.raises(InputError, match="the loss soft_l1"):
         calibrate(well(), rows, ["rig.block_weight"], loss="soft_l2")  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="measured = a DataFrame: expected a file of rows, as its to_csv"):
+        calibrate(well(), pd.DataFrame({"operation": ["trip_in"]}), ["friction"])  # type: ignore[arg-type]
     with pytest.raises(InputError, match="starts = 0: expected at least 1"):
         calibrate(well(), rows, ["rig.block_weight"], starts=0)
     with pytest.raises(InputError, match="a case"):
