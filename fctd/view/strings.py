@@ -107,8 +107,8 @@ def of_chart(
 ) -> Strings:
     """Steady strings of operations at bit depths.
 
-    bit_depths, speed, rpm, flow : as for ``fctd.torque_drag``; friction : one set of factors.  Raises InputError where string and hole fit at none of
-    the depths.
+    bit_depths, speed, rpm, flow : as for ``fctd.torque_drag``; friction : one set of factors.  Raises InputError where
+    string and hole fit at none of the depths.
     """
     kinds = [operation] if isinstance(operation, str) else list(operation)
     rates, solver = rates_of_all(case, kinds, speed, rpm, flow), Solver(with_friction(case, friction))

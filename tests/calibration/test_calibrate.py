@@ -38,7 +38,7 @@ def test_a_file_of_rows_with_an_override_set(tmp_path: Path) -> None:
     setup = Setup.model_validate({"strings": {"heavy": {"string.components[0].linear_mass": 60.0}}})
     case = fctd.load_case(tmp_path / "small.toml")
     found = fctd.calibrate(case, tmp_path / "rows.csv", ["rig.block_weight"], setup=setup)
-    assert found.values["rig.block_weight"] == pytest.approx(200e3, rel=1e-6)
+    assert found.values["rig.block_weight"] == pytest.approx(200e3, rel=1e-6)  # noqa: PD011
     assert found.residuals["residual"].abs().max() < 1.0
     with pytest.raises(InputError, match=r"strings\.heavy"):
         calibrate(well(), tmp_path / "rows.csv", ["rig.block_weight"], setup=setup)
