@@ -52,9 +52,10 @@ PRINTED = {
     "adding_a_contact_method.md": ["completed straight_down"],
     "monitor.md": ["friction_low", "the apparent friction factor is"],
     "references.md": ["valid 42", "settled hook load"],
-    "steady.md": ["converged", "trip_out", "weight_on_bit_N"],
+    "steady.md": ["converged", "trip_out", "weight_on_bit_N", "[(3000.0, '0.5')]"],
     "sweep.md": ["trip_out", "mean"],
     "time.md": ["completed", "[0.04205]"],
+    "well.md": ["drill collars"],
     "view.md": ["2 strings,", "contacts in the last"],
 }
 
