@@ -24,7 +24,8 @@ from fctd.calibration.rows import Row, read_rows
 from fctd.calibration.rules import left_out_by_rule
 from fctd.calibration.setup import Setup, UnknownSpec, read_setup
 from fctd.calibration.unknowns import Unknown, check_known, find_unknowns, parse_fits, refuse_edited, refuse_overridden
-from fctd.case.errors import InputError, naming, nearest
+from fctd.case.errors import Computed, InputError, naming, nearest
+from fctd.case.from_python import is_frame
 from fctd.case.load import Case, load_case, naming_file
 from fctd.results.unit_systems import System
 
@@ -216,6 +217,9 @@ def gather_rows(
     measured: bool,
 ) -> tuple[list[Row], dict[str, Case]]:
     """The rows and the case of each string; an override set changes the case's file, after the case's overrides."""
+    if is_frame(rows):
+        expected, key = "a file of rows, as its to_csv writes one", "measured" if measured else "rows"
+        raise InputError(expected, key=key, value=Computed("a DataFrame"))
     if not isinstance(rows, str | PathLike):
         return list(rows), {"": case, **(strings or {})}
     sets = dict(strings or {})

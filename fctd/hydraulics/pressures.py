@@ -225,8 +225,8 @@ class Circulation:
     def _row(self, part: str, name: str, top: float, bottom: float, drop: float) -> Row:
         return {
             "flow_m3_s": self.flow, "bit_depth_m": self.laid.string.bit_depth, "part": part, "name": name,
-            "interval": 0, "from_md_m": round(top, 6), "to_md_m": round(bottom, 6), "pressure_drop_Pa": drop, "speed_m_s": np.nan,
-            "regime": "", "ecd_kg_m3": np.nan, "transport_ratio": np.nan,
+            "interval": 0, "from_md_m": round(top, 6), "to_md_m": round(bottom, 6), "pressure_drop_Pa": drop,
+            "speed_m_s": np.nan, "regime": "", "ecd_kg_m3": np.nan, "transport_ratio": np.nan,
         }  # fmt: skip
 
 

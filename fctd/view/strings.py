@@ -12,9 +12,11 @@ from numpy.typing import NDArray
 
 from fctd.arrays import Array
 from fctd.case.errors import InputError
-from fctd.case.load import Case
+from fctd.case.friction import FrictionChoice
+from fctd.case.load import Case, with_friction
 from fctd.case.operation_names import kinds_of
 from fctd.case.operations import KINDS
+from fctd.model.depths import depths_of
 from fctd.model.frames import hole_frame
 from fctd.model.operations import rates_of_all
 from fctd.model.wellbore import Wellbore, build_wellbore
@@ -96,30 +98,33 @@ class Strings:
 def of_chart(
     case: Case,
     operation: str | Sequence[str],
-    bit_depths: Sequence[float],
+    bit_depths: float | str | Sequence[float | str],
     speed: float | str | None = None,
     rpm: float | str | None = None,
     flow: float | str | None = None,
     progress: Progress | None = None,
+    *,
+    friction: FrictionChoice | None = None,
 ) -> Strings:
-    """Steady strings of operations at bit depths [m].
+    """Steady strings of operations at bit depths.
 
-    speed [m/s], rpm, flow [m³/s] : as for ``fctd.torque_drag``.  Raises InputError where string and hole fit at none of
-    the depths.
+    bit_depths, speed, rpm, flow : as for ``fctd.torque_drag``; friction : one set of factors.  Raises InputError where
+    string and hole fit at none of the depths.
     """
     kinds = kinds_of(operation)
-    rates, solver = rates_of_all(case, kinds, speed, rpm, flow), Solver(case)
+    rates, solver = rates_of_all(case, kinds, speed, rpm, flow), Solver(with_friction(case, friction))
+    depths = depths_of(bit_depths, case, "bit_depths")
     points, unfit = [], dict[float, InputError]()
-    for k, depth in enumerate(bit_depths, start=1):
+    for k, depth in enumerate(depths, start=1):
         try:
-            laid = solver.lay_out(float(depth))
+            laid = solver.lay_out(depth)
             points += [solver.solve_string(kind, rates[kind], laid) for kind in kinds]
         except InputError as error:
-            unfit[float(depth)] = error
+            unfit[depth] = error
         if progress is not None:
-            progress(k, len(bit_depths))
+            progress(k, len(depths))
     if not points:
-        raise next(iter(unfit.values()), InputError("at least one bit depth", key="bit_depths", value=[]))
+        raise next(iter(unfit.values()))
     points.sort(key=lambda point: kinds.index(point.operation))
     return replace(of_points(points, solver.hole), left_out=_left_out(unfit))
 

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import pandas as pd
 import pytest
 
 import fctd
@@ -37,7 +38,7 @@ def test_a_file_of_rows_with_an_override_set(tmp_path: Path) -> None:
     setup = Setup.model_validate({"strings": {"heavy": {"string.components[0].linear_mass": 60.0}}})
     case = fctd.load_case(tmp_path / "small.toml")
     found = fctd.calibrate(case, tmp_path / "rows.csv", ["rig.block_weight"], setup=setup)
-    assert found.values["rig.block_weight"] == pytest.approx(200e3, rel=1e-6)
+    assert found.values["rig.block_weight"] == pytest.approx(200e3, rel=1e-6)  # noqa: PD011
     assert found.residuals["residual"].abs().max() < 1.0
     with pytest.raises(InputError, match=r"strings\.heavy"):
         calibrate(well(), tmp_path / "rows.csv", ["rig.block_weight"], setup=setup)
@@ -47,6 +48,8 @@ def test_input_that_cannot_be_used() -> None:
     rows = measured_rows(well(), {"rig.block_weight": 230e3}, blank_rows(well())[-2:-1])
     with pytest.raises(InputError, match="the loss soft_l1"):
         calibrate(well(), rows, ["rig.block_weight"], loss="soft_l2")  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="measured = a DataFrame: expected a file of rows, as its to_csv"):
+        calibrate(well(), pd.DataFrame({"operation": ["trip_in"]}), ["friction"])  # type: ignore[arg-type]
     with pytest.raises(InputError, match="starts = 0: expected at least 1"):
         calibrate(well(), rows, ["rig.block_weight"], starts=0)
     with pytest.raises(InputError, match="a case"):

@@ -53,9 +53,10 @@ PRINTED = {
     "hydraulics.md": ["standpipe_Pa", "fastest_m_s"],
     "monitor.md": ["friction_low", "the apparent friction factor is"],
     "references.md": ["valid 42", "settled hook load"],
-    "steady.md": ["converged", "trip_out", "weight_on_bit_N"],
+    "steady.md": ["converged", "trip_out", "weight_on_bit_N", "[(3000.0, '0.5')]"],
     "sweep.md": ["trip_out", "mean"],
     "time.md": ["completed", "[0.04205]"],
+    "well.md": ["drill collars"],
     "view.md": ["2 strings,", "contacts in the last"],
 }
 

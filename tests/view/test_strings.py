@@ -40,6 +40,12 @@ def test_a_depth_at_which_string_and_hole_do_not_fit_is_left_out() -> None:
         of_chart(case(), "trip_in", [])
 
 
+def test_words_and_factors_are_those_of_charts() -> None:
+    (one,) = of_chart(case(), "trip_in", "td", friction=0.4).snapshots
+    assert one.bit_depth == case().depths[1]
+    assert one.hookload == equilibrium(case(), "trip_in", "td", friction=0.4).hookload
+
+
 def test_a_string_without_a_balance_says_why() -> None:
     (one,) = of_points([equilibrium(case(), "trip_in", 500.0).without_loads()]).snapshots
     assert len(one.offset) == 0
