@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args
 
+from fctd.case.errors import InputError
 from fctd.case.friction import FrictionChoice
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case
@@ -58,14 +59,19 @@ class Chart:
         return table
 
     def to_units(self, units: System) -> Chart:
-        """The same chart in "field" units, or in "si"."""
+        """The same chart in "field" units, or in "si"; InputError for others."""
+        if units not in get_args(System):
+            raise InputError('"si" or "field"', key="units", value=units)
         return replace(self, units=units)
 
     def plot(self, **look: Any) -> Picture:
         """Hook load and torque against bit depth.
 
-        look : of ``fctd.plots.ChartLook``, such as load = "indicator" or margins = ``limits_of(case, …)``.
+        look : of ``fctd.plots.ChartLook``, such as load = "string" or margins = ``limits_of(case, …)``.  Raises
+        InputError for another load than "string" and "indicator".
         """
+        if look.get("load") not in (None, "string", "indicator"):
+            raise InputError('"string" or "indicator"', key="load", value=look["load"])
         told = [reworded(str(warning), self.units) for warning in self.warnings]
         chosen = drawers().ChartLook(**{"rates": self.rates, "warnings": told, **look})
         return picture("chart_figure", self.rows, self.units, self.case, chosen)

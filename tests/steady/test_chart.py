@@ -49,3 +49,10 @@ def test_it_draws_itself(chart: fctd.Chart, tmp_path: Path) -> None:
     assert "bit depth, ft" in texts
     assert picture._repr_png_().startswith(b"\x89PNG")
     assert picture.save(tmp_path / "chart.svg") == [tmp_path / "chart.svg"]
+
+
+def test_units_and_loads_that_nobody_knows_are_refused(chart: fctd.Chart) -> None:
+    with pytest.raises(fctd.InputError, match='units = "ft": expected "si" or "field"'):
+        chart.to_units("ft")  # type: ignore[arg-type]
+    with pytest.raises(fctd.InputError, match='load = "torque": expected "string" or "indicator"'):
+        chart.plot(load="torque")
