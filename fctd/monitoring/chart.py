@@ -13,7 +13,7 @@ from fctd.case.friction import FrictionSet, Pair, changed, table_of
 from fctd.case.load import Case
 from fctd.case.operations import KINDS as OPERATIONS
 from fctd.hydraulics.channel import has_flow_curve
-from fctd.model.operations import SteadyRates, drive_torque, rad_per_s, rates_of_all, weight_indicator
+from fctd.model.operations import drive_torque, rad_per_s, rates_of_all, weight_indicator
 from fctd.model.section import section_of
 from fctd.model.wellbore import build_wellbore
 from fctd.monitoring.stretches import OF_KIND, Mode
@@ -41,6 +41,13 @@ class Inverse(NamedTuple):
 
     factor: float
     per_reading: float
+
+
+class Relief(NamedTuple):
+    """What a flow of mud takes off the hook load [N], and the share of the rotating torque that it leaves."""
+
+    lift: float
+    torque_share: float
 
 
 def fit_of(case: Case, fit: Fit | None) -> Fit:
@@ -80,9 +87,9 @@ class Chart:
             for factor, interval in zip(self._set(float(FACTORS[HELD])).of(intervals), intervals, strict=True)
         )
         self._other = solver(held)
-        # Of mud at rest: what its flow takes off a reading is added to the reading.
+        # Of mud at rest: a reading is brought to mud at rest by ``relief``.
         self._rates = rates_of_all(case, list(OF_KIND), flow=0.0)
-        self._lifts: dict[tuple[float, float], float] = {}
+        self._reliefs: dict[tuple[str, float, float], Relief] = {}
         self._nodes: dict[tuple[str, float], Array] = {}
         self._coarse: dict[float, Array] = {}
         self._inverses: dict[tuple[Mode, float, float], PchipInterpolator | None] = {}
@@ -102,19 +109,18 @@ class Chart:
             self._nodes[key] = np.array([self._solve(solver, *key)[column] for solver in self._solvers])
         return self._nodes[key]
 
-    def lift(self, depth: float, flow: float) -> float:
-        """What mud that is pumped [m³/s] takes off the hook load [N]: its pull along the string, whose friction is left
-        out.  0 where the case does not say how its mud flows, and without a flow."""
+    def relief(self, mode: Mode, depth: float, flow: float) -> Relief:
+        """What mud that is pumped [m³/s] takes off, at the case's own friction; nothing where the case does not say
+        how its mud flows, and without a flow.  NaN without a balance."""
         if not flow > 0 or not has_flow_curve(self.case):
-            return 0.0
-        key = self._near(depth), round(flow, 4)
-        if key not in self._lifts:
-            try:
-                laid = self._own.lay_out(key[0]).in_flow(SteadyRates(0.0, 0.0, key[1]))
-            except InputError:  # no string there, and no factor either
-                return 0.0
-            self._lifts[key] = 0.0 if laid.circuit is None else laid.circuit.lift
-        return self._lifts[key]
+            return Relief(0.0, 1.0)
+        key = KIND_OF[mode], self._near(depth), round(flow, 4)
+        if key not in self._reliefs:
+            rest = self._solve(self._own, *key[:2])
+            pumped = self._solve(self._own, *key)
+            share = pumped[1] / rest[1] if rest[1] else 1.0
+            self._reliefs[key] = Relief(rest[0] - pumped[0], share)
+        return self._reliefs[key]
 
     def _near(self, depth: float) -> float:
         return float(np.clip(round(depth / NODES) * NODES, NODES, self.deepest))
@@ -187,8 +193,11 @@ class Chart:
     def locked_share(self, depth: float, torque: float, rpm: float) -> float:
         """Share of the rotating torque of the case's own friction that a reading [N m] is."""
         turning = float(self._coarse_at(depth)[2])
-        held = torque - drive_torque(self.case.rig, rad_per_s(rpm), 0.0)
-        return held / turning if turning > 0 else 0.0
+        return self.turning(torque, rpm) / turning if turning > 0 else 0.0
+
+    def turning(self, torque: float, rpm: float) -> float:
+        """The part of a drive's torque that turns the string [N m]."""
+        return torque - drive_torque(self.case.rig, rad_per_s(0.0 if np.isnan(rpm) else rpm), 0.0)
 
     def _coarse_at(self, depth: float) -> Array:
         depth = min(depth, self.deepest)
@@ -208,10 +217,10 @@ class Chart:
             self._coarse[depth] = np.nan_to_num([turning[0], max(out[0] - down[0], 0.0), turning[1]])
         return self._coarse[depth]
 
-    def _solve(self, solver: Solver, kind: str, depth: float) -> tuple[float, float]:
+    def _solve(self, solver: Solver, kind: str, depth: float, flow: float = 0.0) -> tuple[float, float]:
         """Hook load and surface torque, NaN without a balance."""
         try:
-            point = solver.solve(kind, self._rates[kind], depth)
+            point = solver.solve(kind, self._rates[kind]._replace(flow=flow), depth)
         except InputError:
             return float("nan"), float("nan")
         return (point.hookload, point.surface_torque) if point.answered else (float("nan"), float("nan"))

@@ -101,8 +101,13 @@ def apparent(stretch: Stretch, chart: Chart, uncertainty: Uncertainty) -> Appare
     reading = stretch.torque if rotating else stretch.hook_load
     if np.isnan(reading.median):
         return none("no reading")
-    lift = chart.lift(depth, stretch.flow)
-    found = chart.invert(mode, depth, reading.median + (0.0 if rotating else lift), stretch.rpm)
+    relief = chart.relief(mode, depth, stretch.flow)
+    if not np.isfinite(relief).all():
+        return none("no steady string at this depth with this flow")
+    at_rest = reading.median + relief.lift
+    if rotating:
+        at_rest = reading.median + chart.turning(reading.median, stretch.rpm) * (1 / relief.torque_share - 1)
+    found = chart.invert(mode, depth, at_rest, stretch.rpm)
     if found is None:
         return none("no steady string at this depth")
     if rotating:
@@ -116,4 +121,4 @@ def apparent(stretch: Stretch, chart: Chart, uncertainty: Uncertainty) -> Appare
     cased = chart.by_held(mode, depth) * uncertainty.cased if uncertainty.cased > 0 else 0.0
     total = float(np.sqrt(noise**2 + found.per_reading**2 * (held**2 + cased**2)))
     low, high = (found.factor + sign * TWO_SIDED_95 * total for sign in (-1, 1))
-    return Apparent(stretch, found.factor, noise, low, high, "", lift)
+    return Apparent(stretch, found.factor, noise, low, high, "", relief.lift)

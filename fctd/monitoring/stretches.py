@@ -230,11 +230,11 @@ def quartiles(values: Array) -> Quartiles:
 def by_depth(table: pd.DataFrame) -> Iterator[Stretch]:
     """The readings of a series by depth, one a row; operations other than ``OF_KIND`` are passed over."""
     nan = float("nan")
-    for row, depth, kind, hook, torque, rpm in zip(
+    for row, depth, kind, hook, torque, rpm, flow in zip(
         table.index, table["bit_depth_m"], table["operation"], table["weight_indicator_N"], table["drive_torque_N_m"],
-        table["rpm"] if "rpm" in table else np.full(len(table), nan), strict=True,
+        *(table[name] if name in table else np.full(len(table), nan) for name in ("rpm", "flow_m3_s")), strict=True,
     ):  # fmt: skip
         if kind in OF_KIND:
             of_torque, of_hook = (Quartiles(value, value, value, 0.0) for value in (float(torque), float(hook)))
-            yield Stretch(OF_KIND[kind], nan, nan, row, row, float(depth), 1, of_torque, of_hook, float(rpm), nan, nan,
-                          "", np.array([[depth, hook, torque]]))  # fmt: skip
+            yield Stretch(OF_KIND[kind], nan, nan, row, row, float(depth), 1, of_torque, of_hook, float(rpm), nan,
+                          float(flow), "", np.array([[depth, hook, torque]]))  # fmt: skip

@@ -2,12 +2,17 @@
 
 from dataclasses import replace
 
+import pandas as pd
 import pytest
 
+from fctd import load_case
 from fctd.case.errors import InputError
+from fctd.model.operations import rates_of_all
+from fctd.monitoring.chart import Chart
 from fctd.monitoring.friction import TWO_SIDED_95, Uncertainty, apparent, parse_uncertainty
-from fctd.monitoring.stretches import Stretch, by_depth
-from tests.monitoring.made import chart, readings
+from fctd.monitoring.stretches import OF_KIND, Stretch, by_depth
+from fctd.steady.equilibrium import Solver
+from tests.monitoring.made import chart, readings, well
 
 
 def stretch(mode: str, depth: float) -> Stretch:
@@ -19,6 +24,22 @@ def test_the_factor_of_a_reading(mode: str) -> None:
     """0.3 above the step, 0.45 below it."""
     for depth, factor in ((765.0, 0.3), (890.0, 0.45)):
         assert apparent(stretch(mode, depth), chart(), Uncertainty()).factor == pytest.approx(factor, abs=3e-3)
+
+
+def test_flow_lightens_the_string_and_leaves_the_factor() -> None:
+    mud = {"density": 1250.0, "viscosity": 0.03}
+    case, flow = load_case(well(), {"mud": mud}), 0.03
+    rates, solver, inverse = rates_of_all(case, list(OF_KIND), flow=flow), Solver(case), Chart(case)
+    for kind in OF_KIND:
+        point = solver.solve(kind, rates[kind], 900.0)
+        row = {
+            "bit_depth_m": 900.0, "operation": kind, "weight_indicator_N": point.weight_indicator,
+            "drive_torque_N_m": point.drive_torque, "rpm": 60.0, "flow_m3_s": flow,
+        }  # fmt: skip
+        (one,) = by_depth(pd.DataFrame([row]))
+        found = apparent(one, inverse, Uncertainty())
+        assert found.lift > 2e3
+        assert found.factor == pytest.approx(0.3, abs=5e-3)
 
 
 def test_the_band_adds_what_is_held() -> None:
