@@ -206,7 +206,8 @@ def print_calibration(found: Calibration, units: System) -> None:
     screen.print(f"off: beyond the recorded range; left out: predicted by a fit without the {left}", soft_wrap=True)
     if lifted := float(found.residuals["lift_N"].abs().max()):
         factor, label = shown_unit("N", units)
-        screen.print(f"flow of the mud takes up to {lifted * factor:.3g} {label} off the hook load", soft_wrap=True)
+        moved = "pumped" if (found.residuals["flow_m3_s"] > 0).any() else "displaced by the moving string"
+        screen.print(f"mud that is {moved} changes hook load by up to {lifted * factor:.3g} {label}", soft_wrap=True)
     if found.scattered is not None:
         days = counted(len(found.scattered.days), "day")
         scores = found.scores or {"": found.scattered.score}

@@ -39,7 +39,6 @@ from fctd.cli.options import (
     Overrides,
     Quiet,
     Strict,
-    bare_length,
     changes_of,
     finish,
     messages,
@@ -68,11 +67,11 @@ from fctd.cli.steady import (
     in_units,
     metadata_of,
     print_segments,
+    read_bit_depths,
     read_drive,
     read_kinds,
     row_bar,
 )
-from fctd.model.depths import read_depths
 from fctd.model.operations import rates_of_all
 from fctd.plots.loads import ChartLook, usual_load
 from fctd.results.notes import meanings_of
@@ -233,7 +232,7 @@ def _chart(
     out, plot = check_targets(asked.out, asked.plot, {"--plot-profile": plot_profile})
     for key, path in {"--out": out, "--plot": plot, "--plot-profile": plot_profile}.items():
         refuse_sources(case, path, key, [asked.measured])
-    bit_depths = read_depths(asked.depths, case, "--depths", bare_length(units))
+    bit_depths = read_bit_depths(asked.depths, case, units)
     points_measured = None if asked.measured is None else _measured(asked.measured, case, plot, units)
     kinds = read_kinds(asked.operations)
     if points_measured is not None:

@@ -16,13 +16,12 @@ from fctd.case.text import counted, printable
 from fctd.case.units import DENSITY, LENGTH, SPEED, Dimension
 from fctd.cli.chart import DEPTHS_HELP
 from fctd.cli.check import Row, facts_table, flow_curves
-from fctd.cli.limits import read_one_or_more, rows_of
+from fctd.cli.limits import rows_of
 from fctd.cli.options import (
     CaseFile,
     Overrides,
     Quiet,
     Strict,
-    bare_length,
     changes_of,
     messages,
     print_written,
@@ -33,7 +32,7 @@ from fctd.cli.options import (
     tell,
 )
 from fctd.cli.pictures import PICTURE_HELP, draw_panels
-from fctd.cli.steady import Units, check_targets, file_option, in_units, metadata_of_case, row_bar
+from fctd.cli.steady import Units, check_targets, file_option, in_units, metadata_of_case, read_bit_depths, row_bar
 from fctd.hydraulics.cuttings import Cuttings
 from fctd.hydraulics.pressures import PUMPED, SHARE, Circulation, Eccentricity, circulations
 from fctd.results.table_files import write_table
@@ -117,7 +116,7 @@ def hydraulics_command(
     for key, path in (("--out", out), ("--parts", parts), ("--plot", plot)):
         refuse_sources(case, path, key)
     pumped = _flows(flows, case, units)
-    bit_depths = read_one_or_more(depths, case, bare_length(units))
+    bit_depths = read_bit_depths(depths, case, units)
     cuttings = None
     if penetration is not None:
         read: list[tuple[str, Dimension, str]] = [

@@ -9,7 +9,6 @@ from rich.box import SIMPLE_HEAD
 from rich.table import Column, Table
 
 from fctd.case.doubts import warnings_of
-from fctd.case.load import Case, check_bit_depth, naming_file
 from fctd.case.text import printable
 from fctd.cli.chart import DEPTHS_HELP
 from fctd.cli.options import (
@@ -18,7 +17,6 @@ from fctd.cli.options import (
     Overrides,
     Quiet,
     Strict,
-    bare_length,
     changes_of,
     finish,
     print_written,
@@ -37,11 +35,11 @@ from fctd.cli.steady import (
     file_option,
     in_units,
     metadata_of,
+    read_bit_depths,
     read_drive,
     read_kinds,
     row_bar,
 )
-from fctd.model.depths import read_depth, read_depths
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, reworded, shown
 from fctd.steady.margin_table import USUAL, limits_of
@@ -87,13 +85,12 @@ def limits_command(
     """Find how far the string is from its limits: overpull, weight set down, torque, slips, and bending to and fro.
 
     Loads at the bit grow until the first limit is reached, each as a steady string.  How much of a capacity may be used
-    is set in [limits], and what the rig bears in [rig].
+    is set in `limits` of the case, and what the rig bears in `rig`.
     """
     check_table(out)
     case = read_case(case_file, changes_of(overrides, friction))
     refuse_sources(case, out, "--out")
-    bare = bare_length(units)
-    bit_depths = read_one_or_more(depths, case, bare)
+    bit_depths = read_bit_depths(depths, case, units)
     kinds = read_kinds(operations, USUAL)
     drive = read_drive(speed, rpm, flow, units)
     warnings = warnings_of(case, kinds, **drive)
@@ -115,16 +112,6 @@ def limits_command(
         _print(table, case.name, units)
     print_written(written)
     finish(bool((table["margin"] != "none").all()), _beyond(table), strict)
-
-
-def read_one_or_more(depths: str, case: Case, bare: str) -> list[float]:
-    """A single bit depth, or those of FROM:TO:STEP [m]."""
-    if ":" in depths:
-        return read_depths(depths, case, "--depths", bare)
-    found = read_depth(depths, case, "--depths", bare)
-    with naming_file(case):
-        check_bit_depth(found, *case.depths, "--depths", depths)
-    return [found]
 
 
 def _beyond(table: "pd.DataFrame") -> list[str]:

@@ -9,12 +9,13 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from fctd.case.errors import InputError
 from fctd.case.input_warnings import InputWarning
-from fctd.case.load import Case
+from fctd.case.load import Case, check_bit_depth, naming_file
 from fctd.case.operation_names import USUAL, kinds_of, split_names
 from fctd.case.operations import KINDS
 from fctd.case.units import FLOW, ROTATION, SPEED
-from fctd.cli.options import check_target, messages, read_quantity, screen, units_option
+from fctd.cli.options import bare_length, check_target, messages, read_quantity, screen, units_option
 from fctd.cli.pictures import PICTURES, check_package, check_pictures
+from fctd.model.depths import read_depth, read_depths
 from fctd.model.drillstring import lay_out
 from fctd.model.operations import rates_of_all
 from fctd.model.summary import segments_in_words
@@ -147,3 +148,20 @@ def metadata_of_case(case: Case, warnings: Sequence[InputWarning]) -> dict[str, 
         "warnings": [warning.as_metadata() for warning in warnings],
         "versions": versions(),
     }
+
+
+def read_bit_depths(text: str, case: Case, units: System) -> list[float]:
+    """One bit depth within the hole, or those of FROM:TO:STEP [m].  Raises InputError, which names ``--depths``."""
+    bare = bare_length(units)
+    if ":" in text:
+        return read_depths(text, case, "--depths", bare)
+    try:
+        found = read_depth(text, case, "--depths", bare)
+    except InputError as error:
+        if text.strip().lower() == "shoe":
+            raise
+        expected = "a bit depth, or FROM:TO:STEP, such as 1750:2450:10, '5000 ft:8000 ft:30 ft' or shoe:td:50"
+        raise InputError(expected, key="--depths", value=text) from error
+    with naming_file(case):
+        check_bit_depth(found, *case.depths, "--depths", text)
+    return [found]

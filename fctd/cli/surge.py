@@ -17,13 +17,12 @@ from fctd.case.units import SPEED
 from fctd.cli.chart import DEPTHS_HELP
 from fctd.cli.check import facts_table, flow_curves
 from fctd.cli.hydraulics import Beside, number, read_eccentricity
-from fctd.cli.limits import read_one_or_more, rows_of
+from fctd.cli.limits import rows_of
 from fctd.cli.options import (
     CaseFile,
     Overrides,
     Quiet,
     Strict,
-    bare_length,
     changes_of,
     print_written,
     read_case,
@@ -33,7 +32,7 @@ from fctd.cli.options import (
     tell,
 )
 from fctd.cli.pictures import PICTURE_HELP, draw_panels
-from fctd.cli.steady import Units, check_targets, file_option, in_units, metadata_of_case, row_bar
+from fctd.cli.steady import Units, check_targets, file_option, in_units, metadata_of_case, read_bit_depths, row_bar
 from fctd.hydraulics.surge import ENDS, FASTEST, TRIPS, fastest_trips, surge_pressures
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, reworded, shown
@@ -88,7 +87,7 @@ def surge_command(
     quiet: Quiet = False,
     strict: Strict = False,
 ) -> None:
-    """Find surge and swab of trips, and with a [[wellbore.window]] the fastest trip within it.
+    """Find surge and swab of trips, and with a `wellbore.window` the fastest trip within it.
 
     The string moves at constant speed, with its end open, closed, or with a float.
     """
@@ -103,7 +102,7 @@ def surge_command(
     hoist = read_quantity(most, SPEED, "--most", units)
     closed = list(ENDS) if _words(ends) == ["all"] else _words(ends)
     asked: dict[str, Any] = {
-        "bit_depths": read_one_or_more(depths, case, bare_length(units)), "operation": _words(operations) or TRIPS,
+        "bit_depths": read_bit_depths(depths, case, units), "operation": _words(operations) or TRIPS,
         "end": closed, "eccentricity": read_eccentricity(eccentricity, case),
     }  # fmt: skip
     warnings = warnings_of(case)

@@ -18,7 +18,6 @@ from fctd.cli.options import (
     Friction,
     Overrides,
     Quiet,
-    bare_length,
     changes_of,
     check_target,
     messages,
@@ -28,8 +27,19 @@ from fctd.cli.options import (
     tell,
 )
 from fctd.cli.pictures import check_package
-from fctd.cli.steady import KIND_HELP, Flow, ResolveBuckling, Rpm, Speed, Units, file_option, read_drive, read_kinds
-from fctd.model.depths import read_depths, usual_depths
+from fctd.cli.steady import (
+    KIND_HELP,
+    Flow,
+    ResolveBuckling,
+    Rpm,
+    Speed,
+    Units,
+    file_option,
+    read_bit_depths,
+    read_drive,
+    read_kinds,
+)
+from fctd.model.depths import usual_depths
 from fctd.results.tables import open_result, result_files
 from fctd.results.unit_systems import System
 from fctd.simulation.run_saver import kept_so_far
@@ -116,9 +126,7 @@ def view_command(
     else:
         case = read_case(source, changes_of(overrides, friction, resolve_buckling))
         kinds = read_kinds(operations, USUAL)
-        wanted = (
-            usual_depths(case, DEPTHS) if depths is None else read_depths(depths, case, "--depths", bare_length(units))
-        )
+        wanted = usual_depths(case, DEPTHS) if depths is None else read_bit_depths(depths, case, units)
         drive = read_drive(speed, rpm, flow, units)
         told = tell(case, warnings_of(case, kinds, **drive), strict=False, units=units)
         columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn())

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from fctd.arrays import Array
 from fctd.case.rheology import Rheology
 from fctd.hydraulics.eccentric_share import pull_square
-from fctd.model.mud import FULL, filled
+from fctd.model.mud import filled
 
 LAMINAR: Final = 0
 TRANSITIONAL: Final = 1
@@ -24,6 +24,7 @@ TURBULENT: Final = 2
 # was compared with exact flow, and by how much it is too high there (study annular_flow).
 YIELDING, MOST_YIELDING, TOO_HIGH = 0.25, 0.9, 0.4
 REGIMES: Final = ("laminar", "transitional", "turbulent")
+FILLED: Final = 1 - 1e-6  # share of a hole that a pipe fills at most
 # Reynolds number below which the laminar law alone is left, and one above all flow: powers stay within floats.
 SLOWEST, FASTEST = 1.0, 1e20
 # Of a wall that moves: the shear rate that it gives to the mud over speed and gap, and within how much of it the yield
@@ -108,7 +109,7 @@ def annulus(
     ``pull_square``; it drags mud along as a concentric one does.
     """
     wide = np.asarray(hole, float)
-    radius = filled(outer, wide, FULL) * wide
+    radius = filled(outer, wide, FILLED) * wide
     widening = 2 * np.log(wide / radius)  # of area, its logarithm
     area = np.pi * radius**2 * np.expm1(widening)
     width, ratio, moves = 2 * (wide - radius), radius / wide, np.any(speed)

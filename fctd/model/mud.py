@@ -14,9 +14,9 @@ from fctd.model.wellbore import Wellbore
 
 # A string at rest is struck and swings at about this frequency [Hz].
 AT_REST = 1.0
-# Largest shares of the hole's radius, lateral and steady: the coefficients grow without bound where a body fills its
-# hole.  With the first they are those of 2 mm around a stabiliser.
-FULLEST, FULL = 0.98, 1 - 1e-6
+# Largest share of the hole's radius: the coefficients grow without bound where a body fills its hole.  With this they
+# are those of 2 mm around a stabiliser; what a gauge tool wedges in less is contact, not a film of mud.
+FULLEST = 0.98
 
 
 def lateral_damping(
@@ -50,7 +50,7 @@ def added_mass(
 
 def resistance(radius: ArrayLike, hole: ArrayLike, viscosity: float) -> Array:
     """Damping per metre of steady rotation [N s] (Couette flow)."""
-    k = filled(radius, hole, FULL)
+    k = filled(radius, hole)
     return np.asarray(4 * np.pi * viscosity * np.asarray(radius, float) ** 2 / (1 - k**2))
 
 

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from fctd.arrays import Array
 from fctd.calibration.predict import BANDS, coverage, predict_rows
 from fctd.calibration.result import Calibration
 from fctd.case.operations import KINDS
@@ -19,50 +20,99 @@ from fctd.plots.palette import DARK, LOOKS, MEASURED, QUIET, SHADE
 from fctd.plots.style import RC, Sheet
 from fctd.results.unit_systems import System, shown_unit
 
-WIDTH, PANEL, LABELS = 10.0, 2.4, 1.15  # of the sheet, and height of a panel and of the names below it [in]
-LEFT, APART = 0.75, 0.9
+# Sizes [in]: of a panel, of what stands left of it, between two, below them, and of names beside the correlations.
+WIDTH, HEIGHT, LEFT, APART, BELOW, NAMES = 3.1, 4.2, 0.75, 0.35, 0.55, 1.5
+THICK = 8.0  # of a band [pt]
+MOST_NAMED = 5  # readings far off that the heading names
+FAR = 2.0  # off, over noise
 LOADS = {"hookload": ("weight indicator", "N"), "torque": ("drive torque", "N*m")}
 _NO_LOOKS = (DARK, "X")  # of rows without a string
 _NO_KINDS = {"in_slips": "in slips", "tare": "free drive"}
-_MOST_NAMES = 40  # rows that are named below a panel
 
 
 def calibration_figure(found: Calibration, units: System = "si") -> Figure:
-    """Readings of the fitted rows with the bands of both sizes, residuals over the noise, and correlations."""
+    """Readings of the fitted rows over depth with the bands of both sizes, residuals over the noise, and correlations.
+
+    A load that was not measured has no panel; one unknown has no correlations.
+    """
     table = predict_rows(found.posterior, found.forward.rows, found.forward.strings)
+    table = table[table["low"].notna()]
     values = ", ".join(_in_words(row, units) for row in found.table.to_dict("records"))
     scatter = "" if found.scattered is None else "scatter from day to day, "
     bands = f"Bands of 50 and 95 %: unknowns, {scatter}noise and ranges of the source, declared error of the model."
-    lines = [values, bands]
+    lines = [line for line in (values, bands, _far(found), _at_top(table)) if line]
     title = f"{found.base.name}: calibrated on {counted(len(found.fit.used), 'row')}"
+    loads = [load for load in LOADS if (table["load"] == load).any()]
+    several = len(found.forward.names) > 1
     with mpl.rc_context(RC):
-        sheet = Sheet(WIDTH, 2 * (PANEL + LABELS) + 0.3, title, lines, _handles(table))
-        half = (WIDTH - 2 * LEFT - APART) / 2
-        for k, load in enumerate(LOADS):
-            axes = sheet.axes(LEFT + k * (half + APART), 0.25, half, PANEL)
+        panels, sheet = _panels(len(loads) + 1, title, lines, table, units, more=NAMES + WIDTH if several else 0.0)
+        for load, axes in zip(loads, panels, strict=False):
             _readings(axes, table[table["load"] == load], load, units)
-        _residuals(sheet.axes(LEFT, 0.55 + PANEL + LABELS, half, PANEL), found)
-        side = min(half - 1.2, PANEL)
-        _correlations(sheet.axes(LEFT + half + APART + 1.1, 0.55 + PANEL + LABELS, side, side), found)
+        _residuals(panels[-1], found, units)
+        if several:
+            _correlations(sheet.axes(sheet.width - WIDTH - 0.15, 0.25, WIDTH, WIDTH), found)
     return sheet.figure
 
 
 def prediction_figure(table: pd.DataFrame, title: str, units: System = "si") -> Figure:
-    """Predicted readings with bands, and the measured ones; table : of ``predict_rows``."""
+    """Predicted readings over depth with bands, and the measured ones; table : of ``predict_rows``."""
     table = table[table["reason"] == "none"]
+    # A string that is tripped without rotation has no torque to show.
+    turned = table["operation"].map(lambda kind: kind not in KINDS or KINDS[kind].default_rpm > 0).astype(bool)
+    table = table[(table["load"] == "hookload") | table["low"].notna() | turned]
     inside = coverage(table)
     lines = ["Bands of 50 and 95 %: unknowns, noise and ranges of the source, declared error of the model."]
     if inside["inside95"][1]:
         lines.append(
             ", ".join(f"{got} of {of} measured in the band of {name[-2:]} %" for name, (got, of) in inside.items())
         )
+    lines += [line for line in (_at_top(table),) if line]
+    loads = [load for load in LOADS if (table["load"] == load).any()]
     with mpl.rc_context(RC):
-        sheet = Sheet(WIDTH, PANEL + LABELS + 0.3, title, lines, _handles(table))
-        half = (WIDTH - 2 * LEFT - APART) / 2
-        for k, load in enumerate(LOADS):
-            axes = sheet.axes(LEFT + k * (half + APART), 0.25, half, PANEL)
+        panels, sheet = _panels(len(loads), title, lines, table, units)
+        for load, axes in zip(loads, panels, strict=True):
             _readings(axes, table[table["load"] == load], load, units)
     return sheet.figure
+
+
+def _panels(
+    count: int, title: str, lines: Sequence[str], table: pd.DataFrame, units: System, more: float = 0.0
+) -> tuple[list[Axes], Sheet]:
+    """Panels side by side with one axis of depths, and the sheet; more : width to the right of them [in]."""
+    sheet = Sheet(LEFT + count * (WIDTH + APART) + more, HEIGHT + BELOW, title, lines, _handles(table))
+    panels: list[Axes] = []
+    for k in range(count):
+        shared = {"sharey": panels[0]} if panels else {}
+        panels.append(sheet.axes(LEFT + k * (WIDTH + APART), 0.25, WIDTH, HEIGHT - 0.25, **shared))
+        panels[k].tick_params(axis="y", labelleft=not k)
+    factor, label = shown_unit("m", units)
+    depths = _depths(table) * factor
+    low, high = (depths.min(), depths.max()) if len(depths) else (0.0, 0.0)
+    pad = 0.06 * (high - low) or 100.0
+    panels[0].set_ylim(high + pad, low - pad)
+    panels[0].set_ylabel(f"bit depth, {label}")
+    return panels, sheet
+
+
+def _depths(table: pd.DataFrame) -> Array:
+    """Bit depths [m]; rows without a string stand at 0."""
+    return table["bit_depth_m"].fillna(0.0).to_numpy(float)
+
+
+def _at_top(table: pd.DataFrame) -> str:
+    names = [name for kind, name in _NO_KINDS.items() if (table["operation"] == kind).any()]
+    return f"Rows without a string ({', '.join(names)}) stand at depth 0." if names else ""
+
+
+def _far(found: Calibration) -> str:
+    """The readings that are farthest off, by name."""
+    table = found.residuals
+    table = table[table["in_noise"].abs() > FAR].sort_values("in_noise", key=abs, ascending=False, kind="stable")
+    if not len(table):
+        return ""
+    names = [f"{row['id']} ({row['in_noise']:+.1f})" for row in table.head(MOST_NAMED).to_dict("records")]
+    more = f" and {len(table) - MOST_NAMED} more" if len(table) > MOST_NAMED else ""
+    return f"Off by more than {FAR:g} of the noise: {', '.join(names)}{more}.".replace("-", "−")
 
 
 def _in_words(row: Mapping[Any, Any], units: System) -> str:
@@ -73,46 +123,46 @@ def _in_words(row: Mapping[Any, Any], units: System) -> str:
 
 
 def _readings(axes: Axes, table: pd.DataFrame, load: str, units: System) -> None:
-    """Bands, predicted and measured readings, a column for each row."""
+    """Bands, predicted and measured readings at their depths."""
     name, unit = LOADS[load]
     factor, label = shown_unit(unit, units)
-    rows = table.to_dict("records")
-    for x, row in enumerate(rows):
+    depths = _depths(table) * shown_unit("m", units)[0]
+    for depth, row in zip(depths, table.to_dict("records"), strict=True):
         low95, low50, _, high50, high95 = (row[band] * factor for band in BANDS)
-        axes.bar(x, high95 - low95, 0.7, low95, color=SHADE, zorder=1)
-        axes.bar(x, high50 - low50, 0.7, low50, color="#bdbdbd", zorder=2)
-        colour, marker = LOOKS.get(str(row["operation"]), _NO_LOOKS)
-        axes.plot(x, row["predicted"] * factor, marker, color=colour, markersize=4, zorder=4)
+        for low, high, colour, order in ((low95, high95, SHADE, 1), (low50, high50, "#bdbdbd", 2)):
+            axes.plot([low, high], [depth] * 2, color=colour, linewidth=THICK, solid_capstyle="butt", zorder=order)
         if not np.isnan(row["low"]):
             low, high = row["low"] * factor, row["high"] * factor
-            axes.plot([x, x], [low, high], color="black", linewidth=1.2, zorder=3)
-            middle = 0.5 * (low + high)
-            axes.plot(x, middle, "o", markerfacecolor=MEASURED, markeredgecolor="black", markersize=6, zorder=3)
-    axes.set_ylabel(f"{name}, {label}")
-    axes.use_sticky_edges = False  # of the bars, which would end the axis at the lowest band
-    axes.margins(y=0.08)
-    _name_rows(axes, [str(row["id"]) for row in rows])
+            axes.plot([low, high], [depth] * 2, color="black", linewidth=1.2, zorder=3)
+            axes.plot(
+                0.5 * (low + high),
+                depth,
+                "o",
+                markerfacecolor=MEASURED,
+                markeredgecolor="black",
+                markersize=6,
+                zorder=3,
+            )
+        colour, marker = LOOKS.get(str(row["operation"]), _NO_LOOKS)
+        axes.plot(row["predicted"] * factor, depth, marker, color=colour, markersize=4, zorder=4)
+    axes.set_xlabel(f"{name}, {label}")
 
 
-def _residuals(axes: Axes, found: Calibration) -> None:
+def _residuals(axes: Axes, found: Calibration, units: System) -> None:
     """Distances from the recorded ranges in standard deviations of the noise."""
     table = found.residuals
-    names = list(dict.fromkeys(table["id"]))
-    for load, shift in (("hookload", -0.15), ("torque", 0.15)):
-        for row in table[table["load"] == load].to_dict("records"):
-            colour, marker = LOOKS.get(str(row["operation"]), _NO_LOOKS)
-            face: Any = colour if load == "hookload" else "white"
-            if not row["used"]:
-                colour, face = QUIET, QUIET if load == "hookload" else "white"
-            x = names.index(str(row["id"])) + shift
-            axes.plot([x, x], [0, row["in_noise"]], color=colour, linewidth=0.8)
-            axes.plot(x, row["in_noise"], marker, markerfacecolor=face, markeredgecolor=colour, markersize=4)
-    axes.axhline(0, color=DARK, linewidth=0.8)
-    for level in (-2, 2):
-        axes.axhline(level, color=QUIET, linewidth=0.8, linestyle=":")
-    axes.set_ylabel("fitted − measured, over noise")
-    axes.set_title("Residuals: hook load filled, torque open, not fitted grey")
-    _name_rows(axes, names)
+    depths = _depths(table) * shown_unit("m", units)[0]
+    for depth, row in zip(depths, table.to_dict("records"), strict=True):
+        colour, marker = LOOKS.get(str(row["operation"]), _NO_LOOKS)
+        if not row["used"]:
+            colour = QUIET
+        face: Any = colour if row["load"] == "hookload" else "white"
+        axes.plot(row["in_noise"], depth, marker, markerfacecolor=face, markeredgecolor=colour, markersize=4)
+    axes.axvline(0, color=DARK, linewidth=0.8)
+    for level in (-FAR, FAR):
+        axes.axvline(level, color=QUIET, linewidth=0.8, linestyle=":")
+    axes.set_xlabel("fitted − measured, over noise")
+    axes.set_title("Hook load filled, torque open, not fitted grey")
 
 
 def _correlations(axes: Axes, found: Calibration) -> None:
@@ -129,13 +179,6 @@ def _correlations(axes: Axes, found: Calibration) -> None:
                 j, i, f"{matrix[i, j]:z.2f}".replace("-", "−"), ha="center", va="center", fontsize=6, color=colour
             )
     axes.set_title("Correlations")
-
-
-def _name_rows(axes: Axes, names: Sequence[str]) -> None:
-    step = -(-len(names) // _MOST_NAMES)
-    axes.set_xticks(range(0, len(names), step), names[::step], rotation=90, fontsize=6.5, parse_math=False)
-    axes.set_xlim(-0.7, len(names) - 0.3)
-    axes.grid(axis="x", visible=False)
 
 
 def _handles(table: pd.DataFrame) -> list[Any]:

@@ -136,6 +136,7 @@ IN_MESSAGES: Final = {
     "m": "ft", "mm": "in", "km": "ft", "m/s": "ft/min", "m/h": "ft/h", "kN": "klbf", "N": "lbf", "kN·m": "kft·lbf",
     "MPa": "ksi", "bar": "psi", "kg/m^3": "ppg", "kg/m": "lb/ft",
 }  # fmt: skip
+_DOG_LEG: Final = re.compile(r"([\d.]+)°/30 m\b")
 _NUMBER = r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?"
 # A number or several with one unit, "540 to 1500 m"; what stands in quotes is the user's or an example.
 _IN_MESSAGES: Final = re.compile(
@@ -153,8 +154,9 @@ def reworded(text: str, system: System) -> str:
         unit = found["unit"]
         factor = conversion(unit.replace("·", "*"), _PINTS.get(IN_MESSAGES[unit], IN_MESSAGES[unit]))
         numbers = found[0].removesuffix(unit)
-        return re.sub(_NUMBER, lambda n: _short(float(n[0]) * factor), numbers) + IN_MESSAGES[unit]
+        return re.sub(_NUMBER, lambda n: _short(float(n[0]) * factor, n[0]), numbers) + IN_MESSAGES[unit]
 
+    text = _DOG_LEG.sub(lambda bend: f"{float(bend[1]) * _factor('ft', 'm') / 0.3:.3g}°/100 ft", text)
     return _IN_MESSAGES.sub(convert, text)
 
 
@@ -166,8 +168,10 @@ def _factor(unit: str, target: str) -> float:
     return conversion(_PINTS.get(unit, unit), _PINTS.get(target, target))
 
 
-def _short(value: float) -> str:
-    return f"{value:.0f}" if abs(value) >= 1000 else f"{value:.4g}"
+def _short(value: float, before: str) -> str:
+    """A number with one digit more than it had before, from two to four."""
+    digits = len(before.split("e")[0].lstrip("-0.").replace(".", ""))
+    return f"{value:.0f}" if abs(value) >= 1000 else f"{value:.{min(max(digits + 1, 2), 4)}g}"
 
 
 def _ending(unit: str) -> str:

@@ -44,7 +44,7 @@ def test_added_mass_is_the_displaced_mud_in_a_wide_hole_and_grows_in_a_narrow_on
 def test_a_body_that_fills_its_hole_has_finite_coefficients() -> None:
     found = [lateral_damping(0.1, 0.1, 1200, 0.02), added_mass(0.1, 0.0, 0.1, 1200), resistance(0.1, 0.1, 0.02)]
     assert np.isfinite(found).all()
-
+    assert found[-1] < 0.1  # N s: a gauge bit of a metre loses 1 N m at 120 rev/min, no thousands
 
 def test_the_hole_beside_the_middle_of_a_segment() -> None:
     intervals = [{"to_md": 500, "diameter": 0.3, "friction": 0.2}, {"to_md": 1000, "diameter": 0.2, "friction": 0.2}]
