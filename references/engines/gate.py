@@ -20,6 +20,7 @@ from fctd.case.load import Case
 from fctd.mechanics import state
 from fctd.mechanics.moving_string import STILL
 from fctd.mechanics.topdrive import GRAVITY, Motion
+from fctd.model.drillstring import String
 from fctd.simulation.features import refuse
 from fctd.simulation.preparation import prepare
 from fctd.simulation.run import Run
@@ -129,34 +130,45 @@ def fall_and_stretch(engine: StringEngine, top: float) -> tuple[float, float]:
 
     top [m] : depth from which it hangs.
     """
+    lowered, interval, string = _lowered(engine, top, PARTS - 1)
+    expected = float(string.weight[0]) * LENGTH**2 / (2 * float(string.of("EA")[0]))
+    mean = hann_means(pd.DataFrame({"lowered_m": lowered}))["lowered_m"]
+    return _fallen(lowered, interval), float(mean / expected)
+
+
+def fall(engine: StringEngine, top: float) -> float:
+    """The fall of ``fall_and_stretch`` alone, which takes a tenth of the time."""
+    lowered, interval, _ = _lowered(engine, top, FREE)
+    return _fallen(lowered, interval)
+
+
+def _fallen(lowered: np.ndarray, interval: float) -> float:
+    """Fall of the bit before the wave arrives over ½gt²."""
+    return float(lowered[FREE - 1] / (0.5 * GRAVITY * (FREE * interval) ** 2))
+
+
+def _lowered(engine: StringEngine, top: float, parts: int) -> tuple[np.ndarray, float, String]:
+    """How far the bit is below its place at the release [m], at the ends of the first parts; their length [s]; the
+    string."""
     run, _ = prepare(hanging(top))
     refuse(run, engine.honours, f"engine {engine.name}")
     run.refresh()
-    interval, string = 2 * axial_period(run) / PARTS, run.string
-    expected = float(string.weight[0]) * LENGTH**2 / (2 * float(string.of("EA")[0]))
-    lowered = _lowered(engine, run, interval)
-    fallen = lowered[FREE - 1] / (0.5 * GRAVITY * (FREE * interval) ** 2)
-    return float(fallen), float(hann_means(pd.DataFrame({"lowered_m": lowered}))["lowered_m"] / expected)
-
-
-def _lowered(engine: StringEngine, run: Run, interval: float) -> np.ndarray:
-    """How far the bit is below its place at the release [m], at the ends of all parts but the last."""
-    bit = state.Z + run.segments
+    interval, bit = 2 * axial_period(run) / PARTS, state.Z + run.segments
     start, stepper, found = float(run.S[bit]), engine.begin(run), []
     try:
-        for _ in range(PARTS - 1):
+        for _ in range(parts):
             stepper.advance(STILL, interval)
             stepper.refresh()
             found.append(float(run.S[bit]) - start)
     finally:
         stepper.close()
-    return np.array(found)
+    return np.array(found), interval, run.string
 
 
 def _released(engine: StringEngine) -> Iterator[Rule]:
     for top in DEPTHS:
-        fall, stretch = fall_and_stretch(engine, top)
-        yield Rule(f"error of the fall at {top:g} m", abs(fall - 1), "at_most", MOST_FALL_ERROR, "",
+        fallen, stretch = fall_and_stretch(engine, top)
+        yield Rule(f"error of the fall at {top:g} m", abs(fallen - 1), "at_most", MOST_FALL_ERROR, "",
                    "pipe that nothing holds falls by ½gt²")  # fmt: skip
         yield Rule(f"error of the stretch at {top:g} m", abs(stretch - 1), "at_most", MOST_STRETCH_ERROR, "",
                    "a hanging string is w L²/2EA longer than its pipe")  # fmt: skip

@@ -11,6 +11,7 @@ from fctd import Case, simulate
 from fctd.mechanics.topdrive import Motion
 from fctd.simulation.run import Run
 from references import contact
+from references.contact import ContactMethod
 from references.contact.for_loop import advance_with_for_loop
 from references.timing.stopwatch import machine_table, race, units_for
 from references.timing.workloads import NoWall, asking, copy_of, moving, without_wall
@@ -50,7 +51,7 @@ def turning(segments: int, geometry: str = "cylinders") -> tuple[Run, Motion]:
     return moving(case, 4.0)
 
 
-def costs(segments: int, asked: Mapping[str, tuple[str, dict[str, Any]]], rounds: int) -> pd.DataFrame:
+def costs(segments: int, asked: Mapping[str, ContactMethod], rounds: int) -> pd.DataFrame:
     """Times of all loops with one number of segments, per segment and step, from the same state."""
     start, motion = turning(segments)
     actions: dict[str, Callable[[], object]] = {}
@@ -74,10 +75,9 @@ def costs(segments: int, asked: Mapping[str, tuple[str, dict[str, Any]]], rounds
             own.S, own.top, segments, own.hole.pieces, own.laws, motion, own.pipe, own.step, steps
         ),
     )
-    walls: dict[str, Any] = {"no contact, asked from Python": NoWall()}
-    walls |= {f"{name}, from Python": contact.build(each[0], start.case, **each[1]) for name, each in asked.items()}
-    for name, wall in walls.items():
-        enter(name, loop_of(asking(start, wall)))
+    enter("no contact, asked from Python", loop_of(asking(start, NoWall())))
+    for name, wall in asked.items():
+        enter(f"{name}, from Python", loop_of(asking(start, wall)))
     table = race(actions, counts, rounds, BASELINE).rename(columns={"name": "loop", "ns": "ns_per_segment_step"})
     return table.assign(segments=segments, step_s=start.step)
 
@@ -160,13 +160,13 @@ def figure_13(context: Context, method: str) -> dict[str, pd.DataFrame]:
 
 
 @table_of_rows
-def torques(methods: Iterable[str], duration: float) -> Rows:
+def torques(walls: Iterable[ContactMethod], duration: float) -> Rows:
     """The curved chain rotating against every method's wall; differences to the engine's own cylinders."""
     case = load("curved_chain", operations=rotation(BIT, duration, ramp=3.0), record__interval=0.25)
     own = last_seconds(simulate(case), 3.0)
-    for name in methods:
-        end = last_seconds(simulate(case, contact=contact.build(name, case)), 3.0)
-        yield {"method": name} | _loads(end, own)
+    for wall in walls:
+        end = last_seconds(simulate(case, contact=wall), 3.0)
+        yield {"method": wall.name} | _loads(end, own)
 
 
 def trip_of(start: float, end: float) -> Case:
@@ -180,12 +180,14 @@ def run(context: Context) -> Outcome:
     missing = [name for name in contact.METHODS if contact.installed_version(name) is None]
     there = [name for name in contact.METHODS if name not in missing]
     raced = [name for name in there if not (context.quick and name in FULL_ONLY)]
-    asked, rounds = queries(raced), 5 if context.quick else 25
+    rounds, hole = 5 if context.quick else 25, load("curved_chain", operations=None)
+    asked = {query: contact.build(name, hole, **options) for query, (name, options) in queries(raced).items()}
+    first = {wall.name: wall for wall in reversed(asked.values())}  # of the queries of a method
     counts = SEGMENTS[:1] if context.quick else SEGMENTS
     cost = pd.concat([costs(n, asked, rounds) for n in context.progress(counts, "segments")], ignore_index=True)
     tables = {
         "cost": cost,
-        "torques": torques(context.progress([name for name in raced if name != TOO_SLOW], "methods"), 8.0),
+        "torques": torques(context.progress([first[name] for name in raced if name != TOO_SLOW], "methods"), 8.0),
         "machine": machine_table(),
     }
     display = {

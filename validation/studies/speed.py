@@ -15,7 +15,7 @@ from references.engines import Stepper, gate
 from references.engines.free_bodies import FreeBodies
 from references.timing.stopwatch import machine_table, race, units_for
 from references.timing.workloads import NoWall, asking, copy_of, moving
-from validation.harness.study import Check, Context, Kind, Outcome, Progress, Study, left_out
+from validation.harness.study import Check, Context, Kind, Outcome, Study, left_out
 from validation.parts import gated, speed_kernel
 from validation.parts.methods import FULL_ONLY, TOO_SLOW
 from validation.parts.speed_kernel import BEST, CONTACT, LEAD, chain, step_on
@@ -125,13 +125,14 @@ def entries(kind: str, names: list[str], counts: Collection[int]) -> list[Entry]
 
 
 def race_engines(
-    names: list[str], best: dict[int, float], rounds: int, aim: float, progress: Progress
+    names: list[str], best: dict[int, float], rounds: int, aim: float, context: Context
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Wall time of a simulated second of every engine, at its own step and at the shortest of all steps, and its gate.
 
     best : FCTD's largest stable step [s] for each number of segments, timed in addition to its own step.  aim : length
-    of a call [s].  Before a race every engine is held to the gate at that kind of step, with the shortest string.
-    Everything with the same kind of step is one race, so that any two rows of it can be compared.
+    of a call [s].  Before a race every engine is held to the gate at that kind of step, with the shortest string (the
+    quick way at its own step alone).  Everything with the same kind of step is one race, so that any two rows of it can
+    be compared.
     """
     cases = {(n, state): chain(n, **(OPEN if state == FREE else {})) for n in best for state in (FREE, TOUCHING)}
     starts = {key: moving(case, LEAD) for key, case in cases.items()}
@@ -141,7 +142,7 @@ def race_engines(
     own: dict[Entry, float] = {}
     for kind in (OWN, EQUAL):
         racers: dict[Entry, Racer] = {}
-        for entry in progress(entries(kind, names, best), kind):
+        for entry in context.progress(entries(kind, names, best), kind):
             n, state, name = entry
             start, motion = starts[n, state]
             step = best[n] if name == BEST else None
@@ -154,11 +155,12 @@ def race_engines(
                 run, stepper = begin(name, start, state, step)
             own.setdefault(entry, stepper.step)
             racers[entry] = Racer(run, stepper, motion)
-        given = {} if kind == OWN else {"step": min(s for other, s in own.items() if other.segments == min(best))}
-        gates = gated.examined(
-            {each: (OTHERS.get(each, "fctd"), given) for each in names if not each.endswith(IN_LOOP)}
-        )
-        gate_tables.append(gate.table(gates).assign(step=kind))
+        if kind == OWN or not context.quick:
+            given = {} if kind == OWN else {"step": min(s for other, s in own.items() if other.segments == min(best))}
+            gates = gated.examined(
+                {each: (OTHERS.get(each, "fctd"), given) for each in names if not each.endswith(IN_LOOP)}
+            )
+            gate_tables.append(gate.table(gates).assign(step=kind))
         tables.append(race_of(racers, gates, rounds, aim).assign(step=kind))
     table = pd.concat(tables, ignore_index=True)
     table = table.assign(ms_per_simulated_s=table["ns_least"] / 1e6, real_time_factor=1e9 / table["ns_least"])
@@ -319,7 +321,7 @@ def run(context: Context) -> Outcome:
     counts = SEGMENTS[:1] if quick else SEGMENTS
     steps = pd.concat([speed_kernel.ladder(n, 5.0 if quick else 60.0) for n in counts], ignore_index=True)
     best = {n: float(steps.loc[steps["holds"] & (steps["segments"] == n), "step_ms"].max()) / 1e3 for n in counts}
-    times, rules = race_engines(names, best, 9 if quick else 25, 0.002 if quick else 0.01, context.progress)
+    times, rules = race_engines(names, best, 9 if quick else 25, 0.002 if quick else 0.01, context)
     found = {
         "kernel": speed_kernel.kernel(best[SEGMENTS[0]], 25 if quick else 201, 0.002),
         "scaling": speed_kernel.scaling((60, 170, 1000) if quick else speed_kernel.LENGTHS, 9 if quick else 51, 0.005),

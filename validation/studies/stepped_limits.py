@@ -13,10 +13,12 @@ from validation.parts.slid_strings import LONGEST, Slid, slide
 
 STRINGS = 30
 MOST = 2000  # segments, as the stepper takes an hour on one side of the limit of longer chains
-SPEEDS = 0.2, 0.4  # of the stepper [m/s]
+SPEEDS, QUICK = (0.2, 0.4), (0.4, 0.8)  # of the stepper [m/s]
 
 
-def stepped(context: Context, locked: list[Locked], shares: tuple[float, ...]) -> tuple[pd.DataFrame, pd.DataFrame]:
+def stepped(
+    context: Context, locked: list[Locked], shares: tuple[float, ...], speeds: tuple[float, float]
+) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Locked trips in, by the stepper at two speeds at shares of their limit, and by feed.
 
     The second table has both shapes of the first row, and of each in which they differ.
@@ -29,7 +31,7 @@ def stepped(context: Context, locked: list[Locked], shares: tuple[float, ...]) -
         limit = middle(*feeding.limit(point.locked_up_at))
         for share in shares:
             at = share * limit
-            slow, fast = (slide(scaled(cut, at), kind, depth, speed, settles=True) for speed in SPEEDS)
+            slow, fast = (slide(scaled(cut, at), kind, depth, speed, settles=True) for speed in speeds)
             rows.append({
                 "well": string.well, "bit_depth_m": depth, "segments": len(point.profile) - 1,
                 "limit_friction": string.friction * limit,
@@ -53,16 +55,17 @@ def _stepped(of: Slid) -> str:
 
 def run(context: Context) -> Outcome:
     """Trips in that lock up, with the fewest segments first; the quick run feeds one of them below its limit."""
+    speeds = QUICK if context.quick else SPEEDS
     if context.quick:
-        table, shapes = stepped(context, [quick_trip(context)], (BELOW,))
+        table, shapes = stepped(context, [quick_trip(context)], (BELOW,), speeds)
     else:
         short = (one for one in locked_of(trips(context)) if len(one[1].profile) <= MOST)
-        table, shapes = stepped(context, list(islice(short, STRINGS)), (BELOW, ABOVE))
+        table, shapes = stepped(context, list(islice(short, STRINGS)), (BELOW, ABOVE), speeds)
     return Outcome(
         tables={"stepped": table, "shapes": shapes},
         checks=_checks(table),
         notes=[
-            f"The stepper feeds a string by at most {LONGEST:g} m at {SPEEDS[0]:g} and {SPEEDS[1]:g} m/s.  Strings of "
+            f"The stepper feeds a string by at most {LONGEST:g} m at {speeds[0]:g} and {speeds[1]:g} m/s.  Strings of "
             f"more than {MOST} segments are left out."
         ],
         display={"stepped": "Locked trips in, by the stepper and by feed"},

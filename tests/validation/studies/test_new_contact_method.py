@@ -9,7 +9,7 @@ from references import contact
 from references.timing.workloads import moving
 from reports import figures
 from tests.references.listing import listed
-from validation.harness.study import Context, silent
+from validation.harness.study import Context
 from validation.parts import speed_kernel, wall_points
 from validation.studies import contact_accuracy, contact_swap, speed
 
@@ -95,7 +95,7 @@ def test_it_is_raced_and_turns_the_chain(toy, monkeypatch):
 def test_it_is_among_the_engines_of_the_study_of_speed(toy):
     assert "toy in our loop" in speed.available(quick=True)[0]
     step = moving(speed_kernel.chain(60), 0.0)[0].step
-    times, rules = speed.race_engines(["FCTD", "toy in our loop"], {60: step}, 2, 0.0005, silent)
+    times, rules = speed.race_engines(["FCTD", "toy in our loop"], {60: step}, 2, 0.0005, Context())
     assert set(rules["engine"]) == {"FCTD"}
     assert (times["gate"] == "passed").all()
     assert set(times.query("engine == 'toy in our loop'")["state"]) == {speed.FREE, speed.TOUCHING, speed.TAKEN}
