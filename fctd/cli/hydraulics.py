@@ -36,7 +36,7 @@ from fctd.cli.steady import Units, check_targets, file_option, in_units, metadat
 from fctd.hydraulics.cuttings import Cuttings
 from fctd.hydraulics.pressures import PUMPED, SHARE, Circulation, Eccentricity, circulations
 from fctd.results.table_files import write_table
-from fctd.results.unit_systems import System, reworded, shown
+from fctd.results.unit_systems import System, in_words, reworded, shown
 from fctd.steady.equilibrium import lie_along
 
 if TYPE_CHECKING:
@@ -200,8 +200,8 @@ def _print(case: Case, table: "pd.DataFrame", found: Sequence[Circulation], unit
         if not here:
             continue
         standpipe, bit = here[-1].standpipe, here[-1].laid.string.bit_depth
-        pumped = f"{_in(flow, 'flow_m3_s', units)}, {_in(standpipe, 'standpipe_Pa', units)}"
-        screen.print(f"{pumped} at the standpipe with the bit at {_in(bit, 'bit_depth_m', units)}", soft_wrap=True)
+        pumped = f"{in_words(flow, 'flow_m3_s', units)}, {in_words(standpipe, 'standpipe_Pa', units)}"
+        screen.print(f"{pumped} at the standpipe with the bit at {in_words(bit, 'bit_depth_m', units)}", soft_wrap=True)
         screen.print(_table(of, units) if len(of) > 1 else _parts(here[0], units))
         screen.print(facts_table(_bit(here[-1], units)))
     for reason, of in table[table["reason"] != "none"].groupby("reason", sort=False):
@@ -281,12 +281,7 @@ def _facts_line(one: Circulation, flows: Sequence[float], units: System) -> str:
     pumped = [number(flow * shown("flow_m3_s", units).factor) for flow in flows]
     listed = f"{', '.join(pumped)} {shown('flow_m3_s', units).label}"
     nozzles = counted(len(one.laid.case.bit.nozzles), "nozzle")
-    return f"{listed}, bit at {_in(depth, 'bit_depth_m', units)}, {nozzles}; API RP 13D"
-
-
-def _in(value: float, column: str, units: System) -> str:
-    unit = shown(column, units)
-    return f"{value * unit.factor:.4g} {unit.label}"
+    return f"{listed}, bit at {in_words(depth, 'bit_depth_m', units)}, {nozzles}; API RP 13D"
 
 
 def number(value: float) -> str:

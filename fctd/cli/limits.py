@@ -130,6 +130,7 @@ def _print(table: "pd.DataFrame", name: str, units: System) -> None:
         if margin in SHOWN:
             screen.print(f"{operation}: {SHOWN[margin][0]}, {shown(SHOWN[margin][2], units).label}")
             screen.print(_table(of, SHOWN[margin][1:], units))
+    screen.print("hook loads are those of the string alone, without the block", soft_wrap=True)
     for line in _bending(table, units):
         screen.print(line, soft_wrap=True)
     said = table[table["reason"] != "none"]

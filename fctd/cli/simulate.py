@@ -58,7 +58,7 @@ from fctd.results.columns import BUCKLED, COLUMNS
 from fctd.results.status import RunStatus
 from fctd.results.swings import ENOUGH_PERIODS
 from fctd.results.tables import SimulationResult, check_result_folder, identity_of, own_files, result_files
-from fctd.results.unit_systems import System, shown
+from fctd.results.unit_systems import System, in_words, shown
 from fctd.simulation.external_contact import WallQuery
 from fctd.simulation.preparation import LONGEST_SETTLING
 from fctd.simulation.run_saver import RunSaver
@@ -295,6 +295,9 @@ def _print_operations(result: SimulationResult, units: System) -> None:
             if periods < ENOUGH_PERIODS and (turns or column == "hookload_N"):
                 short.append(f"{row['operation']} ({COLUMNS[column].label})")
     screen.print(table)
+    if weight := result.case.rig.block_weight:
+        block = in_words(weight, "hookload_N", units)
+        screen.print(f"hook load: of the string alone; the block adds {block} to the indicator", soft_wrap=True)
     if short:
         text = (
             f"means over less than {ENOUGH_PERIODS} whole periods: {', '.join(short)}; let these operations last longer"

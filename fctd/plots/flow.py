@@ -11,7 +11,7 @@ from fctd.case.load import Case
 from fctd.hydraulics.pressures import Circulation
 from fctd.plots.depth_panels import Curve, Panel, Panels
 from fctd.plots.palette import PALETTE
-from fctd.results.unit_systems import Shown, System, shown
+from fctd.results.unit_systems import Shown, System, in_words, shown
 
 BLACK: Final = list(PALETTE).index("black")
 # The pressures of a row, of which the picture has a curve each.
@@ -54,7 +54,7 @@ def losses_panels(table: pd.DataFrame, last: Circulation, units: System, lines: 
                     values = of[name].to_numpy(float) * density.factor
                     dense.append(Curve(values, depth, f"equivalent density {words}", colour, dash))
             # Without points, for the legend: a flow has a dash.
-            dense.append(Curve(np.zeros(0), np.zeros(0), _words(flow, "flow_m3_s", units), BLACK, dash))
+            dense.append(Curve(np.zeros(0), np.zeros(0), in_words(flow, "flow_m3_s", units), BLACK, dash))
         label, place = "pressure", "bit depth"
     panels = [
         Panel(f"{label}, {bar.label}", pressures),
@@ -76,7 +76,7 @@ def surge_panels(
     for (kind, end), of in surges[surges["reason"] == "none"].groupby(["operation", "end"], sort=False):
         place = next(colour)
         for dash, rate in enumerate(dict.fromkeys(of["speed_m_s"].tolist())):
-            at, words = of[of["speed_m_s"] == rate], f"{kind}, {end} end, {_words(rate, 'speed_m_s', units)}"
+            at, words = of[of["speed_m_s"] == rate], f"{kind}, {end} end, {in_words(rate, 'speed_m_s', units)}"
             depth = at["bit_depth_m"].to_numpy(float) * metre.factor
             surge.append(Curve(at["surge_Pa"].to_numpy(float) * bar.factor, depth, words, place, dash))
         if fastest is not None:
@@ -86,11 +86,6 @@ def surge_panels(
     panels = [Panel(f"surge at the bit, {bar.label}", surge)]
     panels += [Panel(f"fastest speed within the window, {speed.label}", fast)] if fast else []
     return Panels(case.name, list(lines), f"bit depth, {metre.label}", panels)
-
-
-def _words(value: float, column: str, units: System) -> str:
-    unit = shown(column, units)
-    return f"{value * unit.factor:.4g} {unit.label}"
 
 
 def _window(last: Circulation, density: Shown, metre: Shown) -> list[Curve]:

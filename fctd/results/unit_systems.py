@@ -84,6 +84,13 @@ def shown_unit(unit: str, system: System) -> Shown:
     return Shown(conversion(unit, _PINTS.get(label, label)) if label != unit else 1.0, label.replace("*", "·"))
 
 
+def in_words(value: float, column: str, system: System) -> str:
+    """A value [SI] of a column with its unit, to four digits: "11800 ft"."""
+    unit = shown(column, system)
+    number = value * unit.factor
+    return f"{number:.0f} {unit.label}" if abs(number) >= 1000 else f"{number:.4g} {unit.label}"
+
+
 # Columns of sentences with SI units.
 _SENTENCES: Final = ("friction_label", "left_out", "reason")
 
