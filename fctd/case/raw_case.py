@@ -60,7 +60,8 @@ def set_key(table: dict[str, Any], key: str, value: object) -> None:
     elif isinstance(place, dict) or _has_item(place, last):
         place[last] = copy.deepcopy(value)
     else:
-        raise InputError("a value for a key that exists", key=key, value=value)
+        items = f", whose items are counted from 0 to {len(place) - 1}" if isinstance(place, list) and place else ""
+        raise InputError(f"a value for a key that exists{items}", key=key, value=value)
 
 
 def _has_item(data: Any, part: str | int) -> bool:
@@ -169,6 +170,10 @@ def bare_lengths(raw: Mapping[str, Any]) -> list[str]:
                 field_units += isinstance(value, str)
                 if isinstance(value, int | float) and value:
                     bare.append(join_key(*path, i, key))
+    stations = look_up(raw, "wellbore", "stations")
+    depths = [look_up(station, 0) for station in stations] if isinstance(stations, list) else []
+    if any(isinstance(depth, int | float) and depth for depth in depths):
+        bare.append("wellbore.stations")
     return bare if len(bare) < field_units else []
 
 

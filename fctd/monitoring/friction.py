@@ -110,6 +110,8 @@ def apparent(stretch: Stretch, chart: Chart, uncertainty: Uncertainty) -> Appare
         spread, held = uncertainty.torque * max(abs(reading.median), least), uncertainty.torque_offset
     else:
         spread, held = uncertainty.hook_load, uncertainty.block_weight
+    if FRICTION.at_most is not None and found.factor > FRICTION.at_most:
+        return none(f"a friction factor above {FRICTION.at_most:g}: check the unit of the reading")
     noise = abs(found.per_reading) * float(np.hypot(spread, reading.error))
     if not noise < WIDEST:
         return none("the reading does not depend on this friction factor enough")
