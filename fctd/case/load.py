@@ -47,9 +47,10 @@ _SAME_DEPTH: Final = 1e-6  # m: one depth written in two units
 
 @dataclass(frozen=True)
 class _Written:
-    """The case as the user wrote it; all are equal, so that cases compare by keys."""
+    """The case as the user wrote it, without stations; all are equal, so that cases compare by keys."""
 
     raw: Mapping[str, Any] = field(default_factory=dict, compare=False)
+    bare_lengths: list[str] = field(default_factory=list, compare=False)
 
 
 class Case(Table):
@@ -206,7 +207,7 @@ class Case(Table):
 
         Empty where the case was not read from a file.
         """
-        return bare_lengths(self._written.raw)
+        return self._written.bare_lengths
 
     def quoting(self, error: InputError) -> InputError:
         """The error with the value as the user wrote it, where the error is about a key that he wrote."""
@@ -315,7 +316,7 @@ def make_case(raw: dict[str, Any], folder: Path | None, like: Case | None = None
         case = checked(Case, raw, None if folder is None else {"folder": folder})
     except InputError as error:
         raise with_bare_lengths(error, raw) from None
-    case._written = _Written(without_stations(raw))
+    case._written = _Written(without_stations(raw), bare_lengths(raw))
     if like is not None:
         case.wellbore.share_trajectory(like.wellbore)
     try:

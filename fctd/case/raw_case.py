@@ -51,16 +51,18 @@ def set_key(table: dict[str, Any], key: str, value: object) -> None:
     """
     *parents, last = split_key(key) or [key]
     place: Any = table
+    items = ""
     for part in parents:
         if isinstance(place, dict) and place.get(part) is None:
             place[part] = {}
+        if isinstance(place, list) and place and not _has_item(place, part):
+            items = f", the items are counted from 0 to {len(place) - 1}"
         place = place[part] if _has_item(place, part) else None
     if isinstance(place, list) and isinstance(last, int) and last < len(place) and value is None:
         del place[last]
     elif isinstance(place, dict) or _has_item(place, last):
         place[last] = copy.deepcopy(value)
     else:
-        items = f", whose items are counted from 0 to {len(place) - 1}" if isinstance(place, list) and place else ""
         raise InputError(f"a value for a key that exists{items}", key=key, value=value)
 
 

@@ -105,7 +105,8 @@ def find_layout(text: str, form: TableForm, choices: Choices) -> Layout:
         unnamed += _above_numbers(heads)
         blanks, lacking = separator in (_WIDE, _NARROW), bool(form.lacking(found))
         # Blanks separate words, too, each of which may be a name: they count where nothing else gives what is needed.
-        columns = 0 if found or blanks or not rows else len(heads[index][1])
+        columns = 0 if blanks or not rows else len(heads[index][1])
+        columns = min(columns, 2) if found else columns  # one cell that names a field may be a whole row
         rank = not lacking, len(found) if lacking or not blanks else 0, columns
         if best is None or rank > best[0]:
             best = rank, separator, heads, rows
