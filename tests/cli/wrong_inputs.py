@@ -314,6 +314,6 @@ REFUSED_TOGETHER: Final[list[tuple[dict[str, Any], dict[str, str], str]]] = [
     (
         {},
         {"--set": "operations[3].speed=1"},
-        "well.toml: operations[3].speed = 1: expected a value for a key that exists",
+        "well.toml: operations[3].speed = 1: expected a value for a key that exists, the items are counted from 0 to 0",
     ),
 ]
