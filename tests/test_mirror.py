@@ -10,6 +10,7 @@ ROOMS = [path.name for path in sorted(ENGINE.iterdir()) if (path / "__init__.py"
 OF_THE_ROOM = {
     "cli/test_wrong_inputs.py": "the commands refuse or doubt them, whichever module finds them",
     "cli/test_text.py": "every command prints texts from outside as they stand",
+    "cli/test_second_hour.py": "inputs of all commands, whichever module answers them",
     "mechanics/test_mechanics.py": "the stepper against closed forms of beams, shafts and waves",
 }
 

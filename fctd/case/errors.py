@@ -141,7 +141,8 @@ def join_key(*parts: str | int) -> str:
 _WORDS: Final = {
     "bit.weight_on_bit": "wob weightonbit",
     "bit.torque": "tob bittorque torqueonbit",
-    "mud.density": "mw mudweight",
+    "density": "weight mudweight",
+    "mud.density": "mw mudweight density muddensity",
     "rig.block_weight": "blockweight topdriveweight",
     "friction": "ff cof frictionfactor",
     "outer_diameter": "od",
@@ -150,16 +151,17 @@ _WORDS: Final = {
     "yield_strength": "grade",
     "speed": "rop",
 }
-_KEY_OF: Final = {word: key for key, words in _WORDS.items() for word in words.split()}
 
 
 def known_keys(table: Mapping[Any, Any], keys: Collection[str], owner: str = "") -> dict[str, Any]:
     """The table without the keys that are None, or an InputError that names the nearest known key."""
     for key, value in table.items():
         if key not in keys:
-            meant = _KEY_OF.get(re.sub(r"[\W_]", "", str(key)).lower())
-            if meant is not None and (meant in keys or "." in meant):
-                raise InputError(f"the key {meant}", key=str(key), value=value)
+            word = re.sub(r"[\W_]", "", str(key)).lower()
+            meant = [known for known, words in _WORDS.items() if word in words.split()]
+            here, elsewhere = [known for known in meant if known in keys], [known for known in meant if "." in known]
+            if here or elsewhere:
+                raise InputError(f"the key {(here or elsewhere)[0]}", key=str(key), value=value)
             raise InputError(nearest(key, keys, "key") + owner, key=str(key), value=value)
     return {key: value for key, value in table.items() if value is not None}
 

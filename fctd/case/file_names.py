@@ -1,6 +1,7 @@
 """Names of files in a case."""
 
 import os
+import re
 from pathlib import Path
 from typing import Annotated
 
@@ -27,5 +28,7 @@ def beside_case(file: Path | None, info: ValidationInfo, what: str) -> Path | No
         return file
     path: Path = info.context["folder"] / file
     if not os.path.exists(path):  # Path.exists raises on names too long for the file system
-        raise InputError(f"{what} that exists, looked for {path}")
+        escaped = re.search(r"[\a\b\t\n\f\r\x1b]", str(file))  # "D:\temp": the text holds a tab
+        hint = ": a backslash in double quotes stands for another sign, write / or put single quotes" if escaped else ""
+        raise InputError(f"{what} that exists, looked for {path}{hint}")
     return path

@@ -139,7 +139,8 @@ class WellboreSpec(Table):
                 raise InputError(f"{kind}, the kind of the whole wellbore", key=f"intervals[{i}].{other}")
         for i, (above, here) in enumerate(pairwise(self.intervals), start=1):
             if here.to_md <= above.to_md:
-                raise InputError(f"a depth below the interval above, {above.to_md:g} m", key=f"intervals[{i}].to_md")
+                expected = f"a depth below the interval above, {above.to_md:g} m (wellbore.intervals[{i - 1}].to_md)"
+                raise InputError(expected, key=f"intervals[{i}].to_md")
         return self
 
     @property

@@ -68,15 +68,18 @@ def tables_of(text: str, what: str) -> dict[str, Any]:
         if place is None:
             raise InputError(expected) from error
         line = text.split("\n")[int(place[1]) - 1].strip()
-        hints = [hint for pattern, hint in _HINTS if re.search(pattern, line)]
+        hints = [hint for pattern, hint in _HINTS if re.search(pattern, f"{line} ({error})")]
         raise InputError("; ".join([expected, *hints[:1]]), key=f"line {place[1]}", value=line) from error
 
 
 # What people write that is no TOML, and what to write.
 _HINTS: Final = (
+    (r"^\[\[.*\(Cannot overwrite", "each table of this list stands in double brackets, [[ and ]], the one above too"),
+    (r"\(Cannot (overwrite|declare|mutate|redefine)", "it stands in the case twice: remove one"),
     ("[\u2018\u2019\u201c\u201d]", "quotes are straight"),
-    (r"\\", "a path is written with /, or in single quotes"),
-    (r"=\s*[+-]?\d+,\d+\s*(#.*)?$", "decimals follow a point"),
+    (r"\\.*\([A-Z]", "a path is written with /, or in single quotes"),
+    (r"\(Illegal character '\\n'", "a quote is missing at the end of a text"),
+    (r"=\s*[+-]?\d+,\d+\s*(#.*)?\(", "decimals follow a point"),
     (r"=\s*[+-]?[\d.]+\s*[^\W\d_]", "a quantity with its unit stands in quotes"),
 )
 

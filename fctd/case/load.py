@@ -2,6 +2,7 @@
 
 import hashlib
 import os
+import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -13,7 +14,7 @@ from pydantic import Field, PrivateAttr, field_validator, model_validator
 
 from fctd.case.doubts import warnings_of
 from fctd.case.drilling import BitSpec
-from fctd.case.errors import MISSING, InputError, Table, naming
+from fctd.case.errors import MISSING, InputError, Table, naming, show
 from fctd.case.file_names import FileName
 from fctd.case.fluids import TemperatureSpec, check_downwards
 from fctd.case.friction import FrictionChoice, changed, friction_sets
@@ -39,14 +40,17 @@ from fctd.case.string import StringSpec
 from fctd.case.wall import ContactSpec, check_friction
 
 _OF_SURVEYS: Final = (".csv", ".txt", ".tsv", ".dat", ".xlsx", ".xml")
+# Other keys in a message, whose values are shown.
+_OTHERS: Final = re.compile(r"wellbore\.intervals\[\d+\]\.diameter")
 _SAME_DEPTH: Final = 1e-6  # m: one depth written in two units
 
 
 @dataclass(frozen=True)
 class _Written:
-    """The case as the user wrote it; all are equal, so that cases compare by keys."""
+    """The case as the user wrote it, without stations; all are equal, so that cases compare by keys."""
 
     raw: Mapping[str, Any] = field(default_factory=dict, compare=False)
+    bare_lengths: list[str] = field(default_factory=list, compare=False)
 
 
 class Case(Table):
@@ -203,7 +207,7 @@ class Case(Table):
 
         Empty where the case was not read from a file.
         """
-        return bare_lengths(self._written.raw)
+        return self._written.bare_lengths
 
     def quoting(self, error: InputError) -> InputError:
         """The error with the value as the user wrote it, where the error is about a key that he wrote."""
@@ -215,9 +219,13 @@ class Case(Table):
                 return error  # about no key of a case
             if isinstance(written, str | int | float) and error.file is None:
                 of_pipe = key.endswith(".pipe") and key != error.key
-                expected = f"a diameter of {error.expected}, not {error.value}" if of_pipe else error.expected
+                expected = _OTHERS.sub(self._as_written, error.expected)
+                expected = f"a diameter of {expected}, not {error.value}" if of_pipe else expected
                 return InputError(expected, key=key, value=written, more=error.more)
         return error
+
+    def _as_written(self, key: re.Match[str]) -> str:
+        return f"{key[0]} = {show(look_up(self._written.raw, *split_key(key[0])))}"
 
     def check_depths(self) -> None:
         """Raise InputError for a bit depth above the top of the string, or below the end of survey or intervals.
@@ -308,7 +316,7 @@ def make_case(raw: dict[str, Any], folder: Path | None, like: Case | None = None
         case = checked(Case, raw, None if folder is None else {"folder": folder})
     except InputError as error:
         raise with_bare_lengths(error, raw) from None
-    case._written = _Written(without_stations(raw))
+    case._written = _Written(without_stations(raw), bare_lengths(raw))
     if like is not None:
         case.wellbore.share_trajectory(like.wellbore)
     try:

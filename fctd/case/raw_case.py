@@ -51,16 +51,19 @@ def set_key(table: dict[str, Any], key: str, value: object) -> None:
     """
     *parents, last = split_key(key) or [key]
     place: Any = table
+    items = ""
     for part in parents:
         if isinstance(place, dict) and place.get(part) is None:
             place[part] = {}
+        if isinstance(place, list) and place and not _has_item(place, part):
+            items = f", the items are counted from 0 to {len(place) - 1}"
         place = place[part] if _has_item(place, part) else None
     if isinstance(place, list) and isinstance(last, int) and last < len(place) and value is None:
         del place[last]
     elif isinstance(place, dict) or _has_item(place, last):
         place[last] = copy.deepcopy(value)
     else:
-        raise InputError("a value for a key that exists", key=key, value=value)
+        raise InputError(f"a value for a key that exists{items}", key=key, value=value)
 
 
 def _has_item(data: Any, part: str | int) -> bool:
@@ -169,6 +172,10 @@ def bare_lengths(raw: Mapping[str, Any]) -> list[str]:
                 field_units += isinstance(value, str)
                 if isinstance(value, int | float) and value:
                     bare.append(join_key(*path, i, key))
+    stations = look_up(raw, "wellbore", "stations")
+    depths = [look_up(station, 0) for station in stations] if isinstance(stations, list) else []
+    if any(isinstance(depth, int | float) and depth for depth in depths):
+        bare.append("wellbore.stations")
     return bare if len(bare) < field_units else []
 
 

@@ -25,7 +25,7 @@ class Command(TyperCommand):
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Parse the options after a check of their number; ends the command with exit code 2 where it is wrong."""
-        given, _, order = self.make_parser(ctx).parse_args(args=list(args))
+        given, extra, order = self.make_parser(ctx).parse_args(args=list(args))
         begins = any(option.name == "resume" for option in self._options()) and "resume" not in given
         for option in self._options():
             name = max(option.opts, key=len)
@@ -34,6 +34,9 @@ class Command(TyperCommand):
             needed = option.required or (begins and option.name in UNLESS_RESUMED)
             if needed and option.name not in given and "help" not in given:
                 ctx.fail(f"Missing option '{name}'. {option.help}")
+        if extra and "help" not in given:
+            several = "an option takes one value, in quotes where it holds a blank, several apart by commas"
+            ctx.fail(f"Got unexpected extra argument(s) ({' '.join(extra)}): {several}")
         return super().parse_args(ctx, args)
 
     def _options(self) -> list[TyperOption]:

@@ -15,7 +15,7 @@ from fctd.case.errors import InputError
 from fctd.case.load import Case, check_bit_depth, naming_file
 from fctd.case.operation_names import kinds_of
 from fctd.case.operations import KINDS
-from fctd.case.units import SPEED, argument
+from fctd.case.units import SPEED, LikelyUnit, argument, unit_hint
 from fctd.hydraulics.circuit import Circuit, circulate
 from fctd.hydraulics.closed_forms import REGIMES
 from fctd.hydraulics.pressures import Eccentricity, Laid, Progress, Row, check_flows, lay
@@ -33,6 +33,7 @@ FASTEST: Final = 2.0  # [m/s]: trips are not faster than the hoist
 SLOWEST: Final = 1e-3  # [m/s]: what is slower is no trip
 PLACES: Final = 200  # along the open hole, at which the window is looked at
 HALVINGS: Final = 20  # of the range of speeds
+_A_MINUTE: Final = (LikelyUnit(10, 120, " m/min"),)
 
 
 @dataclass(frozen=True)
@@ -123,9 +124,10 @@ def surge_pressures(
 
     with naming_file(case):
         rates = [argument(speed, SPEED, "speeds") for speed in speeds]
-        for k, rate in enumerate(rates):
+        for speed, rate in zip(speeds, rates, strict=True):
             if not 0 <= rate <= units.FASTEST:
-                raise InputError(f"a speed of 0 to {units.FASTEST:g} m/s", key=f"speeds[{k}]", value=speeds[k])
+                hint = unit_hint(rate, _A_MINUTE)
+                raise InputError(f"a speed of 0 to {units.FASTEST:g} m/s{hint}", key="speeds", value=speed)
         asked = _asked(case, bit_depths, operation, end, eccentricity)
         rows: list[Row] = []
         for trips, depth, reason in _laid(case, *asked, progress):

@@ -40,7 +40,7 @@ def read_depths(text: str, case: Case, key: str, bare: str = "m") -> list[float]
             "FROM:TO:STEP, such as 1750:2450:10, '5000 ft:8000 ft:30 ft' or shoe:td:50", key=key, value=text
         )
     first, last = (read_depth(part, case, key, bare, given=text) for part in parts[:2])
-    step = typed(parts[2], LENGTH, key, bare)
+    step = 0.0 if parts[2].strip().startswith("-") else typed(parts[2], LENGTH, key, bare)
     if not (first <= last and step > 0):
         raise InputError("depths that rise: TO at least FROM, and a STEP above 0", key=key, value=text)
     if (last - first) / step >= MOST_DEPTHS:

@@ -246,7 +246,8 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
             break
     else:
         raise InputError(
-            f"enough to reach from the bit at {bit_depth:g} m to string.top_md",
+            f"enough to reach from the bit at {bit_depth:g} m to string.top_md, or no length of the last component, "
+            "which then reaches it",
             key="string.components",
             value=Computed(f"{sum(c.length or 0 for c in components):g} m of string"),
         )

@@ -301,7 +301,9 @@ def read_survey(path: Path, units: UnitSystem, columns: Choices | None = None, s
         survey = surveys.read_survey(path, said, sheet)
         assumed = f"the file names no unit of depth: {unit} is assumed"
     written = survey.written.units[0]
-    note = f"{assumed}, as in the key wellbore.columns" if assumed else ""
+    other = "ft" if unit == "m" else "m"
+    remedy = f"if it is {other}, write the case anew with --columns md.unit={other}"
+    note = f"{assumed}, as in the key wellbore.columns: {remedy}" if assumed else ""
     if written != unit and "md" not in said:
         note = f"its depths are in {written}, as the file says, those of the case in {unit}"
     of_sheet = () if sheet is None else (entry("sheet", sheet),)

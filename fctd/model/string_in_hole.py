@@ -66,12 +66,12 @@ def check_clearance(string: String, hole: Wellbore, top: Array, bottom: Array) -
     # Bows are pressed together; the pipe that they centre is not.
     radius = np.where(string.of("bow_stiffness") > 0, string.of("outer"), string.of("contact_radius"))
     starts = np.concatenate([[0.0], hole.intervals[:-1, TO_MD]])
-    for start, (to_md, wall) in zip(starts, hole.intervals[:, [TO_MD, RADIUS]], strict=True):
+    for i, (start, (to_md, wall)) in enumerate(zip(starts, hole.intervals[:, [TO_MD, RADIUS]], strict=True)):
         tight = (start < bottom) & (to_md > top) & (radius > wall)
         if tight.any():
             k = int(np.argmax(tight))
             raise InputError(
-                f"at most the hole's {2e3 * wall:.6g} mm",
+                f"at most the hole's {2e3 * wall:.6g} mm (wellbore.intervals[{i}].diameter)",
                 key=string.width_key(k),
                 value=f"{2e3 * radius[k]:.6g} mm",
             )

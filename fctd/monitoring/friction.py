@@ -13,6 +13,7 @@ from fctd.monitoring.stretches import ROTATING, Stretch
 # Of a reading that tells the factor no better than this, nothing is inferred: all factors of a hole lie within.
 WIDEST = 0.5
 TWO_SIDED_95 = 1.96
+HIGHEST: Final = 5.0  # factor: `FRICTION` admits no more in a case
 
 
 @dataclass(frozen=True)
@@ -117,6 +118,9 @@ def apparent(stretch: Stretch, chart: Chart, uncertainty: Uncertainty) -> Appare
         spread, held = uncertainty.hook_load, uncertainty.block_weight
     noise = abs(found.per_reading) * float(np.hypot(spread, reading.error))
     if not noise < WIDEST:
+        # The noise of a torque is a share of it, so that of a torque in a wrong unit is large, too.
+        if rotating and noise * HIGHEST < WIDEST * found.factor:
+            return none(f"a friction factor above {HIGHEST:g}: check the unit of the torque")
         return none("the reading does not depend on this friction factor enough")
     cased = chart.by_held(mode, depth) * uncertainty.cased if uncertainty.cased > 0 else 0.0
     total = float(np.sqrt(noise**2 + found.per_reading**2 * (held**2 + cased**2)))

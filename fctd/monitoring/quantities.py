@@ -49,8 +49,9 @@ def _needed(found: Collection[str]) -> Sequence[Sequence[str]]:
 
 
 def _remedy(key: str, headers: Sequence[str], unit: str) -> str:
-    """How to say which column is meant, and its unit."""
-    return f"by --columns '{key}={headers[0]}{f' [{unit}]' if unit else ''}'"
+    """How to say which column is meant, and its unit; a series without times may say what the rig does."""
+    by_depth = ", or a column operation in place of time and block position" if key == "time" and not unit else ""
+    return f"by --columns '{key}={headers[0]}{f' [{unit}]' if unit else ''}'{by_depth}"
 
 
 def _paste(columns: Sequence[tuple[str, str, str]]) -> str:

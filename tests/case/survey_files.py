@@ -157,6 +157,31 @@ WRONG: list[tuple[str, Keys, str | bytes, str]] = [
         "the case: columns.md = {header = \"HEADER\"} (for init: --columns 'md=HEADER')",
     ),
     (
+        "headers in other words above numbers",
+        {},
+        text("Teufe (m);Neigung;Azimut", ";"),
+        'row 1 = "Teufe (m), Neigung, Azimut": expected a row of headers such as md_m, inc_deg, azi_deg, or headers in '
+        "other words in the case: columns.md = {header = \"Teufe (m)\"} (for init: --columns 'md=Teufe (m)')",
+    ),
+    (
+        "rows in quotes",
+        {},
+        "\n".join(f'"{row}"' for row in text(HEADERS).splitlines()),
+        f'row 1 = "{HEADERS}": expected cells apart: remove the quotes around the whole row',
+    ),
+    (
+        "a bearing",
+        {},
+        f"{HEADERS}\n0,0,0\n10,1,N38.5E",
+        'row 3, azi_deg = "N38.5E": expected a number of degrees with decimals',
+    ),
+    (
+        "apostrophes between thousands",
+        {},
+        f"{HEADERS}\n0,0,0\n1'030.5,1,0",
+        'row 3, md_m = "1\'030.5": expected a number without separators of thousands',
+    ),
+    (
         "prose",
         {},
         "# A well\n\nDepth and azimuth of this well\nare not listed here.\n",

@@ -262,6 +262,8 @@ def test_a_bare_length_among_feet(length: str, told: bool, tmp_path: Path) -> No
     keys = [warning.key for warning in load_case(path).warnings if warning.code == "bare_length"]
     assert keys == (["string.components[0].length"] if told else [])
     assert load_case(path, {"string.components[0].length": "930 ft"}).warnings == ()
+    path.write_text(FIELD.format(length="'930 ft'").replace('"9000 ft", 0', "9000, 0"))
+    assert [warning.key for warning in load_case(path).warnings] == ["wellbore.stations"]
 
 
 def test_lengths_that_are_all_bare_are_metres() -> None:

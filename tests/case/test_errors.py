@@ -92,9 +92,17 @@ def test_the_nearest_choice_or_all_of_them(given: str, choices: list[str], what:
 
 @pytest.mark.parametrize(
     ("key", "expected"),
-    [("WOB", "bit.weight_on_bit"), ("mud-weight", "mud.density"), ("od", "outer_diameter"), ("pin", "")],
+    [
+        ("WOB", "bit.weight_on_bit"),
+        ("mud-weight", "mud.density"),
+        ("density", "mud.density"),
+        ("od", "outer_diameter"),
+        ("pin", ""),
+    ],
 )
 def test_the_words_of_drillers_for_keys(key: str, expected: str) -> None:
     with pytest.raises(InputError) as refused:
         known_keys({key: 1}, ["outer_diameter", "length"])
     assert refused.value.expected == (f"the key {expected}" if expected else "one of the keys outer_diameter, length")
+    with pytest.raises(InputError, match="the key density"):
+        known_keys({"weight": 1}, ["density", "cake"])

@@ -47,7 +47,7 @@ def test_setting_and_looking_up() -> None:
     assert look_up(data, "parts", 2, "length") is look_up(data, "mud", "colour") is MISSING
     set_key(data, "parts[0]", None)
     assert data["parts"] == [{"length": [3]}]
-    with pytest.raises(InputError, match="a value for a key that exists"):
+    with pytest.raises(InputError, match="a value for a key that exists, the items are counted from 0 to 0"):
         set_key(data, "parts[1].length", 3)
 
 

@@ -320,6 +320,29 @@ def test_stations_of_a_case_are_named_by_their_keys(case_file: Path) -> None:
     assert hole.trajectory[0, 0] == 0.0
 
 
+# --- true vertical depths --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("headers", "row", "told"),
+    [
+        ("MD (m),Inc,Azi,TVD (m)", "1500,30,0,1600", "depth of 1600 m beside a measured depth of 1500 m"),
+        ("TVD,MD (ft),Inc,Azi", "1600,1500,30,0", "depth of 487.7 m beside a measured depth of 457.2 m"),
+        ("MD (m),Inc,Azi,TVD (ft),TVD (m)", "1500,30,0,4600,1402", ""),
+        ("MD (m),Inc,Azi,TVD (m)", "1500,30,0,1500.4", ""),
+        ("MD (m),Inc,Azi,TVD (m)", "1500,30,0,-", ""),
+        ("MD (m),Inc,Azi,TVD (m)", "1500,30,0,see log", ""),
+    ],
+)
+def test_a_true_vertical_depth_cannot_be_below_the_measured_one(
+    headers: str, row: str, told: str, tmp_path: Path
+) -> None:
+    zeros = ",".join("0" for _ in row.split(","))
+    warnings = doubts.find(read(tmp_path, f"{headers}\n{zeros}\n{row}\n"))
+    said = [warning.text for warning in warnings if warning.code == "tvd_below_md"]
+    assert (told in said[0]) if told else not said
+
+
 # --- a hole above the ground -----------------------------------------------------------------------
 
 

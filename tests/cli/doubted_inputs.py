@@ -95,6 +95,11 @@ DOUBTED: Final[list[tuple[str, Any, str]]] = [
     ),
     (
         "string.components[2].yield_strength",
+        135,
+        "a strength of 135 Pa (135 looks like '135 ksi'): write it with its unit; usual is 50 to 3000 MPa",
+    ),
+    (
+        "string.components[2].yield_strength",
         931,
         "a strength of 931 Pa (931 looks like '931 MPa'): write it with its unit; usual is 50 to 3000 MPa",
     ),

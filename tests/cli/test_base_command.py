@@ -65,6 +65,13 @@ def test_a_single_option_is_given_once(options: list[str], message: str, cli: Co
     assert message.replace("--resolve-buckling is", "resolve-buckling is") in error
 
 
+def test_a_second_value_of_an_option_is_explained(cli: Command) -> None:
+    error = cli(
+        "chart", "small.toml", "--operation", "all", "--depths", "1:2:1", "--friction", "0.1", "0.2", code=2
+    ).err
+    assert "unexpected extra argument(s) (0.2): an option takes one value" in error
+
+
 def test_options_that_may_be_repeated(cli: Command) -> None:
     changes = ["--set", "wellbore.overlap=0.1 m", "--set", "wellbore.intervals[0].friction=0.4"]
     assert "0.4" in cli("check", "small.toml", *changes).out

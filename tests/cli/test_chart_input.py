@@ -19,7 +19,7 @@ SHOD = well()
         ("chart", {"--depths": "1000:1200:100"}, ["tiny.toml", '--depths = "1000 m"', "900 m"]),
         ("chart", {"--depths": "800:500:100"}, ["--depths", "800:500:100", "rise"]),
         ("chart", {"--depths": "500:800:0"}, ["--depths", "500:800:0", "STEP above 0"]),
-        ("chart", {"--depths": "500:800:-10"}, ["--depths", "-10", "a length"]),
+        ("chart", {"--depths": "500:800:-10"}, ["--depths", "-10", "depths that rise"]),
         ("chart", {"--depths": "500:800"}, ["--depths", "500:800", "FROM:TO:STEP"]),
         ("chart", {"--depths": "shoe:td:100"}, ["--depths", "shoe:td:100", "one interval and no shoe"]),
         ("chart", {"--depths": "500:bottom:100"}, ["--depths", "bottom", "a length"]),

@@ -144,7 +144,8 @@ def test_warnings(case_file: Path, cli: Command) -> None:
         ),
         (
             'pipe = "9 5/8 in 47 N-80 casing"',
-            "N-80 casing\": expected a diameter of at most the hole's 220.497 mm, not 269.875 mm",
+            "N-80 casing\": expected a diameter of at most the hole's 220.497 mm (wellbore.intervals[0].diameter = "
+            '"8.681 in"), not 269.875 mm',
         ),
         (
             'pipe = "5 in 19.5 S-135 NC50"\njoint = {tool_joint_diameter = "9 in"}',

@@ -74,3 +74,8 @@ def test_wrong_input_is_told_in_a_sentence(cli: Command, options: list[str], tol
     said = cli("surge", WELL, *options, code=2)
     assert told in said.err
     assert "Traceback" not in said.err
+
+
+def test_a_speed_by_the_minute_is_refused_as_the_option(cli: Command) -> None:
+    error = cli("surge", WELL, "--speed", "18", code=2).err
+    assert "--speed = 18.0: expected a speed of 0 to 10 m/s (18 looks like '18 m/min')" in error

@@ -187,13 +187,14 @@ REFUSED_TOGETHER: Final[list[tuple[dict[str, Any], dict[str, str], str]]] = [
     (
         {"wellbore.intervals[0].to_md": "1500 m", "wellbore.intervals[1].to_md": "800 m"},
         {},
-        'well.toml: wellbore.intervals[1].to_md = "800 m": expected a depth below the interval above, 1500 m',
+        'well.toml: wellbore.intervals[1].to_md = "800 m": expected a depth below the interval above, 1500 m '
+        "(wellbore.intervals[0].to_md)",
     ),
     (
         {"string.components[2].length": "500 m"},
         {},
         "well.toml: string.components = 600.3 m of string: expected enough to reach from the bit at "
-        "1000 m to string.top_md",
+        "1000 m to string.top_md, or no length of the last component, which then reaches it",
     ),
     (
         {"string.components[2].segments": 10},
@@ -313,6 +314,6 @@ REFUSED_TOGETHER: Final[list[tuple[dict[str, Any], dict[str, str], str]]] = [
     (
         {},
         {"--set": "operations[3].speed=1"},
-        "well.toml: operations[3].speed = 1: expected a value for a key that exists",
+        "well.toml: operations[3].speed = 1: expected a value for a key that exists, the items are counted from 0 to 0",
     ),
 ]

@@ -71,6 +71,7 @@ def test_a_wrong_option_is_refused(text: str) -> None:
         (["time_s", "bit_depth_m", "rpm"], [], "column hook_load_kN", "its header by --columns 'hook_load=HEADER'"),
         ([*OVER_TIME[:2], "hook_load", *OVER_TIME[3:]], [], "headers", "a header with its unit.*by --columns"),
         ([*OVER_TIME[:3], "torque_m", *OVER_TIME[4:]], [], "headers", "a unit of N"),
+        (OVER_TIME[1:], [], "column time_s or date_s", "or a column operation in place of time"),
         (["bit_depth_m", "operation"], [], "column hook_load_kN", "it among the headers"),
         ([*OVER_TIME, "TQA"], [], "headers, columns of torque", "one column.*choice by --columns 'torque=torque_N_m'"),
         (OVER_TIME, ["s", "ft", "", "", "", ""], "headers, bit_depth_m", "m, as the header says"),

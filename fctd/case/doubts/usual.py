@@ -89,7 +89,8 @@ USUAL: Final = {
         (LikelyUnit(10, 450, " GPa"), LikelyUnit(10e3, 450e3, " MPa")),
     ),
     "string.components.yield_strength": Usual(
-        "yield_strength", "a strength", "Pa", 50e6, 3e9, "50 to 3000 MPa", (LikelyUnit(50, 3000, " MPa"),)
+        "yield_strength", "a strength", "Pa", 50e6, 3e9, "50 to 3000 MPa",
+        (LikelyUnit(30, 250, " ksi"), LikelyUnit(250, 3000, " MPa")),
     ),
     # Below, a weight in kN or t or a torque in kN*m was written as a bare number; above, in a unit a thousand times too
     # large.  Blocks weigh up to 100 t, bits carry up to 60 t and 60 kN*m.

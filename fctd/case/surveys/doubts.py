@@ -27,6 +27,7 @@ _SLANT: Final = 10.0  # [deg]: at a first station at surface, beyond what is not
 # Short-radius wells aside, hardly a course bends by more: [deg/30 m], [deg] of the course, [m] of such a hole.
 _SHARP, _SEEN, _DEEP_ENOUGH = 15.0, 2.0, 100.0
 _HILL: Final = 50.0  # [m]: a crossing of a river or a tunnel may end so far above its start
+_OTHER_ZERO: Final = 1.0  # [m]: depths are rounded, and dips of a degree or two left out
 _LONGEST: Final = 12_000.0  # [m]: a dozen wells are longer, which were drilled by two or three rigs
 # Surveys are taken at connections: stands of three joints are 28 to 30 m or 92 to 96 ft long.
 _STANDS: Final = {"m": (91.0, 97.0), "ft": (27.0, 30.3), "usft": (27.0, 30.3)}
@@ -116,6 +117,24 @@ def _above_surface(survey: Survey) -> Iterator[InputWarning]:
         )
 
 
+def _vertical(survey: Survey) -> Iterator[InputWarning]:
+    """A true vertical depth below the measured depth, which no hole has."""
+    written = survey.written
+    if written.vertical is None:
+        return
+    measured = written.values[:, 0] * written.factors[0]
+    below = np.nan_to_num(written.vertical - measured)
+    worst = int(np.argmax(below))
+    if below[worst] > _OTHER_ZERO:
+        yield InputWarning(
+            "tvd_below_md",
+            written.rows(worst, worst),
+            f"a true vertical depth of {written.vertical[worst]:.4g} m beside a measured depth of "
+            f"{measured[worst]:.4g} m, which cannot be less",
+            "check that the two columns are not exchanged, and that both begin at the same height",
+        )
+
+
 def _gap(survey: Survey) -> Iterator[InputWarning]:
     if not survey.written.file:
         return
@@ -195,6 +214,7 @@ _DOUBTS: Final[tuple[Doubt, ...]] = (
     _few,
     _rejected,
     _above_surface,
+    _vertical,
     _sharp,
     _gap,
     _radians,

@@ -61,6 +61,10 @@ SURVEY: Final = TableForm(
             "azi", _AZIMUTHS, _ANGLE,
             f"{_OF_HOLE} grid true magnetic mag north gn tn mn corrected", bare="deg", example="deg",
         ),
+        Field(
+            "tvd", "tvd, true vertical depth, vertical depth", Quantity(dimension=_DEPTH), "rkb kb rt rte brt",
+            bare="", example="m", optional=True, checking=True,
+        ),
     ),
     example="md_m, inc_deg, azi_deg",
     needed=lambda found: [[key] for key in KEYS],

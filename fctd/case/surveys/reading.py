@@ -4,13 +4,14 @@ from os import PathLike
 from pathlib import Path
 from typing import Final
 
+from fctd.arrays import Array
 from fctd.case.errors import InputError, naming
 from fctd.case.input_file import decode, read_bytes
 from fctd.case.surveys.form import KEYS, SURVEY
 from fctd.case.surveys.stations import Survey, Written, check
 from fctd.case.surveys.witsml import read_witsml
 from fctd.case.tables.headers import Choices
-from fctd.case.tables.rows import GROUPED_BY_POINT, Numbers, Rows
+from fctd.case.tables.rows import GROUPED_BY_POINT, NOTHING, Numbers, Rows
 from fctd.case.tables.text import read_text
 from fctd.case.tables.workbook import OLD_EXCEL, ZIP, read_workbook
 
@@ -74,5 +75,16 @@ def _stations(rows: Rows, file: str, rejected: list[int]) -> Written:
     units = [str(rows.columns[key].unit) for key in KEYS]
     return Written(
         values, (units[0], units[1], units[2]), lambda row, column: rows.where(row, KEYS[column]), rows.numbers,
-        rows.one, rows.several, file, rejected,
+        rows.one, rows.several, file, rejected, _vertical(rows),
     )  # fmt: skip
+
+
+def _vertical(rows: Rows) -> Array | None:
+    """True vertical depths (n,) [m], NaN where there is none; None without such a column of numbers."""
+    if "tvd" not in rows.columns:
+        return None
+    column = rows.columns["tvd" if rows.columns["tvd"].unit else "md"]
+    try:
+        return Numbers().read(rows, ["tvd"], nothing=("", "-", *NOTHING))[:, 0] * column.factor
+    except InputError:  # it only checks the stations
+        return None

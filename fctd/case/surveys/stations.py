@@ -36,7 +36,7 @@ class Written:
     values : (n, 3) in the units of their columns, such as ("ft", "deg", "deg"); where : names a value; one, several :
     names of a row and of a range of rows, to be filled with the `numbers` of the rows; file : the name of the file, ""
     for stations that the case itself holds; rejected : numbers of the stations that the file itself marks as rejected,
-    which are left out.
+    which are left out; vertical : true vertical depths (n,) [m] that the file has, which only check the others.
     """
 
     values: NDArray[np.float64]
@@ -47,6 +47,7 @@ class Written:
     several: str = "rows {} to {}"
     file: str = ""
     rejected: Sequence[int] = ()
+    vertical: NDArray[np.float64] | None = None
 
     @property
     def factors(self) -> NDArray[np.float64]:

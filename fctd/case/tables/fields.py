@@ -27,7 +27,8 @@ class Field:
     header has one of those before, and a letter beside its unit.  quantity : dimension and bounds, None of a text.
     beside : words that may stand beside a name.  bare : unit of a header without one, "" where the reader finds out,
     None where it must be there.  example : a unit for messages.  optional : whether a header with a wrong unit is left
-    alone, not refused.
+    alone, not refused.  checking : whether it is read only to check the others: nobody chooses it, and the first of
+    several counts.
     """
 
     key: str
@@ -37,6 +38,7 @@ class Field:
     bare: str | None = None
     example: str = ""
     optional: bool = False
+    checking: bool = False
 
     @property
     def dimension(self) -> Dimension:

@@ -76,9 +76,9 @@ def parse_choices(texts: Sequence[str], form: TableForm) -> dict[str, Choice]:
     for text in texts:
         left, _, right = (part.strip() for part in text.partition("="))
         key, dot, unit = left.partition(".")
-        field = next((field for field in form.fields if field.key == key), None)
+        field = next((field for field in form.fields if field.key == key and not field.checking), None)
         if field is None or not right or (dot and (unit != "unit" or field.quantity is None)):
-            keys = ", ".join(field.key for field in form.fields)
+            keys = ", ".join(field.key for field in form.fields if not field.checking)
             raise InputError(f"KEY=HEADER or KEY.unit=UNIT, with one of the keys {keys}", key="--columns", value=text)
         if dot and field.unit_of(right) is None:
             raise InputError(field.accepted, key="--columns", value=text)
@@ -107,6 +107,8 @@ def find_header(rows: Sequence[Line], form: TableForm, choices: Choices) -> tupl
 def find_columns(row: Line, form: TableForm, choices: Choices) -> dict[str, Column]:
     """The columns that a row of headers names, by key; InputError where one is missing that the form needs."""
     cells, name = uncommented(row[1]), _name(row)
+    if len(cells) == 1 and re.search("[,;\t]", cells[0]):
+        raise InputError("cells apart: remove the quotes around the whole row", key=name, value=cells[0])
     found, others = {}, ", ".join(map(show, cells))
     all_candidates = {field: _candidates(field, cells, choices.get(field.key, Choice())) for field in form.fields}
     taken = {column.place for candidates in all_candidates.values() for column in candidates if not column.wrong}
@@ -117,7 +119,7 @@ def find_columns(row: Line, form: TableForm, choices: Choices) -> dict[str, Colu
             near = nearest(show(choice.header), [*map(show, cells)], "header")
             expected = f"a header that occurs once among {others}" if candidates else near
             raise InputError(expected, key=f"{form.option}{field.key}", value=choice.header)
-        if len(candidates) > 1 and not candidates[0].wrong:
+        if len(candidates) > 1 and not candidates[0].wrong and not field.checking:
             names = [column.header for column in candidates]
             expected = f"one column of this quantity{_or('a choice', form.remedy(field.key, names, ''))}"
             raise InputError(expected, key=f"{name}, columns of {field.key}", value=names)
@@ -166,7 +168,7 @@ def with_units(
     assumed = usual if agree else {}
     if not all(column.field.dimension in assumed for column in lacking.values()):
         # A time is a date or a number, which needs a unit too; beside a date it has none.
-        found_out = [column for key, column in columns.items() if units[key] == ""]
+        found_out = [column for key, column in columns.items() if units[key] == "" and not column.field.checking]
         numbers = [column for column in found_out if len(found_out) == 1 and _is_number(cell_of(first, column))]
         raise no_unit([*numbers, *lacking.values()], form, titles)
     units |= {key: assumed[column.field.dimension] for key, column in lacking.items()}

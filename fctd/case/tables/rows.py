@@ -24,6 +24,9 @@ _DECIMAL_COMMA: Final = re.compile(r"[+-]?\d*,\d*(?:[eE][+-]?\d+)?", re.ASCII)
 # decimal commas the point of "1.234" may be one of thousands.
 _GROUPED: Final = re.compile(r"[+-]?[1-9]\d{0,2}(?:,\d{3})+", re.ASCII)
 GROUPED_BY_POINT: Final = re.compile(r"[+-]?[1-9]\d{0,2}\.\d{3}", re.ASCII)
+_APOSTROPHES: Final = re.compile(r"[+-]?\d{1,3}(?:['\u2019]\d{3})+(?:[.,]\d*)?")
+# Angles of a quadrant, N38E, and with minutes, 12°30'.
+_BEARING: Final = re.compile(r"[NS]\W*\d.*[EW]|\d+\s*°\s*\d.*", re.IGNORECASE)
 _BLANK_IN_NUMBER: Final = re.compile(r"(?<=\d)[ \u00a0\u2009\u202f](?=\d{3}(?!\d))")
 
 
@@ -93,11 +96,12 @@ class Numbers:
 
     def _refused(self, rows: Rows, cell: tuple[int, str], count: int) -> InputError:
         text = rows.cells[cell[1]][cell[0]]
-        thousands = " without separators of thousands" if "," in text else ""
+        thousands = " without separators of thousands" if "," in text or _APOSTROPHES.fullmatch(text) else ""
+        angle = " of degrees with decimals" if _BEARING.fullmatch(text) else ""
         comma = f" with a decimal comma, as in row {self._comma}" if self._comma and "." in text else ""
         more = f" ({count} such cells)" if count > 1 else ""
         number = "a finite number" if _NOT_FINITE.fullmatch(text) else "a number"
-        return rows.error(*cell, f"{number}{thousands}{comma}{more}")
+        return rows.error(*cell, f"{number}{angle}{thousands}{comma}{more}")
 
 
 def read_number(text: str) -> float | None:

@@ -97,18 +97,44 @@ def find_layout(text: str, form: TableForm, choices: Choices) -> Layout:
     """
     start = "\n".join(text.split("\n", _START)[:_START])
     best: tuple[tuple[bool, int, int], str, list[Line], list[Line]] | None = None
+    unnamed: list[Line] = []
     for separator in _SEPARATORS:
         rows = list(_cut(start, separator))
         heads = [(number, [cell.strip() for cell in _split(cells, separator)]) for number, cells in rows]
         index, found = headers.find_header(heads, form, choices)
+        unnamed += _above_numbers(heads)
         blanks, lacking = separator in (_WIDE, _NARROW), bool(form.lacking(found))
         # Blanks separate words, too, each of which may be a name: they count where nothing else gives what is needed.
-        columns = 0 if found or blanks or not rows else len(heads[index][1])
+        columns = 0 if blanks or not rows else len(heads[index][1])
+        columns = min(columns, 2) if found else columns  # one cell that names a field may be a whole row
         rank = not lacking, len(found) if lacking or not blanks else 0, columns
         if best is None or rank > best[0]:
             best = rank, separator, heads, rows
     assert best is not None
+    if unnamed and best[0][:2] == (False, 0):
+        raise _other_words(form, unnamed[0])
     return _lay_out(best[2], best[3], form, choices, best[1])
+
+
+def _above_numbers(rows: Sequence[Line]) -> list[Line]:
+    """The row of words that stands above the first row of numbers, and above one of units; none without both."""
+    for k, (_, cells) in enumerate(rows):
+        if len(cells) > 1 and all(read_number(cell.replace(",", ".")) is not None for cell in cells):
+            return [row for row in rows[max(k - 2, 0) : k] if len(row[1]) == len(cells) and all(row[1])][:1]
+    return []
+
+
+def _other_words(form: TableForm, row: Line | None = None) -> InputError:
+    """The error of a table whose headers are in other words: of the row, or of one that was not found.
+
+    A row above numbers is shown.  Another is not, whatever file this is: a case may be someone else's.
+    """
+    remedy = form.remedy(form.needed(())[0][0], ["HEADER" if row is None else row[1][0]], "")
+    other = f", or headers in other words {remedy}" if remedy else ""
+    expected = f"a row of headers such as {form.example}"
+    if row is None:
+        return InputError(f"{expected} in the first {TITLES} rows{other}")
+    return InputError(f"{expected}{other}", key=f"row {row[0]}", value=", ".join(row[1]))
 
 
 def _lay_out(heads: Sequence[Line], rows: Sequence[Line], form: TableForm, choices: Choices, separator: str) -> Layout:
@@ -120,10 +146,8 @@ def _lay_out(heads: Sequence[Line], rows: Sequence[Line], form: TableForm, choic
     if not named and read_number(top[1][0]) is not None:
         expected = f"a row of headers above the numbers, such as {form.example}"
         raise InputError(expected, key=f"row {top[0]}", value=", ".join(top[1]))
-    if not named:  # whatever file this is, its text is not quoted: a case may be someone else's
-        remedy = form.remedy(form.needed(())[0][0], ["HEADER"], "")
-        other = f", or headers in other words {remedy}" if remedy else ""
-        raise InputError(f"a row of headers such as {form.example} in the first {TITLES} rows{other}")
+    if not named:
+        raise _other_words(form)
     found = headers.find_columns(top, form, choices)
     below = [(number, _split(cells, separator, number, len(top[1]))) for number, cells in rows[index + 1 :]]
     stated = headers.find_units(below, found.values())
