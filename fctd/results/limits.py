@@ -106,7 +106,7 @@ def collapse_of(at, section):
 LIMITS: Final[tuple[Limit, ...]] = (
     Limit(
         "penetration", "the string is pressed deep into the wall",
-        "check friction factor, bends, a bent motor that has no room at its bit, and the wall's stiffness", "m",
+        "check friction factor, bends, a bent motor's room, and the wall's stiffness", "m",
         # Bow springs give way as far as they do.
         lambda at, section: at.penetration if section.bow_stiffness == 0 else 0.0,
         lambda at, section: min(max(SHARE_OF_CLEARANCE * at.clearance, LEAST_PENETRATION), MOST_PENETRATION),

@@ -176,9 +176,9 @@ def _factor(unit: str, target: str) -> float:
 
 
 def _short(value: float, before: str) -> str:
-    """A number with one digit more than it had before, from two to four."""
+    """A number with one digit more than it had before, three or four."""
     digits = len(before.split("e")[0].lstrip("-0.").replace(".", ""))
-    return f"{value:.0f}" if abs(value) >= 1000 else f"{value:.{min(max(digits + 1, 2), 4)}g}"
+    return f"{value:.0f}" if abs(value) >= 1000 else f"{value:.{min(max(digits + 1, 3), 4)}g}"
 
 
 def _ending(unit: str) -> str:

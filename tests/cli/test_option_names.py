@@ -36,6 +36,6 @@ def test_the_users_own_words_stay_and_further_problems_are_kept() -> None:
     other = InputError("at most 5 m", key="wellbore.overlap", value="9 m")
     error = InputError("at most 10 m (such as '2 m')", key="string.top_md", value="12 m", more=[other])
     assert refusal(error, "field").splitlines() == [
-        "string.top_md = \"12 m\": expected at most 32.81 ft (such as '2 m')",
+        "string.top_md = \"12 m\": expected at most 32.8 ft (such as '2 m')",
         'wellbore.overlap = "9 m": expected at most 16.4 ft',
     ]

@@ -46,6 +46,7 @@ def test_a_body_that_fills_its_hole_has_finite_coefficients() -> None:
     assert np.isfinite(found).all()
     assert found[-1] < 0.1  # N s: a gauge bit of a metre loses 1 N m at 120 rev/min, no thousands
 
+
 def test_the_hole_beside_the_middle_of_a_segment() -> None:
     intervals = [{"to_md": 500, "diameter": 0.3, "friction": 0.2}, {"to_md": 1000, "diameter": 0.2, "friction": 0.2}]
     case = make_case(wellbore={"intervals": intervals})

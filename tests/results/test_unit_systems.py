@@ -76,7 +76,7 @@ def test_a_column_without_a_unit_cannot_be_shown_in_one() -> None:
             "helical between 540 and 1500 m, where segments of 20 m",
             "helical between 1772 and 4921 ft, where segments of 65.6 ft",
         ),
-        ("3598 m + 2 m of stretch", "11804 ft + 6.6 ft of stretch"),
+        ("3598 m + 2 m of stretch", "11804 ft + 6.56 ft of stretch"),
         ("a dog-leg of 3.61°/30 m", "a dog-leg of 3.67°/100 ft"),
         ("12.3 mm deep", "0.4843 in deep"),
         ("by about ±3.2 kN at 0.31 Hz", "by about ±0.719 klbf at 0.31 Hz"),
