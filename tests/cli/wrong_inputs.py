@@ -156,7 +156,11 @@ REFUSED: Final[list[tuple[str, Any, str]]] = [
     ("solver.buckling", "yes", "'detect', 'resolve' or 'feed'"),
     ("wellbore.stiffness", "1e7 N/m/m", "a stiffness such as '1e7 N/m' (units: N/m, kN/m, MN/m, lbf/in, lbf/ft)"),
     ("--operation", "tripinn", "the kind trip_in"),
-    ("--depths", "1000-1500", "a bit depth, or FROM:TO:STEP, such as 1750:2450:10, '5000 ft:8000 ft:30 ft'"),
+    (
+        "--depths",
+        "1000-1500",
+        "a bit depth, or FROM:TO:STEP, such as 1750:2450:10, '5000 ft:8000 ft:30 ft' or shoe:td:50",
+    ),
     ("--depths", "1500:1000:10", "depths that rise: TO at least FROM, and a STEP above 0"),
     ("--depths", "1000:1500:0", "depths that rise: TO at least FROM, and a STEP above 0"),
     ("--friction", "low", FRICTIONS),
