@@ -79,4 +79,4 @@ def circulate(channel: Channel, flow: float, speed: float = 0.0, end: str | None
 
 def flows(case: Case, flow: float, speed: float) -> bool:
     """Whether mud that is pumped [m³/s], or displaced at a speed [m/s], acts on the string of a case."""
-    return case.mud.densest > 0 and (flow > 0 or (speed != 0 and has_flow_curve(case)))
+    return (flow > 0 or (speed != 0 and has_flow_curve(case))) and case.mud.densest > 0

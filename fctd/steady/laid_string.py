@@ -32,17 +32,18 @@ class LaidString:
     lie: Callable[["LaidString"], Array | None] | None = None
     circuit: Circuit | None = None
     rests: bool = False
-    _in_flow: dict[tuple[float, float], "LaidString"] = field(default_factory=dict, repr=False, compare=False)
+    _in_flow: dict[tuple[float, float], "LaidString | None"] = field(default_factory=dict, repr=False, compare=False)
 
     def in_flow(self, rates: SteadyRates) -> "LaidString":
         """The string in the mud that an operation pumps and displaces; itself where mud rests or has no viscosity."""
-        if self.rests or self.circuit is not None or not flows(self.case, rates.flow, rates.speed):
+        if self.rests or self.circuit is not None:
             return self
         # A damping along the string that the case gives replaces the drag of the mud that the string displaces.
         at = rates.flow, rates.speed if self.case.mud.axial_damping is None else 0.0
         if at not in self._in_flow:
-            self._in_flow[at] = replace(self, circuit=circulate(self._channel, *at))
-        return self._in_flow[at]
+            moves = flows(self.case, rates.flow, rates.speed)
+            self._in_flow[at] = replace(self, circuit=circulate(self._channel, *at)) if moves else None
+        return self._in_flow[at] or self
 
     @property
     def at_rest(self) -> "LaidString":
