@@ -186,6 +186,14 @@ class FlowSpec(Table):
             return self.rheology.curve
         return None if self.viscosity is None else Rheology.newtonian(self.viscosity)
 
+    @property
+    def resists(self) -> bool:
+        """Whether the mud has a flow curve, and one with stress."""
+        if self.viscosity is not None:  # without a curve to make, as every row of a chart asks
+            return self.viscosity > 0
+        curve = self.curve
+        return curve is not None and max(curve[:2]) > 0
+
 
 def fit(readings: Mapping[int, float]) -> Fit:
     """The curve through readings [degrees] by speed [rev/min].

@@ -47,7 +47,7 @@ class MudSpec(FluidsSpec):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        if self.curve is not None and max(self.curve[:2]) > 0 and not self.densest:
+        if self.resists and not self.densest:
             key = next(name for name in ("viscosity", "rheology", "fann") if getattr(self, name) is not None)
             raise InputError("left out, or a mud.density above 0 beside it", key=key)
         return self

@@ -137,8 +137,8 @@ class Channel:
 
 def has_flow_curve(case: Case) -> bool:
     """Whether a case says how its mud flows, in or around the string."""
-    muds = (case.mud, *case.mud.inside, *case.mud.outside)
-    return any(curve.yield_stress or curve.consistency for mud in muds if (curve := mud.curve) is not None)
+    mud = case.mud
+    return mud.resists or any(row.resists for row in (*mud.inside, *mud.outside))
 
 
 def flow_curves(case: Case, string: String) -> tuple[Rheology, Rheology]:

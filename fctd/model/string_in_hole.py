@@ -152,8 +152,7 @@ def damping_of(case: Case, string: String, hole: Wellbore) -> Array:
     """Damping by the mud per metre of every segment (n, 3): along, across [N s/m²] and about the axis [N s]."""
     mud, damping = case.mud, np.empty((string.segments, 3))
     damping[:] = mud.axial_damping or 0.0, mud.lateral_damping or 0.0, mud.rotational_damping or 0.0
-    curve = mud.curve if mud.rotational_damping is None else None
-    if curve is not None and (curve.yield_stress or curve.consistency):
+    if mud.resists and mud.rotational_damping is None:
         around = hole_radius(hole, string.top_md, string.length)
         damping[:, 2] = resistance(string.of("outer"), around, mud.unsteady)
     return damping

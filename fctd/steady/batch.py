@@ -156,19 +156,23 @@ def solve_batch(case: Case, hole: Hole, rows: Sequence[Row], work: Workspace) ->
         return [UNSOLVED if row.laid.is_bent else next(found) for row in rows]
     if not rows:
         return []
-    rows = [row._replace(laid=row.laid.in_flow(row.rates)) for row in rows]
-    laid = {id(row.laid): row.laid for row in rows}
+    flowing = [row.laid.in_flow(row.rates) for row in rows]
+    laid = {id(of): of for of in flowing}
     places = {key: k for k, key in enumerate(laid)}
-    which = np.array([(places[id(row.laid)], row.friction) for row in rows])
+    which = np.array([(places[id(of)], row.friction) for of, row in zip(flowing, rows, strict=True)])
     loads = np.array(
-        [(row.rates.speed, row.rates.spin, *row.laid.bit_loads(case, row.operation)) for row in rows], float
+        [
+            (row.rates.speed, row.rates.spin, *of.bit_loads(case, row.operation))
+            for of, row in zip(flowing, rows, strict=True)
+        ],
+        float,
     )
     packed = _pack(case, list(laid.values()))
     answers = np.zeros((len(rows), ANSWER))
     most = max(of.string.segments for of in laid.values()) + 1
     joints, contacts, walls = (np.zeros((len(rows), most, k)) for k in SHAPE_COLUMNS)
     solve_rows(hole, packed, which, loads, work, answers, joints, contacts, walls)
-    ends = [row.laid.string.segments + 1 for row in rows]
+    ends = [of.string.segments + 1 for of in flowing]
     return [Answer(answers[k], *(of[k, 1:end] for of in (joints, contacts, walls))) for k, end in enumerate(ends)]
 
 
