@@ -138,7 +138,7 @@ class Channel:
 def has_flow_curve(case: Case) -> bool:
     """Whether a case says how its mud flows, in or around the string."""
     mud = case.mud
-    return mud.resists or any(row.resists for row in (*mud.inside, *mud.outside))
+    return mud.resists or any(row.resists for rows in (mud.inside, mud.outside) for row in rows)
 
 
 def flow_curves(case: Case, string: String) -> tuple[Rheology, Rheology]:

@@ -184,7 +184,7 @@ def _joined(arrays: Sequence[NDArray[Scalar]], axis: int = 0) -> NDArray[Scalar]
 def _pack(case: Case, laid: Sequence[LaidString]) -> Strings:
     strings = [of.string for of in laid]
     first = np.array([0, *accumulate(string.segments for string in strings)])
-    plain, total = not case.mud.given and all(of.circuit is None for of in laid), int(first[-1])
+    still, total = all(of.circuit is None for of in laid), int(first[-1])
     return Strings(
         first,
         _joined([string.length for string in strings]),
@@ -196,8 +196,8 @@ def _pack(case: Case, laid: Sequence[LaidString]) -> Strings:
         _joined([string.weights for string in strings], axis=1),
         _joined([damping_of(case, of.string, of.hole) for of in laid]),
         _joined([of.squeeze for of in laid]),
-        _joined([of.given for of in laid]),
-        np.zeros(total + len(strings)) if plain else _joined([of.excess for of in laid]),
+        np.zeros(total) if still else _joined([of.given for of in laid]),
+        np.zeros(total + len(strings)) if still and not case.mud.given else _joined([of.excess for of in laid]),
         case.wellbore.stiffness_per_length is not None,
     )
 

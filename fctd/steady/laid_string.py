@@ -1,7 +1,7 @@
 """A string laid out at one bit depth: what its steady strings of all operations and friction factors have in common."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -32,18 +32,20 @@ class LaidString:
     lie: Callable[["LaidString"], Array | None] | None = None
     circuit: Circuit | None = None
     rests: bool = False
-    _in_flow: dict[tuple[float, float], "LaidString | None"] = field(default_factory=dict, repr=False, compare=False)
 
     def in_flow(self, rates: SteadyRates) -> "LaidString":
         """The string in the mud that an operation pumps and displaces; itself where mud rests or has no viscosity."""
-        if self.rests or self.circuit is not None:
+        if self.rests or self.circuit is not None or not flows(self.case, rates.flow, rates.speed):
             return self
         # A damping along the string that the case gives replaces the drag of the mud that the string displaces.
         at = rates.flow, rates.speed if self.case.mud.axial_damping is None else 0.0
         if at not in self._in_flow:
-            moves = flows(self.case, rates.flow, rates.speed)
-            self._in_flow[at] = replace(self, circuit=circulate(self._channel, *at)) if moves else None
-        return self._in_flow[at] or self
+            self._in_flow[at] = replace(self, circuit=circulate(self._channel, *at))
+        return self._in_flow[at]
+
+    @cached_property
+    def _in_flow(self) -> dict[tuple[float, float], "LaidString"]:
+        return {}
 
     @property
     def at_rest(self) -> "LaidString":
