@@ -64,17 +64,17 @@ class String:
     fluids: Fluids | None = None
 
     def __post_init__(self) -> None:
-        off = self.top_md + float(self.length.sum()) - self.bit_depth
+        off = self.top_md + float(np.add.reduce(self.length)) - self.bit_depth
         if not abs(off) <= SAME_LENGTH:
             raise AssertionError(f"the segments end {off:g} m below the bit depth, {self.bit_depth:g} m")
-        if self.length.min() <= 0:
-            raise AssertionError(f"a segment of {self.length.min():g} m")
+        if (shortest := np.minimum.reduce(self.length)) <= 0:
+            raise AssertionError(f"a segment of {shortest:g} m")
         # From the top down the components follow each other in reverse order of the list, without a gap.
         steps = self.component[:-1] - self.component[1:]
         ends = self.component[0] == len(self.sections) - 1 and self.component[-1] == 0
         ends &= len(self.parts) == len(self.sections)
-        # Of steps of 0 and 1, and of no others, half is 0.
-        if len(self.component) != len(self.length) or not ends or (steps >> 1).any():
+        # Steps of 0 and 1, and no others, have no further bits.
+        if len(self.component) != len(self.length) or not ends or np.bitwise_or.reduce(steps) >> 1:
             raise AssertionError("the segments do not follow the order of the components")
 
     @property
