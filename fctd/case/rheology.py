@@ -192,7 +192,7 @@ class FlowSpec(Table):
         if self.viscosity is not None:  # without a curve to make, as every row of a chart asks
             return self.viscosity > 0
         curve = self.curve
-        return curve is not None and max(curve[:2]) > 0
+        return curve is not None and bool(max(curve[:2]) > 0)
 
 
 def fit(readings: Mapping[int, float]) -> Fit:
