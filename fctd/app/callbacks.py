@@ -15,7 +15,7 @@ from fctd.app.pool import Pool
 from fctd.app.runs import Runs, target_of
 from fctd.app.sessions import Session, Sessions
 from fctd.app.sliders import Slider
-from fctd.app.uploads import content_of, source_of, text_of
+from fctd.app.uploads import added_operations, content_of, source_of, text_of
 from fctd.case.errors import InputError
 from fctd.case.text import counted, printable
 from fctd.plots.palette import PALETTE
@@ -263,13 +263,13 @@ def _running(app: Dash, backend: PageBackend) -> None:
     @app.callback(
         Output("run-told", "children", allow_duplicate=True), Output("tick", "interval", allow_duplicate=True),
         Input("run", "n_clicks"), State("where", "pathname"), State({"slider": ALL}, "value"), State("opened", "data"),
-        prevent_initial_call=True,
+        State("more-operations", "value"), prevent_initial_call=True,
     )  # fmt: skip
     @_refusing(2, 0)
     def start(
-        clicks: object, pathname: str, sliders: Sequence[float], opened: Mapping[str, Any] | None
+        clicks: object, pathname: str, sliders: Sequence[float], opened: Mapping[str, Any] | None, more: str | None
     ) -> tuple[Any, ...]:
-        session = backend.session(pathname)
+        session, added = backend.session(pathname), added_operations(more or "")
         # Where the sliders stand: their last move may not be solved yet.
         own = (opened or {"own": {}})["own"]
         values = {name: at for (name, usual), at in zip(own.items(), sliders, strict=True) if at != usual}
@@ -277,7 +277,7 @@ def _running(app: Dash, backend: PageBackend) -> None:
         if source is not None and source.survey_name:
             name = "survey" + PurePath(source.survey_name).suffix.lower()
         text = backend.ask(session, "text", values=values, survey=name)["text"]
-        backend.runs.start(session, text, name, b"" if source is None else source.survey)
+        backend.runs.start(session, f"{text.rstrip()}\n{added}", name, b"" if source is None else source.survey)
         return "the string comes to rest first; nothing is recorded yet", page.TICK
 
     @app.callback(

@@ -10,6 +10,7 @@ from fctd.app.downloads import FILES
 from fctd.app.well import EXTRAS
 from fctd.case.operations import KINDS
 from fctd.case.text import counted
+from fctd.model.first_runs import to_paste
 from fctd.view.quantities import QUANTITIES
 
 TITLE: Final = "fctd"
@@ -104,6 +105,11 @@ def _pictures(kinds: Sequence[Mapping[str, str]]) -> list[Any]:
             "The operations of the case, step by step in time, with the sliders where they stand.", id="run-told",
             role="status",
         ),
+        html.Details([
+            html.Summary("Add operations"),
+            html.P("They follow those of the case, in the words of a case file; what stands here is an example."),
+            dcc.Textarea(id="more-operations", spellCheck=False, rows=5, placeholder="\n".join(to_paste("1500 m"))),
+        ]),
         html.Div([_graph("time"), html.P([html.Span(id="run-at"), html.Span(id="run-words")]), _graph("run-scene")],
                  id="time-box", hidden=True),
     ]  # fmt: skip

@@ -20,6 +20,7 @@ from fctd.app.page import GRAPHS
 from fctd.app.server import MOST_RECEIVED, AppServer, listening
 from fctd.app.sessions import Session
 from fctd.case.errors import InputError
+from fctd.model.first_runs import to_paste
 from tests.app.made import NAME, SURVEY, TEXT, InProcess, source
 
 
@@ -295,6 +296,27 @@ def test_a_run_begins_where_the_sliders_stand(server: AppServer, monkeypatch: py
         ("opened", "data", page), ('{"slider":["ALL"]}', "value", places),
     ])  # fmt: skip
     assert [tomllib.loads(text)["mud"]["density"] for text in begun] == [1300.0]
+
+
+def test_operations_are_added_to_those_of_a_case(server: AppServer, monkeypatch: pytest.MonkeyPatch) -> None:
+    session, begun = server.sessions.new(), list[str]()
+    session.put(source())
+    monkeypatch.setattr(server.runs, "start", lambda session, text, name, survey: begun.append(text))
+    page = opened(server, session.key)["opened"]["data"]
+
+    def run(more: str) -> Any:
+        return call(server, session.key, "run-told.children", [("run", "n_clicks", 1)], [
+            ("opened", "data", page), ('{"slider":["ALL"]}', "value", [*page["own"].values()]),
+            ("more-operations", "value", more),
+        ])  # fmt: skip
+
+    run("\n".join(to_paste("900 m")))
+    run("")
+    more, own = (tomllib.loads(text).get("operations", []) for text in begun)
+    assert more == [*own, {"kind": "rotate_off_bottom", "at_md": "900 m", "duration": "60 s", "rpm": 60}]
+    for wrong in ('[wellbore]\nsurvey = "/etc/passwd"', "[[operations]", 'name = "x"'):
+        assert "operations" in str(run(wrong)["run-told"])
+    assert len(begun) == 2
 
 
 def test_requests_that_no_page_makes_are_told_in_a_line(server: AppServer, capfd: pytest.CaptureFixture[str]) -> None:
