@@ -5,6 +5,8 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperCommand, TyperOption
 
+from fctd.case.text import printable
+
 HELP = {"help_option_names": ["-h", "--help"]}
 # Options that a command needs where it does not go on with an earlier one.
 UNLESS_RESUMED = ("operations", "depths")
@@ -36,7 +38,7 @@ class Command(TyperCommand):
                 ctx.fail(f"Missing option '{name}'. {option.help}")
         if extra and "help" not in given:
             several = "an option takes one value, in quotes where it holds a blank, several apart by commas"
-            ctx.fail(f"Got unexpected extra argument(s) ({' '.join(extra)}): {several}")
+            ctx.fail(f"Got unexpected extra argument(s) ({printable(' '.join(extra))}): {several}")
         return super().parse_args(ctx, args)
 
     def _options(self) -> list[TyperOption]:

@@ -32,9 +32,18 @@ from fctd.cli.options import (
     tell,
 )
 from fctd.cli.pictures import PICTURE_HELP, draw_panels
-from fctd.cli.steady import Units, check_targets, file_option, in_units, metadata_of_case, read_bit_depths, row_bar
+from fctd.cli.steady import (
+    Units,
+    check_targets,
+    file_option,
+    in_units,
+    metadata_of_case,
+    read_bit_depths,
+    read_flow,
+    row_bar,
+)
 from fctd.hydraulics.cuttings import Cuttings
-from fctd.hydraulics.pressures import PUMPED, SHARE, Circulation, Eccentricity, circulations
+from fctd.hydraulics.pressures import SHARE, Circulation, Eccentricity, circulations
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, in_words, reworded, shown
 from fctd.steady.equilibrium import lie_along
@@ -180,10 +189,9 @@ def _flows(texts: Sequence[str], case: Case, units: System) -> list[float]:
     """The flows of ``--flow`` [m³/s], a bare number in gpm or L/min; else the largest of the operations."""
     found = []
     for text in (part.strip() for given in texts for part in given.split(",")):
-        try:
-            found.append(PUMPED.parse(_with_unit(text, "gpm" if units == "field" else "L/min")))
-        except InputError as error:
-            raise InputError(error.expected, key="--flow", value=text) from None
+        found.append(read_flow(text, units))
+        if not found[-1]:
+            raise InputError("a flow rate above 0", key="--flow", value=text)
     largest = max((operation.flow for operation in case.operations), default=0.0)
     if not found and not largest:
         raise InputError("a flow such as '2000 L/min', as no operation of the case has one", key="--flow")

@@ -12,7 +12,7 @@ from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case, check_bit_depth, naming_file
 from fctd.case.operation_names import USUAL, kinds_of, split_names
 from fctd.case.operations import KINDS
-from fctd.case.units import FLOW, ROTATION, SPEED
+from fctd.case.units import FLOW, ROTATION, SPEED, typed
 from fctd.cli.options import bare_length, check_target, messages, read_quantity, screen, units_option
 from fctd.cli.pictures import PICTURES, check_package, check_pictures
 from fctd.model.depths import read_depth, read_depths
@@ -50,9 +50,13 @@ Rpm = Annotated[
 Flow = Annotated[
     str | None,
     typer.Option(
-        "--flow", metavar="Q", help="Flow of the pumps, '2000 L/min' or '500 gpm'; default: the case's, or 0."
+        "--flow",
+        metavar="Q",
+        help="Flow of the pumps, '2000 L/min' or '500 gpm', bare in L/min, with --units field in gpm; default: the "
+        "case's, or 0.",
     ),
 ]
+MOST_FLOW = 1.0  # [m³/s]
 DEPTH_HELP = "Bit depth, '2450 m', td or shoe; bare in m, with --units field in ft"
 Units = Annotated[
     System,
@@ -78,8 +82,16 @@ def read_drive(speed: str | None, rpm: str | None, flow: str | None, units: Syst
     return {
         "speed": None if speed is None else read_quantity(speed, SPEED, "--speed", units),
         "rpm": None if rpm is None else read_quantity(rpm, ROTATION, "--rpm"),
-        "flow": None if flow is None else read_quantity(flow, FLOW, "--flow"),
+        "flow": None if flow is None else read_flow(flow, units),
     }
+
+
+def read_flow(text: str, units: System) -> float:
+    """A flow of the pumps [m³/s]; a bare number is in L/min, with field units in gpm.  InputError names ``--flow``."""
+    flow = typed(text, FLOW, "--flow", "gpm" if units == "field" else "L/min")
+    if flow > MOST_FLOW:
+        raise InputError(f"a flow rate of at most {MOST_FLOW:g} m^3/s", key="--flow", value=text)
+    return flow
 
 
 def read_kinds(texts: Sequence[str], usual: Sequence[str] = ()) -> list[str]:

@@ -51,7 +51,8 @@ def test_pictures(cli: Command, tmp_path: Path, depths: str, suffix: str) -> Non
 @pytest.mark.parametrize(
     ("options", "told"),
     [
-        (["--flow", "2000 L/s"], '--flow = "2000 L/s": expected a flow rate above 0 and at most 1 m^3/s'),
+        (["--flow", "2000 L/s"], '--flow = "2000 L/s": expected a flow rate of at most 1 m^3/s'),
+        (["--flow", "0"], '--flow = "0": expected a flow rate above 0'),
         (["--flow", "fast"], '--flow = "fast": expected a flow rate'),
         (["--set", "operations[0].flow=0"], "--flow is missing: expected a flow such as '2000 L/min'"),
         (["--eccentricity", "2"], "--eccentricity = \"2\": expected 'string' or a share"),

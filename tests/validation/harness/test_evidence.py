@@ -102,10 +102,11 @@ def test_pressures_on_ends_and_shoulders_carry_the_displaced_mud():
 
 
 def test_resistance_in_a_narrow_annulus_is_that_of_a_flat_gap():
-    radius, gap, viscosity = 0.1, 1e-5, 0.03
+    """But for its curvature, 2R²/(r + R)r."""
+    radius, gap, viscosity = 0.1, 2.1e-3, 0.03
     turning = mud_effects.resistance(radius, radius + gap, viscosity)
-    around = 2 * np.pi * radius
-    assert turning == pytest.approx(viscosity * around / gap * radius**2, rel=1e-3)
+    around, curved = 2 * np.pi * radius, 2 * (radius + gap) ** 2 / (2 * radius + gap) / radius
+    assert turning == pytest.approx(viscosity * around / gap * radius**2 * curved, rel=1e-12)
 
 
 def test_the_mud_of_a_case_resists_as_much_as_its_parts_do():
