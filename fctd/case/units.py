@@ -126,6 +126,7 @@ YIELD_STRESS: Final = Dimension(
 )
 FLOW: Final = Dimension("a flow rate", "m^3/s", "'2000 L/min' or '500 gpm'", ("m^3/s", "L/s", "L/min", "gpm"),
                               {"gpm": "(gallon/minute)", "lpm": "(liter/minute)"})  # fmt: skip
+MOST_FLOW: Final = 1.0  # of pumps [m³/s]
 ANGULAR_DAMPING: Final = Dimension(
     "a torque per rotation speed", "N*m*s", "'400 N*m*s'", ("N*m*s", "kN*m*s", "ft*lbf*s")
 )

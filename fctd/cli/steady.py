@@ -12,7 +12,7 @@ from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case, check_bit_depth, naming_file
 from fctd.case.operation_names import USUAL, kinds_of, split_names
 from fctd.case.operations import KINDS
-from fctd.case.units import FLOW, ROTATION, SPEED, typed
+from fctd.case.units import FLOW, MOST_FLOW, ROTATION, SPEED, typed
 from fctd.cli.options import bare_length, check_target, messages, read_quantity, screen, units_option
 from fctd.cli.pictures import PICTURES, check_package, check_pictures
 from fctd.model.depths import read_depth, read_depths
@@ -56,7 +56,6 @@ Flow = Annotated[
         "case's, or 0.",
     ),
 ]
-MOST_FLOW = 1.0  # [m³/s]
 DEPTH_HELP = "Bit depth, '2450 m', td or shoe; bare in m, with --units field in ft"
 Units = Annotated[
     System,

@@ -14,7 +14,7 @@ from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.load import Case, check_bit_depth, naming_file
 from fctd.case.rheology import Rheology
-from fctd.case.units import FLOW, FLOW_UNITS, Number, Quantity
+from fctd.case.units import FLOW, FLOW_UNITS, MOST_FLOW, Number, Quantity
 from fctd.hydraulics.channel import Channel, channel_of, has_flow_curve
 from fctd.hydraulics.circuit import Circuit, circulate
 from fctd.hydraulics.closed_forms import REGIMES, bore
@@ -30,7 +30,7 @@ from fctd.model.wellbore import Wellbore, build_wellbore
 if TYPE_CHECKING:
     import pandas as pd
 
-PUMPED: Final = Quantity(dimension=FLOW, above=0.0, at_most=1.0, likely_units=FLOW_UNITS)
+PUMPED: Final = Quantity(dimension=FLOW, above=0.0, at_most=MOST_FLOW, likely_units=FLOW_UNITS)
 SHARE: Final = Number(noun="a share", at_least=0.0, at_most=1.0)
 Row = dict[str, Any]
 Progress = Callable[[int, int], None]
