@@ -129,7 +129,7 @@ class MovingString:
 
     def clear(self) -> None:
         """Set sums, losses, the top drive's work, the energy of fed pipe and the count of steps to zero."""
-        self.S[state.SUM_NORMAL : state.LOST_JOINT + state.STRIDE] = 0.0
+        state.columns(self.S)[state.SUM_NORMAL // state.STRIDE : state.LOST_JOINT // state.STRIDE + 1] = 0.0
         top = topdrive
         self.top[
             [*SUMS_AT_THE_ENDS, top.TOP_WORK, top.FED_ENERGY, top.GIVEN_WORK, top.LOST_BIT, top.TOP_PENETRATION]

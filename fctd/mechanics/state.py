@@ -1,4 +1,4 @@
-"""The memory of a run: one flat buffer, one row per quantity, one column per body.
+"""The state of a string: one flat buffer, one row per quantity, one column per body.
 
 LLVM packs a loop only when it can prove that rows do not overlap.  It can when every row is a constant
 offset into one buffer, so the offsets are written out below and a row is reached as ``S[VX + j]``.
@@ -8,6 +8,9 @@ Column 0 is the top drive, columns 1..n are the rigid segments from the top to t
 bodies j - 1 and j.  The columns after n are inert (no mass, no stiffness): the first of them serves as
 lower body of the free joint below the bit, and they fill the last packed operation, since a scalar remainder loop
 would take as long as the rest of a 60-segment string.
+
+Short strings lie side by side in one buffer, each in columns of its own (state_memory.py).  A slice across rows, such
+as ``S[:]``, therefore spans columns of other strings: ``columns`` and ``put_state`` read and write whole states.
 """
 
 from typing import NamedTuple
@@ -16,6 +19,7 @@ import numpy as np
 
 from fctd.mechanics.jit import inlined
 from fctd.mechanics.rock import NOTHING, Rock
+from fctd.mechanics.state_memory import Blocks, columns_of
 
 MAX_SEGMENTS = 10_000
 # Columns handled at once: a cache line, and a multiple of every vector width in use.
@@ -100,8 +104,9 @@ KINK_X, KINK_Y = 92 * STRIDE, 93 * STRIDE
 # Boundary layers of mud on a body whose axial velocity changes (dynamics.py): their drag on the body [N s/m] by the
 # difference of both velocities, and their own axial velocity [m/s].
 LAYER_DRAG, LAYER_SPEED = 94 * STRIDE, 95 * STRIDE
-# Numbers of the waves within the long segment, one after the other (waves.py).
+# Numbers of the waves within the long segment, one after the other (waves.py): the least number of columns of a state.
 WAVES = 96 * STRIDE
+LEAST_COLUMNS = 5 * LANES
 # Loads that are given to a body (given_loads.py): a force along its axis towards the bit [N], a torque about it [N m].
 GIVEN_FORCE, GIVEN_TORQUE = 97 * STRIDE, 98 * STRIDE
 # Friction that differs along and around the string (laws.orthotropic), of the wall beside the contact point: the factor
@@ -167,6 +172,9 @@ TINY = 1e-300
 CYLINDERS, ARCS, OPEN, SAMPLED = 0, 1, 2, 3
 
 
+_BLOCKS = Blocks(ROWS, STRIDE, LANES)
+
+
 def new_state(segments: int) -> np.ndarray:
     """Return a fresh buffer for ``segments`` bodies: at rest at the origin, upright, without mass.
 
@@ -174,27 +182,28 @@ def new_state(segments: int) -> np.ndarray:
     """
     if segments > MAX_SEGMENTS:
         raise ValueError(f"at most {MAX_SEGMENTS} segments fit into a buffer, not {segments}")
-    S = _aligned()
-    S[QW : QW + STRIDE] = 1.0
-    S[AZ : AZ + STRIDE] = 1.0
+    # The columns before and after the bodies lie in cache lines of their own.
+    packed = (segments + LANES - 1) // LANES * LANES
+    S = _BLOCKS.take(max(packed + 2 * LANES, LEAST_COLUMNS))
+    columns(S)[[QW // STRIDE, AZ // STRIDE]] = 1.0
     return S
 
 
+def columns(S: np.ndarray) -> np.ndarray:
+    """View of a state as a matrix (ROWS, columns), a row per quantity, a column per body."""
+    return columns_of(S, ROWS, STRIDE)
+
+
 def copy_state(S: np.ndarray) -> np.ndarray:
-    """Return a copy of a buffer with the same alignment, so that steps are as fast."""
-    copied = _aligned()
-    copied[:] = S
+    """Return a copy of a state with the same alignment, so that steps are as fast."""
+    copied = _BLOCKS.take(columns(S).shape[1])
+    columns(copied)[:] = columns(S)
     return copied
 
 
-def _aligned() -> np.ndarray:
-    """A buffer of zeros whose rows begin on cache lines.
-
-    numpy aligns to less than a cache line, and a load across two lines takes twice as long.
-    """
-    numbers = np.zeros(ROWS * STRIDE + LANES)
-    first = -(numbers.ctypes.data // numbers.itemsize + 1) % LANES
-    return numbers[first : first + ROWS * STRIDE]
+def put_state(S: np.ndarray, other: np.ndarray) -> None:
+    """Write another state, of a string with as many columns, into a state."""
+    columns(S)[:] = columns(other)
 
 
 def row(S: np.ndarray, offset: int, segments: int) -> np.ndarray:

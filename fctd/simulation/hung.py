@@ -69,7 +69,7 @@ class Hung(UpperEnd):
     def write(self, S: Array, stands: int) -> None:
         """Write the constants of a string of so many stands into a buffer, clamped to column 0."""
         n, whole = int(self.tally.count[stands]), self.tally.whole
-        _rows(S)[:, 1 : n + 1] = _rows(self.buffer)[:, whole.segments - n + 1 : whole.segments + 1]
+        state.columns(S)[:, 1 : n + 1] = state.columns(self.buffer)[:, whole.segments - n + 1 : whole.segments + 1]
         clamp(S, whole, whole.segments - n)
 
     def clamped(self) -> list[Array]:
@@ -77,7 +77,7 @@ class Hung(UpperEnd):
         whole, found = self.tally.whole, {}
         for k in (whole.segments - self.tally.count[1:]).tolist():
             S = state.new_state(1)
-            _rows(S)[:, 1] = _rows(self.buffer)[:, k + 1]
+            state.columns(S)[:, 1] = state.columns(self.buffer)[:, k + 1]
             clamp(S, whole, k)
             found[whole.component[k], whole.length[k]] = S
         return list(found.values())
@@ -138,7 +138,7 @@ class Hung(UpperEnd):
 
     def _add(self, run: MovingString) -> None:
         """Screw the next stand onto the string; the block takes the load."""
-        S, rows, all_rows = run.S, _rows(run.S), _rows(self.buffer)
+        S, rows, all_rows = run.S, state.columns(run.S), state.columns(self.buffer)
         n, whole = run.segments, self.tally.whole.segments
         self.stands += 1
         m = int(self.tally.count[self.stands]) - n
@@ -167,7 +167,7 @@ class Hung(UpperEnd):
 
     def _rack(self, run: MovingString) -> None:
         """Set the slips below the top stand and rack it back."""
-        S, rows = run.S, _rows(run.S)
+        S, rows = run.S, state.columns(run.S)
         n, m = run.segments, run.segments - int(self.tally.count[self.stands - 1])
         self.stands -= 1
         tangent, turn = S[AXIS].copy(), S[QUATERNION].copy()
@@ -211,11 +211,6 @@ def clamp(S: Array, whole: String, k: int) -> None:
     for row, name in zip(STIFFNESS, ("EA", "shear", "EI", "GJ"), strict=True):
         section = whole.sections[int(whole.component[k])]
         S[row + 1] = getattr(section, name) / (0.5 * whole.length[k])
-
-
-def _rows(S: Array) -> Array:
-    """A buffer as a matrix, a row per quantity."""
-    return S.reshape(state.ROWS, state.STRIDE)
 
 
 def _loads(S: Array, j: int) -> tuple[Array, float]:

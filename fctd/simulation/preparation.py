@@ -108,11 +108,11 @@ def _fed(case: Case, hole: Wellbore, string: String, longer: float, shorter: flo
     top[topdrive.TOP_LENGTH] = string.length[0] if string.long_segment else 0.0
     lie_on_axis(S, string, hole)
     put_bends(S, case, string, hole)
-    probes = [(S.copy(), n)]
+    probes = [(state.copy_state(S), n)]
     if string.long_segment:  # the top segment is stiffest where it is shortest, for the drive where its waves come in
         shortest, longest = string.length[0] - longer, string.length[0] + shorter
         lengths = shortest, min(max(waves.STIFFEST * pipe.beside, shortest), longest), longest
-        probes = [(S.copy(), n) for _ in lengths]
+        probes = [(state.copy_state(S), n) for _ in lengths]
         for length, (probe, _) in zip(lengths, probes, strict=True):
             topdrive.put_long_segment(probe, length, pipe)
     phases = schedule(case.operations)

@@ -81,7 +81,7 @@ def expected_ringing(run: Run, phases: list[Phase]) -> Ringing:
     frequencies: list[Array] = []
     amplitudes: list[Array] = []
     if run.wall.seams and run.case.contact.enabled:
-        tilt, probe, depth = cylinder_tilt(run.hole), run.S.copy(), run.case.operations[0].start_md
+        tilt, probe, depth = cylinder_tilt(run.hole), state.copy_state(run.S), run.case.operations[0].start_md
         for motion, _ in phases:
             fed = 0.5 * (motion.feed_from + motion.feed_to) * motion.duration
             steady = motion.feed_from == motion.feed_to != 0

@@ -100,7 +100,7 @@ class Run(MovingString, Restorable):
 
         S (ROWS, k) : the first columns of the state buffer, whose others are those of a fresh one.
         """
-        rows, fresh = (S.reshape(state.ROWS, state.STRIDE) for S in (self.S, state.new_state(1)))
+        rows, fresh = state.columns(self.S), state.columns(state.new_state(1))[:, :1]
         used = np.flatnonzero((rows.view(np.int64) != fresh.view(np.int64)).any(axis=0))
         return super().facts() | {"step": self.step, "S": rows[:, : used.max(initial=-1) + 1]}
 
@@ -110,6 +110,6 @@ class Run(MovingString, Restorable):
         if sizes != (state.ROWS, self.top.shape, self.owner.shape) or facts["step"] != self.step:
             raise ValueError("another string or step")
         super().restore(facts)
-        self.S[:] = state.new_state(1)
-        self.S.reshape(state.ROWS, state.STRIDE)[:, : S.shape[1]] = S
+        state.columns(self.S)[:] = state.columns(state.new_state(1))[:, :1]
+        state.columns(self.S)[:, : S.shape[1]] = S
         self.string = self.upper_end.string(self)

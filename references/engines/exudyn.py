@@ -124,9 +124,10 @@ class _Stepper:
         self._settings.solution.file.write = False
         self._solver = exudyn.MainSolverExplicit()
         # The solver asks for the loads at the start, which are no part of a step.
-        kept = run.S.copy(), run.top.copy()
+        kept = state.copy_state(run.S), run.top.copy()
         self._solver.InitializeSolver(self._system, self._settings)
-        run.S[:], run.top[:] = kept
+        state.put_state(run.S, kept[0])
+        run.top[:] = kept[1]
         # Feed and rotation of the top drive until loads are asked for again.
         axis = run.S[[state.AX, state.AY, state.AZ]]
         self._feed = float(axis @ run.S[[state.VX, state.VY, state.VZ]])

@@ -76,7 +76,7 @@ def test_loads_are_minus_the_gradient_of_the_strain_energy(bend: tuple, gap: tup
     force, on_upper, on_lower = loads(S)
 
     def energy(move: np.ndarray, turn_upper: np.ndarray, turn_lower: np.ndarray) -> float:
-        T = S.copy()
+        T = state.copy_state(S)
         place(T, 1, Rotation.from_rotvec(turn_upper) * upper, np.zeros(3))
         place(T, 2, Rotation.from_rotvec(turn_lower) * lower, at(S, 2, PLACE) + move)
         return float(strain_energy(T, 2))

@@ -285,7 +285,7 @@ def test_friction_falls_with_the_size_of_the_sliding(speed, phi) -> None:
 def test_one_factor_may_be_zero(law, velocity, spin) -> None:
     for along, around in ((0.3, 0.0), (0.0, 0.3), (0.0, 0.0), (0.3, 1e-12), (1e-200, 0.3)):
         impulse, left, _, S = rubbed(law, along, around, np.zeros(3), velocity, spin)
-        assert np.isfinite(S).all()
+        assert np.isfinite(state.columns(S)).all()
         free = int(along > 1e-9), int(around > 1e-9)
         for k in range(2):
             limit = IMPULSE * (along, around)[k]

@@ -34,7 +34,7 @@ def test_results_do_not_depend_on_the_steps_per_compiled_call(geometry: str, law
         return string
 
     whole, sliced = after(10**9), after(7 * 28)
-    np.testing.assert_array_equal(whole.S, sliced.S)
+    np.testing.assert_array_equal(state.columns(whole.S), state.columns(sliced.S))
     np.testing.assert_array_equal(whole.top, sliced.top)
     assert whole.steps == sliced.steps > 500
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from fctd.mechanics import state
+from fctd.mechanics import state, waves
 
 
 def test_every_row_has_its_own_place() -> None:
@@ -20,3 +20,4 @@ def test_the_stride_holds_the_largest_string_and_its_last_packed_operation() -> 
     assert state.STRIDE & (state.STRIDE - 1)  # no power of two
     with pytest.raises(ValueError, match="at most 10000 segments"):
         state.new_state(state.MAX_SEGMENTS + 1)
+    assert state.LEAST_COLUMNS >= 2 * waves.TORSION

@@ -132,7 +132,7 @@ def test_readings_and_ledger_of_a_top_drive_that_feeds(fed: float) -> None:
     tension = 8e8 / length * stretch
     S, top = hung(length, stretch)
     put(S, 1, FORCE, -tension * AXIAL)
-    before = S.copy()
+    before = state.copy_state(S)
     read_top_drive(S, top, PIPE, fed, 0.0, dt)
     drag = 2.0 * 6 * fed
     assert top[topdrive.SUM_HOOKLOAD] == pytest.approx(dt * (tension + 1500) - drag)

@@ -106,7 +106,7 @@ def test_in_and_out_is_the_same_string(parts: list[dict[str, Any]], stand: float
     hung, S = run.upper_end, run.S
     assert isinstance(hung, Hung)
     run.refresh()
-    tally, before = hung.tally, S.copy().reshape(state.ROWS, state.STRIDE)
+    tally, before = hung.tally, state.columns(state.copy_state(S))
     for k, row in enumerate(LOSSES.values()):
         state.row(S, row, run.segments)[:] = np.arange(run.segments) + k
     lost = [state.row(S, row, run.segments).sum() for row in LOSSES.values()]
@@ -121,7 +121,7 @@ def test_in_and_out_is_the_same_string(parts: list[dict[str, Any]], stand: float
         height = float(run.top[topdrive.BLOCK_HEIGHT])
         np.testing.assert_allclose(S[PLACE[0]], 0, atol=1e-6)
         assert S[PLACE[2]] == pytest.approx(-height, abs=1e-9)
-        beyond = S.reshape(state.ROWS, state.STRIDE)[:, n + 1 : n + 9]
+        beyond = state.columns(S)[:, n + 1 : n + 9]
         np.testing.assert_array_equal(beyond, before[:, -8:])
         found = [state.row(S, row, n).sum() for row in LOSSES.values()]
         np.testing.assert_allclose(found, lost)

@@ -139,7 +139,7 @@ def test_a_wall_that_jumps_is_settled_against_on_average(monkeypatch: pytest.Mon
 def test_a_start_from_rest() -> None:
     """No speed, no sums, no clock, and axes and walls of the present places."""
     run, _ = prepare(make_case(BUILD, [pipe(None, 40)], [rotation(1000, 1)]))
-    settled = run.S.copy()
+    settled = state.copy_state(run.S)
     rates = (state.VX, state.VY, state.VZ, state.WX, state.WY, state.WZ)
     for offset in (*rates, state.SUM_NORMAL, state.AX, state.PX):
         state.row(run.S, offset, run.segments)[:] = 3.0

@@ -26,7 +26,7 @@ def test_the_string_reaches_the_bit(feed: str, in_derrick: bool) -> None:
     assert sum(run.laid_out.length) + run.laid_out.top_md == pytest.approx(run.bit_depth)
     end.begin(run)
     assert end.start_depth == pytest.approx(run.bit_depth, abs=1e-9)
-    probe = run.S.copy()
+    probe = state.copy_state(run.S)
     string = end.at_depth(330.0, run, probe)
     assert string.bit_depth == 330.0
     masses = (string.of("mass") * string.length)[1:]  # half of a long segment moves with the top drive

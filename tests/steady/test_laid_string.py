@@ -70,7 +70,7 @@ def test_it_fills_a_buffer_with_the_string_of_its_case() -> None:
     laid = LaidString(case, build_wellbore(case), string)
     S, filled = state.new_state(string.segments), state.new_state(string.segments)
     assert laid.put(S) == fill(filled, string, case, build_wellbore(case))
-    assert np.array_equal(S, filled)
+    assert np.array_equal(state.columns(S), state.columns(filled))
     assert laid.is_bent
     assert np.array_equal(laid.pipe.radius, string.contact_radius())
     assert laid.top_axis.tolist() == [0.0, 0.0, 1.0]

@@ -48,7 +48,7 @@ def quadratic_form(problem: Problem, x: Array) -> float:
 
 def energy(problem: Problem, P: Array) -> float:
     """Strain energy and weight of a string in a pose, by the stepper's joints [J]; its bends do not spin with it."""
-    n, S = problem.n, problem.work.S.copy()
+    n, S = problem.n, state.copy_state(problem.work.S)
     for k, offset in enumerate((state.X, state.Y, state.Z, state.QW, state.QX, state.QY, state.QZ)):
         S[offset : offset + n + 1] = P[: n + 1, k]
     S[state.TURNS + 1 : state.TURNS + n + 1] = np.diff(P[: n + 1, SPIN])

@@ -128,7 +128,7 @@ def test_the_stepper_does_not_accelerate_a_steady_string(kind: str, law: str, ge
     point = solver.solve(kind, rates, 800.0)
     assert point.status == "converged"
     w, n = solver.work, len(point.profile) - 1
-    S = w.S.copy()
+    S = state.copy_state(w.S)
     for k, offset in enumerate((state.X, state.Y, state.Z, state.QW, state.QX, state.QY, state.QZ)):
         S[offset : offset + n + 1] = w.P[: n + 1, k]
     S[state.TURNS + 1 : state.TURNS + n + 1] = np.diff(w.P[: n + 1, SPIN])
@@ -143,7 +143,7 @@ def test_the_stepper_does_not_accelerate_a_steady_string(kind: str, law: str, ge
     dynamics.update_axes(S, packed)
     laws = Laws(solver.geometry, CODES[case.contact.friction_law], 1.0, 0.0, 0.0, 0.0)
     dt = 1e-9
-    before = S.copy()
+    before = state.copy_state(S)
     update_joint_loads(S, packed, 0.0, dt)
     update_walls(S, w.owner, n, packed, solver.hole.pieces, solver.geometry)
     update_velocities(S, packed, laws, dt)

@@ -97,7 +97,7 @@ def engine_rows(run: Run, motion: Any, moments: int) -> list[dict[str, Any]]:
     for _ in range(moments):
         # The next step starts its search from the owners of this step.
         run.advance(motion, PASSES / moments)
-        S = Counted(run.S.copy())
+        S = Counted(state.copy_state(run.S))
         followed += operations_of(follow, S, n)
         looked_up += operations_of(refresh, S, run.owner.copy(), n, pieces)
     for j in range(1, n + 1):
