@@ -7,7 +7,6 @@ from numba import types
 from numba.extending import overload
 
 from fctd.mechanics.jit import INLINED, inlined
-from fctd.mechanics.joints import cross
 from fctd.mechanics.rotations import rotation_columns
 from fctd.mechanics.state import (
     ARM_CONTACT,
@@ -27,9 +26,9 @@ from fctd.mechanics.state import (
 )
 
 ON_AXIS = 1e-150  # far above the root of the smallest float, far below any offset that matters [m]
-# Newton's method for the direction of friction: number of iterations, and how many times smaller than the impulse that
-# stops the sliding one may be whose direction it looks for: that of a smaller one is the same.
-ITERATIONS, SMALLER = 2, 1e9
+# Newton's method for the direction of friction: number of iterations, and a limit [N s] so much below all others that
+# the direction of what is left of the sliding is that of the sliding before.
+ITERATIONS, SMALLEST = 2, 1e-12
 # Iterations where the factors along and around the string differ: with a ratio of 10 they leave the direction to
 # rounding, with one of 100 within 0.1°.  A limit less than this share of the other is none.
 ORTHOTROPIC_ITERATIONS, FLAT = 8, 1e-9
@@ -114,175 +113,113 @@ def along_wall(sx, sy, sz, nx, ny, nz):
     return sx - into * nx, sy - into * ny, sz - into * nz
 
 
-@inlined
-def lever(S, j, nx, ny, nz):
-    """From the centre of body j to its surface at the wall, T + r_ds·normal [m], in the frame of the body."""
-    r = S[RADIUS + j]
-    return r * nx, r * ny, S[ARM_CONTACT + j] + r * nz
+class Sliding(NamedTuple):
+    """How a contact point slides along the wall, and how its body yields there, along the string and around it.
+
+    With the axis z of the body and the normal n these directions are p = z − (z·n) n and r = z × n, of length q each.
+    A body that is round about z yields to an impulse along p in that direction alone, and so along r: in them its
+    response is diagonal.  Impulses act at T + R n, a distance h along the body from its centre.
+
+    along, around : sliding along p and r, times q [m/s]; yields_along, yields_around : velocity by a unit impulse
+    [1/kg]; square : q²; arm, lever : R + h n_z and h + R n_z [m].
+    """
+
+    along: float
+    around: float
+    yields_along: float
+    yields_around: float
+    square: float
+    arm: float
+    lever: float
 
 
 @inlined
 def sliding(S, j, u, v, w, a, b, c, nx, ny, nz):
-    """Sliding velocity of the string's surface at the wall [m/s] and its moment about the centre: six scalars.
+    """``Sliding`` of body j; velocity, spin and normal in the frame of the body.
 
-    Velocity, spin, normal and results are in the frame of body j.
+    The body's inertia enters friction here and in ``against``.
     """
-    rx, ry, rz = lever(S, j, nx, ny, nz)
-    sx = u + b * rz - c * ry
-    sy = v + c * rx - a * rz
-    sz = w + a * ry - b * rx
-    sx, sy, sz = along_wall(sx, sy, sz, nx, ny, nz)
-    return sx, sy, sz, ry * sz - rz * sy, rz * sx - rx * sz, rx * sy - ry * sx
-
-
-@inlined
-def response(S, j, sx, sy, sz, mx, my, mz, tx, ty, tz, ox, oy, oz):
-    """Velocity along t that an impulse s at the wall gives the surface of body j there, times |t|.
-
-    m, o : moments of s and of t about the body's centre.  The body's inertia enters friction here and in ``against``.
-    """
+    radius, h = S[RADIUS + j], S[ARM_CONTACT + j]
     im, it, ia = S[INVERSE_MASS + j], S[INVERSE_JT + j], S[INVERSE_JA + j]
-    lateral = sx * tx + sy * ty
-    return (lateral + sz * tz) * im - lateral * S[HELD_BACK + j] + (mx * ox + my * oy) * it + mz * oz * ia
-
-
-class Pull(NamedTuple):
-    """Friction at a contact point, an impulse −f·s − g·t along the wall, and what it does there.
-
-    s, t : two velocities along the wall [m/s]; m, o : their moments about the centre of the body; all in its frame.
-    square : |u|² of the sliding u [m²/s²]; limit : of |(f, g)| |u| [N s]; over : size of the sliding over |u|.
-    along, mixed, across : elements of the symmetric matrix A: f and g change u by −A (f, g) along u and across it.
-
-    Where the limit is one for all directions, s and u are the sliding itself, and t = n × s.  Where it is an ellipse,
-    u = M s is the sliding in the coordinates in which it is a circle; M has the half axes over the larger one, and the
-    vectors are M²s and |M| n × s.
-    """
-
-    sx: float
-    sy: float
-    sz: float
-    mx: float
-    my: float
-    mz: float
-    tx: float
-    ty: float
-    tz: float
-    ox: float
-    oy: float
-    oz: float
-    square: float
-    limit: float
-    over: float
-    along: float
-    mixed: float
-    across: float
-
-
-@inlined
-def stretched(nx, ny, nz, sx, sy, sz, limit, around):
-    """The sliding s at a wall of normal n, both in the frame of the body, against friction with the half axes ``limit``
-    along the string and ``around`` it: M²s (3), |M|, |M s|² and |s|²; see ``Pull``.
-
-    The axis of the string, laid on the wall, and the normal to both are the axes of the ellipse: sliding along them is
-    sz/√(nx² + ny²) and (sx ny − sy nx)/√(nx² + ny²).
-    """
-    larger = limit if limit > around else around
-    a, r = (limit + TINY) / (larger + TINY), (around + TINY) / (larger + TINY)
-    a, r = a if a > FLAT else 0.0, r if r > FLAT else 0.0
-    share = 1 / (nx * nx + ny * ny + TINY)
-    turn = sx * ny - sy * nx
-    inwards, across = a * a * share * nz * sz, r * r * share * turn
-    square = share * (a * a * sz * sz + r * r * turn * turn)
-    return (
-        across * ny - inwards * nx, -across * nx - inwards * ny, a * a * sz, a * r, square,
-        share * (sz * sz + turn * turn),
+    il = lateral_inverse_mass(S, j)
+    square = nx * nx + ny * ny
+    arm, lever = radius + h * nz, h + radius * nz
+    return Sliding(
+        square * w - nz * (nx * u + ny * v) - arm * (nx * b - ny * a),
+        nx * v - ny * u + radius * square * c - lever * (nx * a + ny * b),
+        nz * nz * il + square * im + arm * arm * it,
+        il + lever * lever * it + radius * radius * square * ia,
+        square, arm, lever,
     )  # fmt: skip
 
 
 @inlined
-def pull(S, j, nx, ny, nz, sx, sy, sz, mx, my, mz, limit, around):
-    """``Pull`` of body j that slides by s at a wall of normal n, given the moment m of s about its centre.
-
-    limit, around : limits of the impulse along the string and around it [N s], the latter None where both are equal.
-    """
-    tx, ty, tz = cross(nx, ny, nz, sx, sy, sz)
-    if around is None:
-        square = sx * sx + sy * sy + sz * sz
-        ox, oy, oz, along, mixed, across = yielding(S, j, nx, ny, nz, sx, sy, sz, mx, my, mz, tx, ty, tz, square)
-        return Pull(sx, sy, sz, mx, my, mz, tx, ty, tz, ox, oy, oz, square, limit, 1.0, along, mixed, across)
-    sx, sy, sz, both, square, whole = stretched(nx, ny, nz, sx, sy, sz, limit, around)
-    mx, my, mz = cross(*lever(S, j, nx, ny, nz), sx, sy, sz)
-    tx, ty, tz = both * tx, both * ty, both * tz
-    ox, oy, oz, along, mixed, across = yielding(S, j, nx, ny, nz, sx, sy, sz, mx, my, mz, tx, ty, tz, square)
-    over = np.sqrt(whole) / (np.sqrt(square) + TINY)
-    return Pull(
-        sx, sy, sz, mx, my, mz, tx, ty, tz, ox, oy, oz, square,
-        limit if limit > around else around, over if over < SMALLER else SMALLER,
-        # Across an ellipse without breadth friction does nothing, and any number above 0 will do.
-        along, mixed, across if both > 0 else along,
-    )  # fmt: skip
-
-
-@inlined
-def yielding(S, j, nx, ny, nz, sx, sy, sz, mx, my, mz, tx, ty, tz, square):
-    """Moment of t about the centre of body j, and how the sliding yields there: along, mixed and across of ``Pull``."""
-    ox, oy, oz = cross(*lever(S, j, nx, ny, nz), tx, ty, tz)
-    share = 1 / (square + TINY)
-    along = share * response(S, j, sx, sy, sz, mx, my, mz, sx, sy, sz, mx, my, mz)
-    mixed = share * response(S, j, sx, sy, sz, mx, my, mz, tx, ty, tz, ox, oy, oz)
-    across = share * response(S, j, tx, ty, tz, ox, oy, oz, tx, ty, tz, ox, oy, oz)
-    return ox, oy, oz, along, mixed, across
-
-
-@inlined
-def opposing(along, mixed, across, inverse, around):
-    """The sliding that an impulse −f·s − g·t of the size 1/``inverse`` leaves, opposite to it, over the impulse.
-
-    along, mixed, across : see ``Pull``.  With this ratio ν the impulse solves (A + ν)(f, g) = (1, 0), so that it is
-    parallel to (across + ν, −mixed) (Moré & Sorensen 1983).  Newton's method for 1/|(f, g)| begins at a lower bound of
-    ν and stays below it.  The narrower the ellipse, the more iterations it takes; around : None where it is a circle.
-    """
-    shift = inverse - along - across
-    shift = shift if shift > 0 else 0.0
-    for _ in range(ITERATIONS if around is None else ORTHOTROPIC_ITERATIONS):
-        first, second, square = along + shift, across + shift, mixed * mixed
-        size = second * second + square
-        slope = size / (second * size + square * (first + second) + TINY)
-        shift += slope * (inverse * np.sqrt(size) - first * second + square)
-    return shift
-
-
-@inlined
-def resisting(along, mixed, across, square, holding, moving, around):
-    """Friction by Coulomb's law, implicit in the sliding that it leaves: multiples (f, g) of s and t, and if it sticks.
-
-    along, mixed, across, square : see ``Pull``; holding, moving : limits of the impulse of a point that may stick and
-    of one that slides [N s]; around : None where they are those of all directions.  A body yields more in one direction
-    than in another: the impulse −f·s − g·t that stops its point solves A (f, g) = (1, 0), is parallel to
-    (across, −mixed), and 1/det A times as large.  Within the limit it is applied in full, so that the point rests and
-    does not creep.  Beyond it friction opposes the sliding that it leaves, not the one before it: a point that swings
-    across the string's axis would lose its friction along it by overshooting from step to step.
-    """
-    determinant = along * across - mixed * mixed
-    sticks = (across * across + mixed * mixed) * square <= holding * holding * determinant * determinant
-    speed = np.sqrt(square)
-    inverse = speed / (moving + TINY)
-    inverse = inverse if inverse < SMALLER * along else SMALLER * along
-    f = across + (0.0 if sticks else opposing(along, mixed, across, inverse, around))
-    size = speed * np.sqrt(f * f + mixed * mixed)
-    share = (1.0 if sticks else moving) / ((determinant if sticks else size) + TINY)
-    return share * f, -share * mixed, sticks
-
-
-@inlined
-def against(S, j, f, g, p):
-    """Change of velocity and spin (6) of body j by an impulse −f·s − g·t at the wall; p : its ``Pull``."""
+def against(S, j, f, g, p, nx, ny, nz):
+    """Change of velocity and spin (6) of body j by an impulse −f·p − g·r at the wall; p : its ``Sliding``."""
     im, it, ia = S[INVERSE_MASS + j], S[INVERSE_JT + j], S[INVERSE_JA + j]
     il = lateral_inverse_mass(S, j)
     return (
-        -il * (f * p.sx + g * p.tx), -il * (f * p.sy + g * p.ty), -im * (f * p.sz + g * p.tz),
-        -it * (f * p.mx + g * p.ox), -it * (f * p.my + g * p.oy), -ia * (f * p.mz + g * p.oz),
+        il * (f * nz * nx + g * ny), il * (f * nz * ny - g * nx), -im * f * p.square,
+        it * (g * p.lever * nx - f * p.arm * ny), it * (g * p.lever * ny + f * p.arm * nx),
+        -ia * g * S[RADIUS + j] * p.square,
     )  # fmt: skip
+
+
+class Ellipse(NamedTuple):
+    """Limits of friction over the larger one, along the string and around it: one circle's where both are equal.
+
+    largest : the larger limit [N s].
+    """
+
+    along: float
+    around: float
+    largest: float
+
+
+@inlined
+def ellipse(limit, around):
+    """``Ellipse`` of limits of the impulse along the string and around it [N s]; around : None where both are equal."""
+    if around is None:
+        return Ellipse(1.0, 1.0, limit)
+    larger = limit if limit > around else around
+    a, r = (limit + TINY) / (larger + TINY), (around + TINY) / (larger + TINY)
+    return Ellipse(a if a > FLAT else 0.0, r if r > FLAT else 0.0, larger)
+
+
+@inlined
+def resisting(p, shape, holding, moving, around):
+    """Friction by Coulomb's law, implicit in the sliding that it leaves: the f and g of ``against``, and if it sticks.
+
+    p : ``Sliding``; shape : ``Ellipse``; holding, moving : limits of the impulse of a point that may stick and of one
+    that slides [N s]; around : None where they are those of all directions.
+
+    In units of the ellipse's half axes the limit is a circle.  The impulse that stops the point is the sliding over the
+    yield, in either direction.  Within the limit it is applied in full, so that the point rests and does not creep.
+    Beyond it friction opposes the sliding that it leaves, not the one before it: a point that swings across the
+    string's axis would lose its friction along it by overshooting from step to step.  The sliding left is ν times the
+    impulse, whose parts are then s/(A + ν), of the size of the limit (Moré & Sorensen 1983).  Newton's method for
+    1/|s/(A + ν)| begins at a lower bound of ν and stays below it.  The narrower the ellipse, the more iterations it
+    takes.
+    """
+    s, t = shape.along * p.along, shape.around * p.around
+    # Across an ellipse without breadth friction does nothing, and any number above 0 will do.
+    first = (shape.along * shape.along if shape.along > 0 else 1.0) * p.yields_along
+    second = (shape.around * shape.around if shape.around > 0 else 1.0) * p.yields_around
+    k = 1 / (p.square + ON_AXIS)  # of a point on the axis, and of a body without mass, all is 0
+    ss, tt, both = k * s * s, k * t * t, first * second
+    sticks = ss * second * second + tt * first * first <= holding * holding * both * both
+    inverse = 1 / (moving + SMALLEST)
+    shift = inverse * np.sqrt(ss + tt) - (first if first > second else second)
+    shift = shift if shift > 0 else 0.0
+    for _ in range(ITERATIONS if around is None else ORTHOTROPIC_ITERATIONS):
+        a, r = first + shift, second + shift
+        size = ss * r * r + tt * a * a
+        shift += size * (inverse * np.sqrt(size) - a * r) / (ss * r * r * r + tt * a * a * a + TINY)
+    shift = 0.0 if sticks else shift
+    a, r = first + shift, second + shift
+    size = np.sqrt(ss * r * r + tt * a * a)
+    share = k * (1.0 if sticks else moving) / ((both if sticks else size) + ON_AXIS)
+    return share * r * shape.along * s, share * a * shape.around * t, sticks
 
 
 class Law(NamedTuple):

@@ -7,7 +7,7 @@ where it takes most energy (maximum dissipation): F = −N (μ_a² v_a, μ_r² v
 import numpy as np
 
 from fctd.mechanics.dual import reciprocal, root
-from fctd.mechanics.friction import FLAT, Law, against, along_wall, pull, resisting, sliding
+from fctd.mechanics.friction import FLAT, Law, against, along_wall, ellipse, resisting, sliding
 from fctd.mechanics.jit import inlined
 from fctd.mechanics.joints import cross
 from fctd.mechanics.state import TINY
@@ -19,10 +19,9 @@ def impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit, around):
 
     It acts at T + r_ds·normal, hence gives force and torque; see ``Law``.
     """
-    sx, sy, sz, mx, my, mz = sliding(S, j, u, v, w, a, b, c, nx, ny, nz)
-    p = pull(S, j, nx, ny, nz, sx, sy, sz, mx, my, mz, limit, around)
-    f, g, _ = resisting(p.along, p.mixed, p.across, p.square, p.limit, p.limit, around)
-    return against(S, j, f, g, p)
+    p, shape = sliding(S, j, u, v, w, a, b, c, nx, ny, nz), ellipse(limit, around)
+    f, g, _ = resisting(p, shape, shape.largest, shape.largest, around)
+    return against(S, j, f, g, p, nx, ny, nz)
 
 
 @inlined

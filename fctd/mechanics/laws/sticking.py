@@ -11,29 +11,33 @@ import numpy as np
 from numba import types
 from numba.extending import overload
 
-from fctd.mechanics.friction import Law, against, pull, resisting, sliding
+from fctd.mechanics.friction import Law, against, ellipse, resisting, sliding
 from fctd.mechanics.jit import INLINED, inlined
 from fctd.mechanics.laws.coulomb import shares, steady_load
 from fctd.mechanics.state import CAKE_AROUND, CAKE_IMPULSE, DECAY, EXCESS, STUCK, TINY
 
 
 @inlined
-def at_once(S, j, p, excess):
+def at_once(S, j, p, shape, excess):
     """The limit of law ``karnopp`` for a point that slides [N s]."""
-    return p.limit
+    return shape.largest
 
 
 @inlined
-def gradually(S, j, p, excess):
+def gradually(S, j, p, shape, excess):
     """That of law ``stribeck``, which falls as the sliding grows.
 
     It takes the sliding that static friction would leave: at break-away, where the factor falls most, that of the end
-    of the step.
+    of the step.  Of an ellipse that is measured in units of its half axes, where the yield is the mean of both
+    directions by the squares of the sliding.
     """
-    left = np.sqrt(p.square) - (p.limit + excess) * p.along
-    left = p.over * (left if left > 0 else 0.0)
+    ss, tt = (shape.along * p.along) ** 2, (shape.around * p.around) ** 2
+    k = 1 / (ss + tt + TINY)
+    yields = k * (ss * shape.along**2 * p.yields_along + tt * shape.around**2 * p.yields_around)
+    left = np.sqrt((ss + tt) / (p.square + TINY)) - (shape.largest + excess) * yields
+    left = np.sqrt(k * (p.along * p.along + p.around * p.around)) * (left if left > 0 else 0.0)
     decay = S[DECAY + j] * S[DECAY + j]
-    return p.limit + excess * decay / (decay + left * left + TINY)
+    return shape.largest + excess * decay / (decay + left * left + TINY)
 
 
 @inlined
@@ -62,15 +66,14 @@ def impulse(kinetic, S, j, u, v, w, a, b, c, nx, ny, nz, limit, around):
     The limit is static for a point that stuck in the last step, and else ``kinetic``, ``at_once`` or ``gradually``.
     Mud cake changes it by its own factor.
     """
-    sx, sy, sz, mx, my, mz = sliding(S, j, u, v, w, a, b, c, nx, ny, nz)
     limit, around = with_cake(limit, S[CAKE_IMPULSE + j]), with_cake_around(S, j, around)
-    p = pull(S, j, nx, ny, nz, sx, sy, sz, mx, my, mz, limit, around)
-    excess = S[EXCESS + j] * p.limit
-    moving = kinetic(S, j, p, excess)
-    holding = p.limit + excess if S[STUCK + j] > 0 else moving
-    f, g, sticks = resisting(p.along, p.mixed, p.across, p.square, holding, moving, around)
+    p, shape = sliding(S, j, u, v, w, a, b, c, nx, ny, nz), ellipse(limit, around)
+    excess = S[EXCESS + j] * shape.largest
+    moving = kinetic(S, j, p, shape, excess)
+    holding = shape.largest + excess if S[STUCK + j] > 0 else moving
+    f, g, sticks = resisting(p, shape, holding, moving, around)
     S[STUCK + j] = 1.0 if sticks else 0.0
-    return against(S, j, f, g, p)
+    return against(S, j, f, g, p, nx, ny, nz)
 
 
 @inlined
