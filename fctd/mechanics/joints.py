@@ -121,6 +121,10 @@ def joint_damping(ax, ay, az, bx, by, bz, rx, ry, rz, wx, wy, wz, ca, cs, cb, ct
     return fx, fy, fz, mx, my, mz, power
 
 
+# What ``shape_damping`` returns of a string without it.
+NO_SHAPE_DAMPING = (0.0,) * 10
+
+
 @inlined
 def shape_dampers(S, j, time, own_time, wall_exponent, dt):
     """Dampers of shear [N s/m] and bending [N m s/rad] of joint j for ``shape_damping``, in proportion to stiffness.
@@ -146,16 +150,18 @@ def shape_dampers(S, j, time, own_time, wall_exponent, dt):
 
 
 @inlined
-def shape_damping(S, j, ax, ay, az, bx, by, bz, dx, dy, dz, time, own_time, wall_exponent, dt):
+def shape_damping(S, j, time, own_time, wall_exponent, dt):
     """Damping of the change of shape in space at joint j, zero for a bent string that turns steadily.
 
-    a, b : unit axes of the upper and lower body; d : gap [m]; time [s] : of the damping in proportion to stiffness;
-    own_time [s] : of the joint's own damping.
-    With the rates of the axes ȧ = ω × a and of the gap ḋ in space, ḋ_s across the half-way direction, the power is
+    time [s] : of the damping in proportion to stiffness; own_time [s] : of the joint's own damping.  With the unit axes
+    a and b of the upper and lower body, their rates ȧ = ω × a and that of the gap ḋ in space, ḋ_s across the half-way
+    direction, the power is
     −c_b |ḃ − ȧ|² − c_s |ḋ_s|², and the loads are its gradient: couples c_b a × (ḃ − ȧ) and −c_b b × (ḃ − ȧ), forces
     ∓c_s ḋ_s at the hinge points.  In rotor dynamics this is a non-rotating damping.  Returns force on the lower body
     at its hinge point, moments about the centres of the upper and the lower body, and the power lost: ten scalars.
     """
+    ax, ay, az = axis(S, j - 1)
+    bx, by, bz = axis(S, j)
     bottom, top = S[ARM_BOTTOM + j - 1], S[ARM_TOP + j]
     cs, cb = shape_dampers(S, j, time, own_time, wall_exponent, dt)
     u0, v0, w0 = velocity(S, j - 1)
@@ -235,33 +241,41 @@ def update_joint_loads(S, n, damping_time, dt, torsion_time=0.0, shape_time=0.0,
     damping_time : stiffness-proportional damping [s]; torsion_time : more of it for torsion [s]; shape_time : of
     ``shape_damping`` [s]; wall_exponent : of the wall's law, whose stiffness it multiplies.
     """
+    if shape_time == 0:
+        for j in range(1, n + 1):
+            load_joint(S, j, damping_time, dt, torsion_time, NO_SHAPE_DAMPING)
+        return
     for j in range(1, n + 1):
-        ax, ay, az = axis(S, j - 1)
-        bx, by, bz = axis(S, j)
-        dx, dy, dz = hinge_gap(S, j)
-        twist = joint_twist(S, j)
-        ka, ks, kb, kt = S[K_AXIAL + j], S[K_SHEAR + j], S[K_BEND + j], S[K_TWIST + j]
-        fx, fy, fz, cx, cy, cz, tension = joint_loads(ax, ay, az, bx, by, bz, dx, dy, dz, twist, ka, ks, kb, kt)
-        px, py, pz, qx, qy, qz = arms_to_gap(ax, ay, az, bx, by, bz, dx, dy, dz, S[ARM_BOTTOM + j - 1], S[ARM_TOP + j])
-        rx, ry, rz, wx, wy, wz = relative_motion(S, j, px, py, pz, qx, qy, qz)
-        gx, gy, gz, mx, my, mz, power = joint_damping(
-            ax, ay, az, bx, by, bz, rx, ry, rz, wx, wy, wz,
-            damping_time * ka, damping_time * ks, damping_time * kb, (damping_time + torsion_time) * kt,
-        )  # fmt: skip
-        fx, fy, fz = fx + gx, fy + gy, fz + gz
-        cx, cy, cz = cx + mx, cy + my, cz + mz
-        ux, uy, uz = cross(fx, fy, fz, px, py, pz)
-        lx, ly, lz = cross(qx, qy, qz, fx, fy, fz)
-        hx, hy, hz, ox, oy, oz, ix, iy, iz, shaped = shape_damping(
-            S, j, ax, ay, az, bx, by, bz, dx, dy, dz, shape_time, damping_time, wall_exponent, dt
-        )
-        S[FX + j], S[FY + j], S[FZ + j] = fx + hx, fy + hy, fz + hz
-        S[UX + j], S[UY + j], S[UZ + j] = ux - cx + ox, uy - cy + oy, uz - cz + oz
-        S[LX + j], S[LY + j], S[LZ + j] = lx + cx + ix, ly + cy + iy, lz + cz + iz
-        power += shaped
-        S[SUM_TENSION + j] += dt * tension
-        S[SUM_TORQUE + j] += -dt * kt * twist
-        S[LOST_JOINT + j] += dt * power
+        shape = shape_damping(S, j, shape_time, damping_time, wall_exponent, dt)
+        load_joint(S, j, damping_time, dt, torsion_time, shape)
+
+
+@inlined
+def load_joint(S, j, damping_time, dt, torsion_time, shape):
+    """Update loads, sums and the energy lost of joint j; shape : of ``shape_damping``."""
+    ax, ay, az = axis(S, j - 1)
+    bx, by, bz = axis(S, j)
+    dx, dy, dz = hinge_gap(S, j)
+    twist = joint_twist(S, j)
+    ka, ks, kb, kt = S[K_AXIAL + j], S[K_SHEAR + j], S[K_BEND + j], S[K_TWIST + j]
+    fx, fy, fz, cx, cy, cz, tension = joint_loads(ax, ay, az, bx, by, bz, dx, dy, dz, twist, ka, ks, kb, kt)
+    px, py, pz, qx, qy, qz = arms_to_gap(ax, ay, az, bx, by, bz, dx, dy, dz, S[ARM_BOTTOM + j - 1], S[ARM_TOP + j])
+    rx, ry, rz, wx, wy, wz = relative_motion(S, j, px, py, pz, qx, qy, qz)
+    gx, gy, gz, mx, my, mz, power = joint_damping(
+        ax, ay, az, bx, by, bz, rx, ry, rz, wx, wy, wz,
+        damping_time * ka, damping_time * ks, damping_time * kb, (damping_time + torsion_time) * kt,
+    )  # fmt: skip
+    fx, fy, fz = fx + gx, fy + gy, fz + gz
+    cx, cy, cz = cx + mx, cy + my, cz + mz
+    ux, uy, uz = cross(fx, fy, fz, px, py, pz)
+    lx, ly, lz = cross(qx, qy, qz, fx, fy, fz)
+    hx, hy, hz, ox, oy, oz, ix, iy, iz, shaped = shape
+    S[FX + j], S[FY + j], S[FZ + j] = fx + hx, fy + hy, fz + hz
+    S[UX + j], S[UY + j], S[UZ + j] = ux - cx + ox, uy - cy + oy, uz - cz + oz
+    S[LX + j], S[LY + j], S[LZ + j] = lx + cx + ix, ly + cy + iy, lz + cz + iz
+    S[SUM_TENSION + j] += dt * tension
+    S[SUM_TORQUE + j] += -dt * kt * twist
+    S[LOST_JOINT + j] += dt * (power + shaped)
 
 
 @inlined
