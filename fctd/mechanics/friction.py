@@ -26,12 +26,12 @@ from fctd.mechanics.state import (
 )
 
 ON_AXIS = 1e-150  # far above the root of the smallest float, far below any offset that matters [m]
-# Newton's method for the direction of friction: number of iterations, and a limit [N s] so much below all others that
-# the direction of what is left of the sliding is that of the sliding before.
-ITERATIONS, SMALLEST = 2, 1e-12
+# Newton's method for the direction of friction: iterations that take a root, and a limit [N s] so much below all others
+# that the direction of what is left of the sliding is that of the sliding before.
+ROOTS, SMALLEST = 1, 1e-12
 # Iterations where the factors along and around the string differ: with a ratio of 10 they leave the direction to
 # rounding, with one of 100 within 0.1°.  A limit less than this share of the other is none.
-ORTHOTROPIC_ITERATIONS, FLAT = 8, 1e-9
+ORTHOTROPIC_ROOTS, FLAT = 7, 1e-9
 
 
 @inlined
@@ -198,23 +198,31 @@ def resisting(p, shape, holding, moving, around):
     Beyond it friction opposes the sliding that it leaves, not the one before it: a point that swings across the
     string's axis would lose its friction along it by overshooting from step to step.  The sliding left is ν times the
     impulse, whose parts are then s/(A + ν), of the size of the limit (Moré & Sorensen 1983).  Newton's method for
-    1/|s/(A + ν)| begins at a lower bound of ν and stays below it.  The narrower the ellipse, the more iterations it
-    takes.
+    1/|s/(A + ν)| begins at a lower bound of ν and stays below it; the narrower the ellipse, the more iterations it
+    takes.  A last one, for the square of that, needs no root.
     """
     s, t = shape.along * p.along, shape.around * p.around
     # Across an ellipse without breadth friction does nothing, and any number above 0 will do.
     first = (shape.along * shape.along if shape.along > 0 else 1.0) * p.yields_along
     second = (shape.around * shape.around if shape.around > 0 else 1.0) * p.yields_around
-    k = 1 / (p.square + ON_AXIS)  # of a point on the axis, and of a body without mass, all is 0
+    # One division in place of two.  Of a point on the axis, and of a body without mass, all is 0.
+    square, limit = p.square + ON_AXIS, moving + SMALLEST
+    k = 1 / (square * limit)
+    inverse, k = k * square, k * limit
     ss, tt, both = k * s * s, k * t * t, first * second
     sticks = ss * second * second + tt * first * first <= holding * holding * both * both
-    inverse = 1 / (moving + SMALLEST)
-    shift = inverse * np.sqrt(ss + tt) - (first if first > second else second)
+    # Neither part of the impulse is larger than the limit; q is 1 at most.
+    shift, other = inverse * abs(s) - first, inverse * abs(t) - second
+    shift = shift if shift > other else other
     shift = shift if shift > 0 else 0.0
-    for _ in range(ITERATIONS if around is None else ORTHOTROPIC_ITERATIONS):
+    for _ in range(ROOTS if around is None else ORTHOTROPIC_ROOTS):
         a, r = first + shift, second + shift
         size = ss * r * r + tt * a * a
         shift += size * (inverse * np.sqrt(size) - a * r) / (ss * r * r * r + tt * a * a * a + TINY)
+    a, r = first + shift, second + shift
+    size, product = ss * r * r + tt * a * a, a * r
+    cubes = 2 * product * (ss * r * r * r + tt * a * a * a)
+    shift += size * (inverse * inverse * size - product * product) / (cubes + TINY)
     shift = 0.0 if sticks else shift
     a, r = first + shift, second + shift
     size = np.sqrt(ss * r * r + tt * a * a)
