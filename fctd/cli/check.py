@@ -13,17 +13,7 @@ from fctd.case.rig import MudSpec
 from fctd.case.text import counted, printable
 from fctd.case.units import DENSITY, YIELD_STRESS, Quantity
 from fctd.cli.base_command import Silent
-from fctd.cli.options import (
-    CaseFile,
-    Friction,
-    Overrides,
-    Strict,
-    changes_of,
-    read_case,
-    screen,
-    tell,
-)
-from fctd.cli.steady import Units
+from fctd.cli.options import CaseFile, Friction, Overrides, Strict, Units, changes_of, read_case, screen, tell
 from fctd.model.summary import Summary, segments_in_words, summarise
 from fctd.results.unit_systems import Shown, System, shown
 

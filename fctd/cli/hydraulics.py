@@ -22,6 +22,7 @@ from fctd.cli.options import (
     Overrides,
     Quiet,
     Strict,
+    Units,
     changes_of,
     messages,
     print_written,
@@ -32,16 +33,7 @@ from fctd.cli.options import (
     tell,
 )
 from fctd.cli.pictures import PICTURE_HELP, draw_panels
-from fctd.cli.steady import (
-    Units,
-    check_targets,
-    file_option,
-    in_units,
-    metadata_of_case,
-    read_bit_depths,
-    read_flow,
-    row_bar,
-)
+from fctd.cli.steady import check_targets, file_option, in_units, metadata_of_case, read_bit_depths, read_flow, row_bar
 from fctd.hydraulics.cuttings import Cuttings
 from fctd.hydraulics.pressures import SHARE, Circulation, Eccentricity, circulations
 from fctd.results.table_files import write_table

@@ -13,8 +13,8 @@ from typer.models import CommandInfo
 
 from fctd.case.errors import InputError
 from fctd.case.text import degrade_output
+from fctd.cli.announcing import announcing
 from fctd.cli.base_command import HELP, Command, application
-from fctd.cli.compile import announcing
 from fctd.cli.interrupts import as_interrupts, listens
 from fctd.cli.option_names import naming_options
 from fctd.cli.options import (

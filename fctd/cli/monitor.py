@@ -19,6 +19,7 @@ from fctd.cli.options import (
     Overrides,
     Quiet,
     Strict,
+    Units,
     changes_of,
     check_target,
     finish,
@@ -31,7 +32,7 @@ from fctd.cli.options import (
     tell,
 )
 from fctd.cli.pictures import check_package
-from fctd.cli.steady import Units, check_table, file_option, in_units
+from fctd.cli.steady import check_table, file_option, in_units
 from fctd.monitoring.alarm import Alarm
 from fctd.monitoring.chart import Fit
 from fctd.monitoring.friction import parse_uncertainty

@@ -66,6 +66,12 @@ def units_option(what: str) -> typer.models.OptionInfo:
     return info
 
 
+Units = Annotated[
+    System,
+    units_option("Units of tables, pictures and screen, and of bare depths and speeds of options."),
+]
+
+
 CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML).", show_default=False)]
 Overrides = Annotated[
     list[str],

@@ -14,8 +14,7 @@ from fctd.case.pipes.grades import drill_pipe_grade_of
 from fctd.case.pipes.names import DRILL_PIPE, class_of
 from fctd.case.units import conversion
 from fctd.cli.base_command import Silent
-from fctd.cli.options import screen
-from fctd.cli.steady import Units
+from fctd.cli.options import Units, screen
 from fctd.model.capacity import body_of
 from fctd.model.connection import make_up_torque
 from fctd.results.unit_systems import System

@@ -16,6 +16,7 @@ from fctd.cli.options import (
     Overrides,
     Quiet,
     Strict,
+    Units,
     bare_length,
     changes_of,
     check_target,
@@ -30,7 +31,7 @@ from fctd.cli.options import (
     screen,
     tell,
 )
-from fctd.cli.steady import DEPTH_HELP, KIND_HELP, Flow, ResolveBuckling, Rpm, Speed, Units, read_drive, read_kinds
+from fctd.cli.steady import DEPTH_HELP, KIND_HELP, Flow, ResolveBuckling, Rpm, Speed, read_drive, read_kinds
 from fctd.model.depths import read_depth
 from fctd.results.unit_systems import System, shown
 from fctd.steady.refine import Refinement, refine

@@ -13,7 +13,7 @@ from fctd.case.load import Case, check_bit_depth, naming_file
 from fctd.case.operation_names import USUAL, kinds_of, split_names
 from fctd.case.operations import KINDS
 from fctd.case.units import FLOW, MOST_FLOW, ROTATION, SPEED, typed
-from fctd.cli.options import bare_length, check_target, messages, read_quantity, screen, units_option
+from fctd.cli.options import bare_length, check_target, messages, read_quantity, screen
 from fctd.cli.pictures import PICTURES, check_package, check_pictures
 from fctd.model.depths import read_depth, read_depths
 from fctd.model.drillstring import lay_out
@@ -57,10 +57,6 @@ Flow = Annotated[
     ),
 ]
 DEPTH_HELP = "Bit depth, '2450 m', td or shoe; bare in m, with --units field in ft"
-Units = Annotated[
-    System,
-    units_option("Units of tables, pictures and screen, and of bare depths and speeds of options."),
-]
 ResolveBuckling = Annotated[
     bool | None,
     typer.Option(

@@ -23,6 +23,7 @@ from fctd.cli.options import (
     Overrides,
     Quiet,
     Strict,
+    Units,
     changes_of,
     print_written,
     read_case,
@@ -32,7 +33,7 @@ from fctd.cli.options import (
     tell,
 )
 from fctd.cli.pictures import PICTURE_HELP, draw_panels
-from fctd.cli.steady import Units, check_targets, file_option, in_units, metadata_of_case, read_bit_depths, row_bar
+from fctd.cli.steady import check_targets, file_option, in_units, metadata_of_case, read_bit_depths, row_bar
 from fctd.hydraulics.surge import ENDS, FASTEST, TRIPS, fastest_trips, surge_pressures
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, reworded, shown

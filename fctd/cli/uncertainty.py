@@ -12,9 +12,9 @@ from fctd.case.errors import InputError
 from fctd.case.operation_names import kinds_of
 from fctd.case.text import counted, printable
 from fctd.case.units import LENGTH
-from fctd.cli.options import Quiet, check_target, messages, print_written, read_quantity, screen
+from fctd.cli.options import Quiet, Units, check_target, messages, print_written, read_quantity, screen
 from fctd.cli.pictures import DRAWN, check_pictures
-from fctd.cli.steady import Units, file_option
+from fctd.cli.steady import file_option
 from fctd.cli.sweep import SweepFile
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, in_field_units, long_in_field_units, shown

@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq
 
 from fctd.arrays import Array
 from fctd.case.errors import InputError
@@ -107,6 +106,8 @@ class Channel:
         It is looked for between the flows of a table, and of finer ones for muds with a yield stress, whose gradients
         rise steeply from rest; between two flows the gradients are taken as straight.
         """
+        from scipy.optimize import brentq  # slow to import, and mud at rest needs none
+
         (outside, run), (inside, of_bore) = self._annulus, self._bore
         around, within = np.bincount(run, self.wet), np.bincount(of_bore, self.length)
         tools = float(self.tools.sum())

@@ -146,13 +146,14 @@ def fill_rows(S, length, component, sections, weight, long_segment, damping, squ
             S[state.K_TWIST + j + 1] = RELEASED
             still = 1.0
         S[state.STILL + j + 1] = still
-    k = component[0]
+    k, longest = component[0], 0.0
+    if long_segment:
+        for below in length[1:]:
+            longest = max(longest, below)
     pipe = PerMetre(
         sections[k, MASS], weight[0] if long_segment else 0.0, sections[k, AXIAL_INERTIA], sections[k, EA],
         sections[k, GJ], sections[k, EI], sections[k, SHEAR], damping[0, 0], damping[0, 1], damping[0, 2], 0.0,
-        squeeze[0],
-        length[1:].max() if long_segment and len(length) > 1 else 0.0,
-        given[0] / length[0] if long_segment else 0.0,
+        squeeze[0], longest, given[0] / length[0] if long_segment else 0.0,
     )  # fmt: skip
     if long_segment:
         S[state.ARM_BOTTOM + 1] = S[state.ARM_CONTACT + 1] = 0.0

@@ -274,7 +274,10 @@ def find_shares(
             excess[j + 1],
         )  # fmt: skip
         compare(here, _section(sections, component[j]), j + 1, worst)
-    return (worst[:, SHARE] > 1).any()
+    beyond = False
+    for share in worst[:, SHARE]:  # numba's own ``any`` imports SciPy's linear algebra
+        beyond |= share > 1
+    return beyond
 
 
 def place_of(row: float, md: Array, string: String) -> tuple[float, int]:

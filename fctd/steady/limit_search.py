@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterable
 from typing import Final
 
 import numpy as np
-from scipy.optimize import brentq
 
 # A margin is known within this share of the load, and a load at which the string buckles or stops within the next.
 EXACT, CLOSE = 1e-9, 2e-3
@@ -20,6 +19,8 @@ def root_of(excess: Callable[[float], float], scale: float) -> float:
 
     excess : of a load, NaN where it has no steady string; scale : a load of about that size.
     """
+    from scipy.optimize import brentq  # slow to import, and most commands need none
+
     low, high = 0.0, FIRST * scale
     if not excess(0.0) < 0:
         return NAN

@@ -12,7 +12,8 @@ from numba.core import event
 from rich.console import Console
 
 from fctd.cli import compile as command
-from fctd.cli.compile import announcing, compile_into, listening
+from fctd.cli.announcing import announcing, listening
+from fctd.cli.compile import compile_into
 from fctd.mechanics.compile_cache import WAITING, CompileCacheWarning, Store
 from tests.compiled import hits, store_of_one, thrice, twice
 
