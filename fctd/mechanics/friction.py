@@ -223,6 +223,7 @@ def resisting(p, shape, holding, moving, around):
     size, product = ss * r * r + tt * a * a, a * r
     cubes = 2 * product * (ss * r * r * r + tt * a * a * a)
     shift += size * (inverse * inverse * size - product * product) / (cubes + TINY)
+    shift = shift if shift > 0 else 0.0
     shift = 0.0 if sticks else shift
     a, r = first + shift, second + shift
     size = np.sqrt(ss * r * r + tt * a * a)

@@ -87,4 +87,4 @@ def test_a_copy_is_a_string_of_its_own() -> None:
     state.put_state(copied, S)
     assert np.array_equal(state.columns(S), state.columns(copied))
     with pytest.raises(ValueError, match="broadcast"):
-        state.put_state(state.new_state(20), S)
+        state.put_state(state.new_state(60), S)
