@@ -24,7 +24,19 @@ from benchmarks.strings import chain
 from fctd.simulation.preparation import prepare
 run, phases = prepare(chain({segments}))
 run.advance(phases[0].motion, run.step)
-arrays = [run.S, run.top, run.owner, run.hole.pieces]
+from fctd.mechanics.state import columns
+arrays = [columns(run.S), run.top, run.owner, run.hole.pieces]
+"""
+MANY = """
+import json
+from benchmarks.strings import chain
+from fctd.model.operations import steady_rates
+from fctd.model.wellbore import build_wellbore
+from fctd.steady.equilibrium import Solver
+case = chain()
+hole, rates = build_wellbore(case), steady_rates(case, "trip_out")
+solvers = [Solver(case, hole) for _ in range({count})]
+points = [solver.solve("trip_out", rates, 2400 + 50 * k / {count}) for k, solver in enumerate(solvers)]
 """
 ENGINE = """
 import json
@@ -57,6 +69,14 @@ def bench_run_memory(benchmark: BenchmarkFixture, segments: int) -> None:
     describe(benchmark, "memory", segments=segments)
     answer = "{'arrays_MB': sum(a.nbytes for a in arrays) / 1e6, 'peak_MB': peak}"
     benchmark.extra_info |= benchmark.pedantic(process, args=(RUN.format(segments=segments), answer), rounds=1)
+
+
+@pytest.mark.parametrize("count", [100, 10_000])
+def bench_many_strings(benchmark: BenchmarkFixture, count: int) -> None:
+    """Strings of 60 segments in one process, each with arrays of its own, that stay after they are solved."""
+    describe(benchmark, "memory", strings=count)
+    answer = "{'arrays_MB': sum(solver.work.nbytes for solver in solvers) / 1e6, 'peak_MB': peak}"
+    benchmark.extra_info |= benchmark.pedantic(process, args=(MANY.format(count=count), answer), rounds=1)
 
 
 @pytest.mark.parametrize("name", contact.METHODS)

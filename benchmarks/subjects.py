@@ -12,7 +12,8 @@ import numpy as np
 from numba import njit
 
 from benchmarks import reference_kernel
-from fctd import load_case
+from benchmarks.strings import drilling, tripping
+from fctd import Case, load_case
 from fctd.case.errors import InputError
 from fctd.mechanics.joints import update_joint_loads
 from fctd.mechanics.query import query_walls
@@ -22,6 +23,7 @@ from fctd.model.operations import steady_rates
 from fctd.simulation.preparation import contact_points, prepare
 from fctd.simulation.run import Run
 from fctd.simulation.settling import settle, start_from_rest
+from fctd.simulation.simulate import Simulation
 from fctd.steady.equilibrium import Solver
 from fctd.steady.torque_drag import chart_rows
 from references import contact
@@ -59,6 +61,15 @@ def turning(segments: int, changes: Mapping[str, Any] = {}) -> tuple[Run, Motion
     return run, phases[1].motion
 
 
+def moving(case: Case) -> tuple[Run, Motion]:
+    """A string that has begun the first operation of its case, after its ramp."""
+    simulation = Simulation(case)
+    simulation.start()
+    motion = simulation.phases[1].motion
+    simulation.run.advance(motion, 2.0)
+    return simulation.run, motion
+
+
 @njit(error_model="numpy", cache=True)
 def joint_loads(S, n, count):  # type: ignore[no-untyped-def]
     """The packed joint loads alone, springs and damping."""
@@ -85,6 +96,8 @@ def subjects() -> dict[str, Subject]:
         "joint loads": _joints(copy_state(touching.S), 3_000),
         "query, cylinders": _query(touching, 60),
         "query, arcs": _query(arcs, 20),
+        "step, tripping": _steps(*moving(tripping()), 200),
+        "step, drilling": _steps(*moving(drilling()), 200),
         "steady depth": _steady(touching, 2),
         "chart row": _chart(touching),
     }

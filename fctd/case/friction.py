@@ -102,6 +102,13 @@ def table_of(intervals: Sequence[IntervalSpec]) -> Array:
     return np.array([(interval.friction, interval.friction_around) for interval in intervals])
 
 
+def own_friction(intervals: Sequence[IntervalSpec]) -> dict[str, float]:
+    """The friction factors of intervals along and around the hole, NaN where they differ, by column."""
+    factors = table_of(intervals)
+    same = (factors == factors[0]).all(axis=0)
+    return dict(zip(("friction", "rotational_friction"), np.where(same, factors[0], np.nan).tolist(), strict=True))
+
+
 def changed(intervals: Sequence[IntervalSpec], factors: Sequence[Pair]) -> tuple[IntervalSpec, ...]:
     """Intervals with other kinetic factors, one pair for each; static ones are scaled along."""
     return tuple(

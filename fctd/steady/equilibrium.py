@@ -10,7 +10,7 @@ import numpy as np
 
 from fctd.arrays import Array
 from fctd.case.errors import InputError
-from fctd.case.friction import FrictionChoice
+from fctd.case.friction import FrictionChoice, own_friction
 from fctd.case.load import Case, check_bit_depth, naming_file, with_friction
 from fctd.case.operation_names import kinds_of
 from fctd.case.solver import RESOLVING
@@ -86,6 +86,11 @@ class Solver:
         point = steady_string(self.case, self.hole, operation, rates, laid, answer, CONVERGED, 0, NEWTON)
         as_cut = self.case.solver.buckling not in RESOLVING and self.case.contact.helical_force != "analytic"
         return point if as_cut or point.buckling.mode == NOT_BUCKLED.mode else None
+
+    @cached_property
+    def friction(self) -> dict[str, float]:
+        """See ``own_friction``."""
+        return own_friction(self.case.wellbore.intervals)
 
     @cached_property
     def _hole(self) -> Hole:

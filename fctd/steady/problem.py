@@ -83,8 +83,15 @@ class Workspace(Arrays):
         return len(self.owner) - 2
 
     def for_segments(self, segments: int) -> "Workspace":
-        """This, or a larger one where it is too small; the depths of a chart rise."""
-        return self if self.segments >= segments else Workspace(min(segments * 3 // 2, state.MAX_SEGMENTS))
+        """This, or a larger one where it is too small; the second has room to spare, as a chart goes deeper."""
+        if self.segments >= segments:
+            return self
+        return Workspace(min(segments * 3 // 2, state.MAX_SEGMENTS) if self.segments else segments)
+
+    @property
+    def nbytes(self) -> int:
+        """Memory of the arrays [B]; of a state its own columns."""
+        return state.columns(self.S).nbytes + sum(array.nbytes for array in self[1:])
 
 
 class Share(NamedTuple):

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionChoice, FrictionSet, friction_sets, own_label, table_of
 from fctd.case.load import Case, naming_file, with_friction
@@ -241,13 +239,6 @@ def _solvers(case: Case, hole: Wellbore, sets: Sequence[FrictionSet] | None) -> 
     return [(label, Solver(one, hole.with_friction(table_of(one.wellbore.intervals)))) for label, one in cases]
 
 
-def own_friction(case: Case) -> dict[str, float]:
-    """The friction factors of the case along and around the hole, NaN where its intervals differ, by column."""
-    factors = table_of(case.wellbore.intervals)
-    same = (factors == factors[0]).all(axis=0)
-    return dict(zip(("friction", "rotational_friction"), np.where(same, factors[0], np.nan).tolist(), strict=True))
-
-
 def _lay_out(solver: Solver, depth: float) -> LaidString | InputError:
     """The string at a depth, or why string and hole do not fit."""
     try:
@@ -265,7 +256,7 @@ def _row(label: str, solver: Solver, kind: str, depth: float, point: Equilibrium
     found = {column.name: float("nan") if point is None else column.value(point) for column in (*SHAPES, *SHARES)}
     return {
         "operation": kind,
-        **own_friction(solver.case),
+        **solver.friction,
         "friction_label": label,
         "bit_depth_m": depth,
         **loads,

@@ -1,21 +1,16 @@
-"""The command that compiles, and what every command says of compiling."""
+"""The command that compiles."""
 
 import subprocess
 import sys
-import warnings
-from io import StringIO
 from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from numba.core import event
-from rich.console import Console
 
 from fctd.cli import compile as command
-from fctd.cli.announcing import announcing, listening
 from fctd.cli.compile import compile_into
-from fctd.mechanics.compile_cache import WAITING, CompileCacheWarning, Store
-from tests.compiled import hits, store_of_one, thrice, twice
+from fctd.mechanics.compile_cache import Store
+from tests.compiled import hits, store_of_one, thrice
 
 
 @pytest.fixture
@@ -73,34 +68,3 @@ def test_the_command_says_what_it_compiled_and_where(
     assert "Compiled: 1 function in 3 s, kept in" in seen.out
     compile_into(store, compile_one)
     assert "Compiled: nothing to do, kept in" in capsys.readouterr().out
-
-
-def test_listening_names_what_is_compiled(store: Store) -> None:
-    names: list[str] = []
-    with listening(names.append):
-        hits(store, twice, 3.0)
-        hits(store, thrice, 4.5)
-    assert names == ["thrice"]
-
-
-def test_a_first_run_says_once_why_it_waits(store: Store) -> None:
-    seen = StringIO()
-    with announcing(Console(file=seen, force_terminal=True)):
-        assert hits(store, twice, 3.0) == 1
-        assert seen.getvalue() == ""
-        hits(store, thrice, 4.5)
-        hits(store, lambda x: x, 1.5)
-    assert seen.getvalue().count("compiling, once for this version") == 1
-
-
-def test_a_run_that_waits_for_the_code_of_another_one_says_the_same() -> None:
-    seen = StringIO()
-    with announcing(Console(file=seen, force_terminal=True)), event.trigger_event(WAITING):
-        assert seen.getvalue().count("compiling, once for this version") == 1
-
-
-def test_a_command_says_plainly_what_is_wrong_with_the_cache(capsys: pytest.CaptureFixture[str]) -> None:
-    with announcing(), warnings.catch_warnings():
-        warnings.simplefilter("default")
-        warnings.warn("x[b] is damaged", CompileCacheWarning, stacklevel=1)
-    assert capsys.readouterr().err == "warning: x[b] is damaged\n"
