@@ -11,9 +11,9 @@ from fctd.case.text import printable
 from fctd.case.witsml.geometry import Geometry, read_geometry
 from fctd.case.witsml.tubular import Tubular, read_tubular
 from fctd.model.first_numbers import laid, stiff_wall
-from fctd.model.given_hole import lay_hole
-from fctd.model.given_string import lay_string
-from fctd.model.given_table import Writer
+from fctd.model.given.hole import lay_hole
+from fctd.model.given.string import lay_string
+from fctd.model.given.table import Writer
 from fctd.model.new_case import Blank, Given, Plan
 
 

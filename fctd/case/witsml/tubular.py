@@ -36,14 +36,22 @@ class Bend(NamedTuple):
     distance: float | None
 
 
+class Blades(NamedTuple):
+    """Blades of a stabiliser: diameter, distance of their lower end from that of the component, and length [m]."""
+
+    diameter: float
+    bottom: float | None
+    length: float | None
+
+
 @dataclass(frozen=True)
 class TubularPart:
     """A component as the file has it: None is not given, and 0 is kept.
 
     number : of the component in the file; type : `typeTubularComp`; kind : of pipe, ``BIT``, or None for a tool;
-    outer, inner : of the body [m]; widest : largest of the diameters of connection, blades and opener, and ``odMx``,
-    on its own in `stated_widest` [m]; gauge : of the bit [m]; mass [kg/m]; strength [Pa]; joint [m], joints_of_stand :
-    average length of a joint, and number in a stand; nozzles [m], flow_area [m^2] : of the bit.
+    outer, inner : of the body [m]; widest : ``odMx`` [m]; joint : largest diameter of its connections and of a hole
+    opener [m]; gauge : of the bit [m]; mass [kg/m]; strength [Pa]; joint_length [m], joints_of_stand : average length
+    of a joint, and number in a stand; nozzles [m], flow_area [m^2] : of the bit.
     """
 
     number: int
@@ -54,7 +62,7 @@ class TubularPart:
     outer: float | None
     inner: float | None
     widest: float | None
-    stated_widest: float | None
+    joint: float | None
     gauge: float | None
     mass: float | None
     strength: float | None
@@ -62,11 +70,18 @@ class TubularPart:
     service: str
     connections: frozenset[str]
     material: str
-    joint: float | None
+    joint_length: float | None
     joints_of_stand: float | None
     bends: tuple[Bend, ...]
+    blades: tuple[Blades, ...]
     nozzles: tuple[float, ...]
     flow_area: float | None
+
+    @property
+    def touching(self) -> float | None:
+        """The largest of all diameters but that of the body [m], None without any."""
+        blades = (one.diameter for one in self.blades)
+        return max((one for one in (self.widest, self.joint, self.gauge, *blades) if one), default=None)
 
 
 @dataclass(frozen=True)
@@ -115,30 +130,33 @@ def _in_order(found: list[tuple[float | None, TubularPart]]) -> tuple[TubularPar
 
 def _part(number: int, item: Item) -> tuple[float | None, TubularPart]:
     """The `sequence` of a component, and the component."""
-    kind_of_file, stated = item.text("typeTubularComp"), item.quantity("odMx", DIAMETER)
+    kind_of_file = item.text("typeTubularComp")
     word = kind_of_file.casefold()
-    kind = BIT if word.split(" ")[0] == BIT else _KINDS.get(word)
     connections = list(item.items("connection"))
-    outers = [one.quantity("od", DIAMETER) for one in connections]
-    blades = [one.quantity("odBladeMx", DIAMETER) for one in item.items("stabilizer")]
-    openers = [one.quantity("diaHoleOpener", DIAMETER) for one in item.items("holeOpener")]
+    joints = [one.quantity("od", DIAMETER) for one in connections]
+    joints += [one.quantity("diaHoleOpener", DIAMETER) for one in item.items("holeOpener")]
     gauges = [one.quantity("diaBit", DIAMETER) for one in item.items("bitRecord")]
+    nozzles = [one.quantity("diaNozzle", _NOZZLE) for one in item.items("nozzle")]
     bends = [
         Bend(angle, one.quantity("distBendBot", _LENGTH))
         for one in item.items("bend")
         if (angle := one.quantity("angle", _BEND))
     ]
-    nozzles = [one.quantity("diaNozzle", _NOZZLE) for one in item.items("nozzle")]
+    blades = [
+        Blades(wide, one.quantity("distBladeBot", _LENGTH), one.quantity("lenBlade", _LENGTH))
+        for one in item.items("stabilizer")
+        if (wide := one.quantity("odBladeMx", DIAMETER))
+    ]
     part = TubularPart(
-        number=number, type=kind_of_file, kind=kind, description=item.text("description"),
-        length=item.quantity("len", _LENGTH), outer=item.quantity("od", DIAMETER),
-        inner=item.quantity("id", DIAMETER),
-        widest=max((one for one in (stated, *outers, *blades, *openers) if one), default=None), stated_widest=stated,
+        number=number, type=kind_of_file, kind=BIT if word.split(" ")[0] == BIT else _KINDS.get(word),
+        description=item.text("description"), length=item.quantity("len", _LENGTH), outer=item.quantity("od", DIAMETER),
+        inner=item.quantity("id", DIAMETER), widest=item.quantity("odMx", DIAMETER),
+        joint=max((one for one in joints if one), default=None),
         gauge=max((one for one in gauges if one), default=None), mass=item.quantity("wtPerLen", _MASS),
         strength=item.quantity("tensYield", _STRESS), grade=item.text("grade"), service=item.text("classService"),
         connections=frozenset(text for one in connections if (text := one.text("typeThread"))),
-        material=item.text("typeMaterial"), joint=item.quantity("lenJointAv", _LENGTH),
-        joints_of_stand=item.number("numJointStand", _COUNT), bends=tuple(bends),
+        material=item.text("typeMaterial"), joint_length=item.quantity("lenJointAv", _LENGTH),
+        joints_of_stand=item.number("numJointStand", _COUNT), bends=tuple(bends), blades=tuple(blades),
         nozzles=tuple(one for one in nozzles if one), flow_area=item.quantity("areaNozzleFlow", _AREA),
     )  # fmt: skip
     return item.number("sequence", _COUNT), part

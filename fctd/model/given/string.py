@@ -7,15 +7,16 @@ from typing import Any, Final
 
 from fctd.case.doubts.string import HEAVY as HEAVIEST
 from fctd.case.doubts.string import LIGHT as LIGHTEST
-from fctd.case.pipes.catalogue import pipes_of_size
+from fctd.case.pipes.catalogue import SAME_DIAMETER, pipes_of_size
 from fctd.case.pipes.filling import lacks_joints
 from fctd.case.pipes.grades import drill_pipe_grade_of, grade_of
 from fctd.case.pipes.names import CASING, DRILL_PIPE, HEAVY, TUBING
 from fctd.case.string import SHORT, ComponentSpec
 from fctd.case.witsml.tubular import BIT, Tubular, TubularPart
 from fctd.model.first_runs import entry
-from fctd.model.given_pipe import body_mass, nominal_of, pipe_of
-from fctd.model.given_table import GivenTable, Writer
+from fctd.model.given.pieces import AT_AN_END, pieces_of
+from fctd.model.given.pipe import body_mass, nominal_of, pipe_of
+from fctd.model.given.table import GivenTable, Writer
 from fctd.model.new_case import Blank, Block
 
 # Pipe with tool joints or couplings, which touch first and weigh.
@@ -23,7 +24,6 @@ _JOINTED: Final = {DRILL_PIPE: "tool joints", HEAVY: "tool joints", CASING: "cou
 _STEELS: Final = ("", "steel", "steel alloy", "chrome alloy", "non-magnetic steel", "unknown")
 _UNKNOWN: Final = ("", "unknown", "other")
 _LONGEST_JOINT: Final = 20.0  # [m], as of the key ``joint.length``
-_AT_AN_END: Final = 0.01  # [m]
 _NAMED: Final = 3  # pipes that a remark names
 
 
@@ -44,16 +44,17 @@ def lay_string(tubular: Tubular, file: str, depth: float, write: Writer) -> Give
     """The components of a string in a hole of a depth [m]."""
     string = GivenString(drills=any(part.kind == BIT for part in tubular.parts))
     string.doubts += _doubts_of(tubular, depth, write)
-    for i, part in enumerate(tubular.parts):
+    parts = [piece for part in tubular.parts for piece in pieces_of(part)]
+    for i, part in enumerate(parts):
         where = f"component {part.number} of the file" + ("" if i else ", from the bit up; segments are chosen for you")
         table = GivenTable("[[string.components]]", where, f"string.components[{i}]", file, write)
         component = _Component(part, table, write)
-        component.fill(_short(tubular, depth, write) if part is tubular.parts[-1] else "")
+        component.fill(_short(tubular, depth, write) if part is parts[-1] else "")
         string.components.append(table.block)
         string.blanks += table.blanks
         string.doubts += component.doubts
         length = part.length or 0.0
-        if part is tubular.parts[-1]:
+        if part is parts[-1]:
             length = max(depth - sum(known for _, known in string.parts), 0.0)
         if component.spec is not None and length > 0:
             string.parts.append((component.spec, min(length, depth)))
@@ -72,7 +73,7 @@ def _short(tubular: Tubular, depth: float, write: Writer) -> str:
     if not all(lengths):
         return ""
     whole = sum(length or 0.0 for length in lengths)
-    if whole >= depth - _AT_AN_END:
+    if whole >= depth - AT_AN_END:
         return ""
     return f"the string has {write('length', whole)} in all, and the hole {write('length', depth)}"
 
@@ -113,9 +114,9 @@ class _Component:
             self._strength()
             self._material()
         self._bends()
-        if part.joint is not None and part.joint > _LONGEST_JOINT:
+        if part.joint_length is not None and part.joint_length > _LONGEST_JOINT:
             several = f", numJointStand {part.joints_of_stand:g}" if part.joints_of_stand else ""
-            joint = self._write("length", part.joint)
+            joint = self._write("length", part.joint_length)
             self._doubt(f"lenJointAv {joint}{several}, is that of a stand and not of a joint: it is not used")
         if part.type.casefold() in _UNKNOWN:
             self._doubt("is taken for a tool, which weighs as its body without wtPerLen")
@@ -138,15 +139,12 @@ class _Component:
         outer, inner = part.outer or part.gauge if part.kind == BIT else part.outer, part.inner
         if not outer:
             self._blank("outer_diameter", "the diameter of its body", self._missing("od", part.outer))
-        elif part.gauge and outer > part.gauge + 1e-4:
+        elif part.gauge and outer > part.gauge + SAME_DIAMETER:
             gauge = self._write("diameter", part.gauge)
             self._blank("outer_diameter", "that of its body", f"od is {self._write('diameter', outer)}, diaBit {gauge}")
         else:
             self._value("outer_diameter", "diameter", outer)
-        if part.kind == BIT and not inner:
-            self._keys["inner_diameter"] = 0.0
-            self._table.line("inner_diameter = 0", "a bit is no pipe: its nozzles stand in [bit]")
-        elif not inner:
+        if not inner:
             self._blank("inner_diameter", "the diameter of its bore", self._missing("id", inner))
         elif outer and inner >= outer:
             outside = self._write("diameter", outer)
@@ -166,10 +164,7 @@ class _Component:
         elif mass:
             self._value("linear_mass", "mass", mass, f"with {joints}" if joints else "")
             if (nominal := nominal_of(part)) is not None:
-                pounds = f"{nominal:g} lb/ft"
-                self._doubt(
-                    f"wtPerLen is the nominal weight of {pounds} pipe: check that it is its mass with tool joints"
-                )
+                self._doubt(f"wtPerLen is the nominal weight, {nominal:g} lb/ft: with tool joints it is more")
         elif joints:
             found = self._missing("wtPerLen", mass)
             self._blank("linear_mass", f"its mass with {joints}, such as '36.8 kg/m'", found)
@@ -189,17 +184,19 @@ class _Component:
         """The diameter that touches, where it is not that of the body."""
         part, outer = self._part, self._keys.get("outer_diameter")
         joints = _JOINTED.get(part.kind or "")
-        widest = max((one for one in (part.widest, part.gauge) if one), default=None)
-        if part.stated_widest and outer and part.stated_widest < outer - 1e-4:
-            stated, outside = (self._write("diameter", one) for one in (part.stated_widest, outer))
+        widest = part.touching
+        if part.widest and outer and part.widest < outer - SAME_DIAMETER:
+            stated, outside = (self._write("diameter", one) for one in (part.widest, outer))
             self._blank("contact_diameter", "the diameter that touches", f"odMx is {stated}, od {outside}")
         elif widest and (outer is None or widest > outer):
             self._value("contact_diameter", "diameter", widest)
             if part.length and part.kind is None and part.length > SHORT * widest:
-                touches = f"{self._write('diameter', widest)} touch along all of it"
-                self._doubt(f"its blades of {touches}: give the part that has them as a component of its own")
-        elif joints and not widest:
-            found = self._missing("odMx, and no od of a connection", part.stated_widest)
+                touches = f"touches with {self._write('diameter', widest)} along all of it"
+                self._doubt(f"{touches}: give the part that is so wide as a component of its own")
+        elif joints and (not widest or (outer and widest < outer)):
+            found = self._missing("odMx, and no od of a connection", part.widest)
+            if widest and outer:
+                found = f"od of a connection is {self._write('diameter', widest)}, od {self._write('diameter', outer)}"
             self._blank("contact_diameter", f"the diameter of its {joints}", found)
 
     def _strength(self) -> None:
@@ -223,13 +220,10 @@ class _Component:
         part = self._part
         for bend in part.bends:
             angle = self._write("angle", bend.angle)
-            if bend.distance is not None and part.length and abs(bend.distance - part.length) <= _AT_AN_END:
+            if bend.distance is not None and part.length and abs(bend.distance - part.length) <= AT_AN_END:
                 self._value("bend", "angle", bend.angle, "at its upper end")
                 continue
-            at = "" if bend.distance is None else f", {self._write('length', bend.distance)} above its lower end,"
-            self._doubt(
-                f"its bend of {angle}{at} is left out: cut the component there, and give the lower part the bend"
-            )
+            self._doubt(f"its bend of {angle} is left out: give the part below it as a component of its own, with bend")
 
     def _value(self, key: str, measure: Any, value: float, comment: str = "") -> None:
         self._keys[key] = value

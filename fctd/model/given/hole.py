@@ -7,7 +7,7 @@ from fctd.case.doubts.hole import BELOW_TD, NARROWEST, WIDEST
 from fctd.case.pipes.catalogue import SAME_DIAMETER, catalogue
 from fctd.case.pipes.names import CASING, TUBING, in_inches
 from fctd.case.witsml.geometry import ROUNDING, Geometry, Interval
-from fctd.model.given_table import GivenTable, Writer
+from fctd.model.given.table import GivenTable, Writer
 from fctd.model.new_case import Blank, Block
 from fctd.model.templates import Template
 

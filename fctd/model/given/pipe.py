@@ -43,13 +43,13 @@ def _joins(pipe: Pipe, part: TubularPart) -> bool:
     if lacks_joints(pipe):
         return False
     if pipe.kind in (CASING, TUBING):
-        return _same(part.widest, pipe.coupling)
+        return _same(part.touching, pipe.coupling)
     names = {connection_of(pipe.connection), connection_of(pipe.connection.split(" ")[0])}
     if not {*map(connection_of, part.connections)} & names:
         return False
     if pipe.joint is None:  # a collar, whose connections are no wider than it is
-        return part.widest is None or part.widest <= pipe.outer + SAME_DIAMETER
-    return _same(part.widest, pipe.joint.outer)
+        return part.touching is None or part.touching <= pipe.outer + SAME_DIAMETER
+    return _same(part.touching, pipe.joint.outer)
 
 
 def _same(given: float | None, of_pipe: float | None) -> bool:
