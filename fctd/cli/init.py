@@ -134,7 +134,13 @@ def _plan(
     if found.note:
         messages.print(f"warning: {survey}: {found.note}", soft_wrap=True)
     plan = from_survey(template, name, units, written, found.keys, found.stations)
-    return with_files(plan, found.stations, files)
+    try:
+        return with_files(plan, found.stations, files)
+    except InputError as error:
+        if error.key not in Files._fields:
+            raise
+        option = f"--{error.key.replace('_', '-')}"
+        raise InputError(error.expected, key=option, value=error.value, file=error.file) from None
 
 
 def _next(plan: Plan, out: Path) -> list[str]:

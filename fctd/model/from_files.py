@@ -34,7 +34,7 @@ def with_files(plan: Plan, stations: Array, files: Files) -> Plan:
     """
     for name, file, chosen in (("string", files.string, files.string_name), ("hole", files.hole, files.hole_name)):
         if file is None and chosen is not None:
-            raise InputError(f"{name} beside it", key=f"{name}_name", value=chosen)
+            raise InputError(f"a file of the {name} beside it", key=f"{name}_name", value=chosen)
     if files.string is None and files.hole is None:
         return plan
     write, given, template, end = Writer(plan.units), Given(), plan.template, float(stations[-1, 0])

@@ -51,6 +51,6 @@ def _cut(part: TubularPart, ends: list[float]) -> Iterator[TubularPart]:
         )
         bends = (one for one in part.bends if abs((one.distance or 0.0) - top) <= AT_AN_END)
         yield replace(
-            part, description=f"{part.description}, piece {number}".removeprefix(", "), length=top - bottom, widest=None,
-            blades=tuple(blades), bends=tuple(Bend(one.angle, top - bottom) for one in bends),
+            part, description=f"{part.description}, piece {number}".removeprefix(", "), length=top - bottom,
+            widest=None, blades=tuple(blades), bends=tuple(Bend(one.angle, top - bottom) for one in bends),
         )  # fmt: skip
