@@ -230,7 +230,8 @@ class Plan:
             lasts = f"{PERIODS * self.period:g} s"
             yield from rotation(end, lasts, f"{PERIODS} records: the first ones wind the string up")
         else:
-            yield from trip("trip_in", quantity(LENGTH, self.depth - RUN), end, HOIST[self.units])
+            start = max(self.depth - RUN, 0.5 * self.depth)
+            yield from trip("trip_in", quantity(LENGTH, start), end, HOIST[self.units])
 
     def _others(self, quantity: "Quantities") -> Iterator[tuple[str, ...]]:
         """What else a string that drills may begin with: blocks of comments, each with its heading."""

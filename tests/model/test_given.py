@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fctd import load_case
+from fctd.case.errors import InputError
 from fctd.case.pipes.catalogue import pipe_named
 from fctd.case.string import ComponentSpec
 from fctd.case.witsml.geometry import read_geometry
@@ -316,3 +317,58 @@ def test_any_whole_string_is_that_of_its_case(folder_of_all: Path, parts: list[E
 def folder_of_all(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """One folder for all examples of Hypothesis."""
     return tmp_path_factory.mktemp("any")
+
+
+def spoilt(value: Any) -> st.SearchStrategy[Any]:
+    """An element as it is, or absent, empty, null, 0, or tiny or huge for what it is."""
+    if not isinstance(value, tuple):
+        return st.just(value)
+    number, unit = value
+    wrong = ["", ("", unit), ("-999.25", unit), (0, unit), (0.011 * float(number), unit), (1.3 * float(number), unit)]
+    return st.sampled_from([value, value, value, *wrong])
+
+
+@st.composite
+def spoilt_strings(draw: st.DrawFn) -> list[Element]:
+    """Strings of which elements are missing or absurd."""
+    parts = [BIT, MOTOR, COLLAR, PIPE, DRILL_PIPE, component("casing", 5, 900, 9.625, 8.681, grade="L80")]
+    found = [
+        {key: draw(spoilt(value)) for key, value in part.items()} | {"sequence": k + 1}
+        for k, part in enumerate(draw(st.lists(st.sampled_from(parts), min_size=1, max_size=4)))
+    ]
+    return [part | {"description": draw(st.sampled_from(["", 'a "b" \\', "x\u0085y"]))} for part in found]
+
+
+@st.composite
+def spoilt_holes(draw: st.DrawFn) -> list[Element]:
+    """Holes with gaps, overlaps, and diameters that are missing or absurd."""
+    found = []
+    for _ in range(draw(st.integers(1, 4))):
+        top = draw(st.integers(0, 2000))
+        kind = draw(st.sampled_from(["casing", "open hole", "unknown", "riser"]))
+        inner = draw(st.sampled_from(["", 0, 0.5, 7, 8.5, 12.25, 99]))
+        found.append(
+            section(kind, top, top + draw(st.integers(1, 1500)), inner, odSection=(9.625, "in"))
+        )
+    return found
+
+
+@settings(max_examples=100)
+@given(spoilt_strings(), spoilt_holes(), st.sampled_from(["si", "field"]))
+def test_a_case_lacks_what_it_says_and_nothing_else(
+    folder_of_all: Path, parts: list[Element], sections: list[Element], units: UnitSystem
+) -> None:
+    (folder_of_all / "s.xml").write_text(tubular(parts), encoding="utf-8")
+    (folder_of_all / "h.xml").write_text(geometry(sections), encoding="utf-8")
+    plan = from_survey("build-hold", "case", units, "the table", (), STATIONS)
+    plan = with_files(plan, STATIONS, Files(folder_of_all / "s.xml", folder_of_all / "h.xml"))
+    raw = tomllib.loads(plan.text())
+    raw["wellbore"] |= {"survey": None, "stations": (STATIONS * [1, 180 / np.pi, 1]).tolist()}
+    lacking = {blank.key for _, blank in plan.blanks}
+    assert len(lacking) == len(plan.given.blanks)
+    try:
+        load_case(raw)
+    except InputError as error:
+        assert {one.key for one in (error, *error.more)} == lacking  # noqa: PT017 (most lack something)
+    else:
+        assert lacking == set()
