@@ -85,8 +85,7 @@ def init_command(
 ) -> None:
     """Write a commented case file that runs, for your survey or for one of the templates.
 
-    The string and the hole of WITSML files stand in place of the template's.  What they lack is left blank in the case,
-    and named with its line.
+    What the files of string and hole lack is left blank in the case, and named with its line.
     """
     check_target(out, "--out", (".toml",))
     if out.exists():
@@ -106,7 +105,8 @@ def init_command(
     for number, blank in plan.blanks:
         messages.print(f"fill in: {printable(str(out))}: line {number}, {blank.key}: {blank}", soft_wrap=True)
     case = None if plan.blanks else load_case(out)
-    if case is not None and tell(case, case.warnings, strict=False, units=units):
+    doubted = case is not None and tell(case, case.warnings, strict=False, units=units)
+    if doubted and hole is None:
         text = f"depths in {printable(str(out))} follow from the survey as it was read: if that is wrong, delete it"
         messages.print(f"{text} and write it anew", soft_wrap=True)
     for line in () if quiet else _next(plan, out):

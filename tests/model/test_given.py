@@ -347,9 +347,7 @@ def spoilt_holes(draw: st.DrawFn) -> list[Element]:
         top = draw(st.integers(0, 2000))
         kind = draw(st.sampled_from(["casing", "open hole", "unknown", "riser"]))
         inner = draw(st.sampled_from(["", 0, 0.5, 7, 8.5, 12.25, 99]))
-        found.append(
-            section(kind, top, top + draw(st.integers(1, 1500)), inner, odSection=(9.625, "in"))
-        )
+        found.append(section(kind, top, top + draw(st.integers(1, 1500)), inner, odSection=(9.625, "in")))
     return found
 
 
