@@ -58,6 +58,11 @@ def stiff_wall(parts: Laid, mud: float, narrowest: float, stations: Array) -> fl
     return round_up((weight * sharpest + heaviest) / (0.01 * clearance))
 
 
+def narrowest_of(template: Template) -> float:
+    """The least diameter of a template's hole [m]."""
+    return 0.0254 * min(float(hole.diameter) for hole in (template.cased, template.open))
+
+
 def laid(template: Template, shoe: float, depth: float) -> list[tuple[ComponentSpec, float]]:
     """The components of a template in a hole with a shoe and of a depth [m]."""
     found, above = [], depth

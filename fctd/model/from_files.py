@@ -10,9 +10,9 @@ from fctd.case.errors import InputError
 from fctd.case.text import printable
 from fctd.case.witsml.geometry import Geometry, read_geometry
 from fctd.case.witsml.tubular import Tubular, read_tubular
-from fctd.model.first_numbers import laid, stiff_wall
-from fctd.model.given.hole import lay_hole
-from fctd.model.given.string import lay_string
+from fctd.model.first_numbers import Laid, laid, narrowest_of, stiff_wall
+from fctd.model.given.hole import GivenHole, lay_hole
+from fctd.model.given.string import GivenString, lay_string
 from fctd.model.given.table import Writer
 from fctd.model.new_case import Blank, Given, Plan
 
@@ -29,52 +29,47 @@ class Files(NamedTuple):
 def with_files(plan: Plan, stations: Array, files: Files) -> Plan:
     """A plan of a survey, whose stations (n, 3) [m, rad, rad] these are, with what files give; see ``Given``.
 
-    Mud, rig, loads of the bit and friction remain those of the template, a string without a bit has no loads of it.
-    Raises InputError for a file that cannot be read, and for a hole that the template's string does not fit.
+    Mud, rig, loads of the bit and missing friction factors are those of the template; a string without a bit does not
+    drill.  Raises InputError for a file that cannot be read, and for a hole that the template's string does not fit.
     """
     for name, file, chosen in (("string", files.string, files.string_name), ("hole", files.hole, files.hole_name)):
         if file is None and chosen is not None:
             raise InputError(f"a file of the {name} beside it", key=f"{name}_name", value=chosen)
     if files.string is None and files.hole is None:
         return plan
-    write, given, template, end = Writer(plan.units), Given(), plan.template, float(stations[-1, 0])
-    narrowest = 0.0254 * min(float(hole.diameter) for hole in (template.cased, template.open))
-    parts, doubts, blanks = [], [], []
-    geometry, tubular = None, None
-    if files.hole is not None:
-        geometry = read_geometry(files.hole, files.hole_name)
+    template, write, end = plan.template, Writer(plan.units), float(stations[-1, 0])
+    geometry = None if files.hole is None else read_geometry(files.hole, files.hole_name)
+    tubular = None if files.string is None else read_tubular(files.string, files.string_name)
+    hole = GivenHole(shoe=plan.shoe, depth=plan.depth, narrowest=narrowest_of(template))
+    if geometry is not None:
         hole = lay_hole(geometry, _name(files.hole), template, end, write)
-        given, narrowest = replace(given, intervals=tuple(hole.intervals)), hole.narrowest
-        plan = replace(plan, shoe=hole.shoe, depth=hole.depth)
-        blanks += hole.blanks
-        doubts += [(_name(files.hole), doubt) for doubt in hole.doubts]
-    if files.string is not None:
-        tubular = read_tubular(files.string, files.string_name)
-        string = lay_string(tubular, _name(files.string), plan.depth, write)
-        given = replace(given, components=tuple(string.components), bit=tuple(string.bit), parts=string.parts)
-        parts = string.parts
-        blanks += string.blanks
-        doubts += [(_name(files.string), doubt) for doubt in string.doubts]
-        if not string.drills:
-            template = template._replace(weight_on_bit=0.0, bit_torque=0.0)
+    string = GivenString(parts=laid(template, hole.shoe, hole.depth), drills=True)
+    if tubular is not None:
+        string = lay_string(tubular, _name(files.string), hole.depth, write)
     else:
-        parts = laid(template, plan.shoe, plan.depth)
-        widest = max(component.contact_diameter for component, _ in parts)
-        if narrowest <= widest:
-            wide, narrow = write("diameter", widest), write("diameter", narrowest)
-            raise InputError(
-                f"a hole wider than the string of the template, {wide}, or a string of its own", key="hole",
-                value=narrow,
-            )  # fmt: skip
+        _check_room(string.parts, hole.narrowest, write)
+    doubts = [(_name(files.hole), doubt) for doubt in hole.doubts]
+    doubts += [(_name(files.string), doubt) for doubt in string.doubts]
     if geometry is not None and tubular is not None and _differ(geometry, tubular):
-        doubts.append(
-            (_name(files.hole), f"its wellbore is {geometry.wellbore}, that of the string {tubular.wellbore}")
-        )
+        wellbores = f"its wellbore is {geometry.wellbore}, that of the string {tubular.wellbore}"
+        doubts.append((_name(files.hole), wellbores))
     return replace(
-        plan, title=_title(plan, files), template=template,
-        stiffness=stiff_wall(parts, template.mud, narrowest, stations) if parts else plan.stiffness,
-        given=replace(given, blanks=tuple(blanks), doubts=tuple(doubts)),
+        plan, title=_title(plan, files), shoe=hole.shoe, depth=hole.depth,
+        template=template if string.drills else template._replace(weight_on_bit=0.0, bit_torque=0.0),
+        stiffness=stiff_wall(string.parts, template.mud, hole.narrowest, stations) if string.parts else plan.stiffness,
+        given=Given(
+            tuple(hole.intervals), tuple(string.components), tuple(string.bit), tuple(string.parts),
+            (*hole.blanks, *string.blanks), tuple(doubts),
+        ),
     )  # fmt: skip
+
+
+def _check_room(parts: Laid, narrowest: float, write: Writer) -> None:
+    """Raise InputError where a template's string is wider than the hole at its narrowest [m]."""
+    widest = max(component.contact_diameter for component, _ in parts)
+    if narrowest <= widest:
+        expected = f"a hole wider than the string of the template, {write('diameter', widest)}, or a string of its own"
+        raise InputError(expected, key="hole", value=write("diameter", narrowest))
 
 
 def _name(path: Path | None) -> str:

@@ -14,7 +14,7 @@ from fctd.arrays import Array
 from fctd.case.surveys import reading as surveys
 from fctd.case.tables.headers import Choice, Choices, NoUnitError
 from fctd.case.units import DENSITY, FORCE, LENGTH, LINEAR_MASS, TORQUE, Dimension, Quantity
-from fctd.model.first_numbers import FOOT, Laid, laid, round_up, sensible_shoe, stiff_wall
+from fctd.model.first_numbers import FOOT, Laid, laid, narrowest_of, round_up, sensible_shoe, stiff_wall
 from fctd.model.first_runs import COMMENTS, PERIODS, aligned, drilling, entry, rotation, trip
 from fctd.model.section import section_of
 from fctd.model.templates import TEMPLATES, Part, Template, TemplateName
@@ -322,8 +322,8 @@ def from_survey(
 
 def wall_of(template: Template, stations: Array, shoe: float) -> float:
     """Stiffness [N/m/m] of the wall for a template's string in its hole; see `stiff_wall`."""
-    narrowest = 0.0254 * min(float(hole.diameter) for hole in (template.cased, template.open))
-    return stiff_wall(laid(template, shoe, float(stations[-1, 0])), template.mud, narrowest, stations)
+    parts = laid(template, shoe, float(stations[-1, 0]))
+    return stiff_wall(parts, template.mud, narrowest_of(template), stations)
 
 
 class ReadSurvey(NamedTuple):

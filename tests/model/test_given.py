@@ -102,6 +102,7 @@ def test_pipe_is_named_where_all_agrees(part: Element, pipe: str, folder: Path) 
         {"odMx": (6.5, "in")},
         {"wtPerLen": (22.6, "lbm/ft")},
         {"classService": "premium"},
+        {"typeMaterial": "titanium"},
     ],
 )
 def test_pipe_is_not_named_where_something_differs(change: dict[str, Any], folder: Path) -> None:

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Final
 
 from fctd.case.pipes.catalogue import FOOT, POUND, SAME_DIAMETER, Pipe, connection_of, of_grade, pipes_of_size
 from fctd.case.pipes.filling import STEEL, lacks_joints, mass_of
@@ -10,6 +10,7 @@ from fctd.case.pipes.grades import drill_pipe_grade_of, grade_of
 from fctd.case.pipes.names import CASING, DRILL_PIPE, TUBING
 from fctd.case.witsml.tubular import TubularPart
 
+_STEELS: Final = ("", "steel", "steel alloy", "chrome alloy", "non-magnetic steel", "unknown")
 _SAME_MASS, _ROUNDED = 0.01, 0.003  # shares of a mass
 
 
@@ -19,7 +20,7 @@ def pipe_of(part: TubularPart) -> Pipe | None:
     What the file does not have of diameters and mass the pipe gives; grade and connection it must have, connections of
     casing and tubing excepted, of which the catalogue has none.
     """
-    if not part.outer or not part.inner or part.service.casefold() not in ("", "new"):
+    if not part.outer or not part.inner or part.service.casefold() not in ("", "new") or not is_steel(part):
         return None
     found = [
         graded
@@ -68,6 +69,11 @@ def nominal_of(part: TubularPart) -> float | None:
         return None
     weights = {pipe.second for pipe in pipes_of_size(DRILL_PIPE, part.outer or 0.0, part.inner or 0.0)}
     return next((one for one in weights if abs(one * POUND / FOOT / part.mass - 1) <= _ROUNDED), None)
+
+
+def is_steel(part: TubularPart) -> bool:
+    """Whether a component is of steel, or the file does not say of what."""
+    return part.material.casefold() in _STEELS
 
 
 def body_mass(keys: Mapping[str, Any]) -> float | None:

@@ -15,13 +15,12 @@ from fctd.case.string import SHORT, ComponentSpec
 from fctd.case.witsml.tubular import BIT, Tubular, TubularPart
 from fctd.model.first_runs import entry
 from fctd.model.given.pieces import AT_AN_END, pieces_of
-from fctd.model.given.pipe import body_mass, nominal_of, pipe_of
+from fctd.model.given.pipe import body_mass, is_steel, nominal_of, pipe_of
 from fctd.model.given.table import GivenTable, Writer
 from fctd.model.new_case import Blank, Block
 
 # Pipe with tool joints or couplings, which touch first and weigh.
 _JOINTED: Final = {DRILL_PIPE: "tool joints", HEAVY: "tool joints", CASING: "couplings", TUBING: "couplings"}
-_STEELS: Final = ("", "steel", "steel alloy", "chrome alloy", "non-magnetic steel", "unknown")
 _UNKNOWN: Final = ("", "unknown", "other")
 _LONGEST_JOINT: Final = 20.0  # [m], as of the key ``joint.length``
 _NAMED: Final = 3  # pipes that a remark names
@@ -212,7 +211,7 @@ class _Component:
 
     def _material(self) -> None:
         part = self._part
-        if part.material.casefold() not in _STEELS:
+        if not is_steel(part):
             for key, words in (("density", "the density"), ("youngs_modulus", "Young's modulus")):
                 self._blank(key, f"{words} of its material", f'typeMaterial is "{part.material}"')
 
