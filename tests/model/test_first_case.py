@@ -54,7 +54,7 @@ def test_string_and_hole_of_files(tmp_path: Path) -> None:
     out.write_text(out.read_text(encoding="utf-8").replace('linear_mass = ""', 'linear_mass = "49.3 lb/ft"'))
     case = fctd.load_case(out)
     assert case.bit.nozzle_area == pytest.approx((2 * 12**2 + 13**2) * 0.25 * np.pi * (0.0254 / 32) ** 2)
-    assert [part.bend for part in case.string.components[1:5]] == pytest.approx([0, 0, np.radians(1.15), 0])
+    assert [part.bend for part in case.string.components[1:5]] == pytest.approx([0, 0, np.radians(0.39), 0])
     assert [one.diameter for one in case.wellbore.intervals] == pytest.approx([8.681 * 0.0254, 8.5 * 0.0254])
     alone = fctd.new_case(TABLE, hole=files["hole"])
     assert [one.friction for one in alone.wellbore.intervals] == [0.2, 0.3]
