@@ -93,7 +93,7 @@ DAMAGED: list[tuple[str, str, str, str]] = [
         "a survey",
         "string",
         TRAJECTORY,
-        'expected a WITSML tubular with a tubularComponent, found the element "trajectorys"',
+        'expected a WITSML tubular with a tubularComponent, found the element "trajectorys" (give it as the survey)',
     ),
     (
         "a hole as a string",

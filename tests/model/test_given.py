@@ -195,6 +195,21 @@ def test_a_hole_without_its_diameter_is_left_blank(
     assert found in hole.blanks[0].found
 
 
+def test_a_friction_factor_of_0_is_none(folder: Path) -> None:
+    hole = hole_of(
+        folder, section("casing", 0, 1500, 8.681, factFric=0), section("open hole", 1500, 3000, 8.5, factFric=0.4)
+    )
+    lines = [next(line for line in block if line.startswith("friction")) for block in hole.intervals]
+    assert lines[0].split() == ["friction", "=", "0.20", "#", "assumed,", "factFric", "is", "0"]
+    assert lines[1] == "friction = 0.4"
+
+
+def test_a_long_description_is_cut(folder: Path) -> None:
+    (table,) = tables(string_of(folder, {**DRILL_PIPE, "description": "of the rig's own stock " * 50}))
+    assert table["name"].startswith("drill pipe: of the rig's own")
+    assert len(table["name"]) <= 80
+
+
 def test_a_slim_hole_is_one(folder: Path) -> None:
     """Of 6 1/8 in, or of 7 in where the casing has room for no more."""
     for bore, inner in ((8.681, 6.125), (7.025, 7)):

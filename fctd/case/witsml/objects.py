@@ -132,6 +132,7 @@ def read_object(path: Path, kind: Kind, name: str | None) -> Item:
     if not whole:
         others = [other for other in _KINDS if other is not kind and other.element in tag(root)]
         remedy = f" (give it as --{others[0].argument})" if others else ""
+        remedy = " (give it as the survey)" if "trajectory" in tag(root) else remedy
         raise InputError(f"{kind.noun} with a {kind.part}, found the element {show(tag(root))}{remedy}")
     return Item(_chosen(whole, kind, name), "")
 

@@ -75,10 +75,12 @@ def _fill(table: GivenTable, interval: Interval, bore: float, template: Template
         diameter = None
     elif diameter is not None:
         table.value("diameter", "diameter", diameter, "inside the casing" if kind == "cased" else "")
-    if section is not None and section.friction is not None:
-        table.line(f"friction = {section.friction:.9g}")
+    friction = None if section is None else section.friction
+    if friction:
+        table.line(f"friction = {friction:.9g}")
     else:
-        table.line(f"friction = {(template.cased if kind == 'cased' else template.open).friction:.2f}", "assumed")
+        usual = template.cased if kind == "cased" else template.open
+        table.line(f"friction = {usual.friction:.2f}", "assumed" + ("" if friction is None else ", factFric is 0"))
     return diameter
 
 

@@ -1,6 +1,7 @@
 """The string of a WITSML ``tubular`` as components of a new case."""
 
 import math
+import textwrap
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, Final
@@ -23,6 +24,7 @@ from fctd.model.new_case import Blank, Block
 _JOINTED: Final = {DRILL_PIPE: "tool joints", HEAVY: "tool joints", CASING: "couplings", TUBING: "couplings"}
 _UNKNOWN: Final = ("", "unknown", "other")
 _LONGEST_JOINT: Final = 20.0  # [m], as of the key ``joint.length``
+_LONGEST_NAME: Final = 80  # characters
 _NAMED: Final = 3  # pipes that a remark names
 
 
@@ -100,7 +102,7 @@ class _Component:
         name = part.type or "component"
         if part.description and part.description.casefold() != name.casefold():
             name += f": {part.description}"
-        table.text("name", name)
+        table.text("name", textwrap.shorten(name, _LONGEST_NAME, placeholder=" ..."))
         self._length(short)
         pipe = pipe_of(part)
         if pipe is not None:
@@ -124,7 +126,7 @@ class _Component:
         part = self._part
         here = self._write("length", part.length or 0.0)
         if short:
-            expected = "the length of this component, or delete the line, and the pipe reaches the surface"
+            expected = "its length, and add the pipe above it, or delete the line if it reaches the surface"
             self._blank("length", expected, f"len is {here}, {short}")
         elif part.length:
             self._keys["length"] = part.length
