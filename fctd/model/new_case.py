@@ -1,6 +1,8 @@
 """A case file to start from, as text: a template's string in its own well or in that of a survey."""
 
 import json
+import re
+import textwrap
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,11 +11,10 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from fctd.arrays import Array
-from fctd.case.string import ComponentSpec
 from fctd.case.surveys import reading as surveys
 from fctd.case.tables.headers import Choice, Choices, NoUnitError
 from fctd.case.units import DENSITY, FORCE, LENGTH, LINEAR_MASS, TORQUE, Dimension, Quantity
-from fctd.model.default_layout import mean_curvature
+from fctd.model.first_numbers import FOOT, Laid, laid, narrowest_of, round_up, sensible_shoe, stiff_wall
 from fctd.model.first_runs import COMMENTS, PERIODS, aligned, drilling, entry, rotation, trip
 from fctd.model.section import section_of
 from fctd.model.templates import TEMPLATES, Part, Template, TemplateName
@@ -38,12 +39,8 @@ UNITS: dict[UnitSystem, dict[Dimension, tuple[str, int]]] = {
         LINEAR_MASS: ("lb/ft", 1),
     },
 }
-FOOT = 0.3048
 # A well that is steeper than this gets the string of the template ``horizontal`` [rad].
 NEARLY_HORIZONTAL = np.radians(70)
-# The shoe is where the hole has this share of its greatest inclination, between these shares of its depth, on a round
-# depth: casing is set below the build.
-LANDED, SHALLOWEST_SHOE, DEEPEST_SHOE = 0.95, 0.4, 0.7
 # The default damping of a contact point is for a softer wall: on a stiff one a long string would not come to rest.
 DAMPING = "1e5 N*s/m"
 # What the keys of a component are about.
@@ -53,12 +50,50 @@ KEY_COMMENTS = {
 }
 
 
+WIDEST = 110  # characters of a comment
+FILL_IN = "fill in"  # the comment of a key without a value
+Block = tuple[str, ...]
+"""Lines of TOML: a table, or a part of one."""
+
+
+class Blank(NamedTuple):
+    """A key that is left blank: what to write there, and what the file has in its place."""
+
+    key: str
+    expected: str
+    found: str
+
+    def __str__(self) -> str:
+        return f"{self.expected} ({self.found})"
+
+
+@dataclass(frozen=True)
+class Given:
+    """What files give in place of the template's hole or string.
+
+    intervals, components : their tables; bit : lines of its table; parts : what is known of the string; blanks : keys
+    without a value, in the order of their lines; doubts : what is probably wrong, a file and a sentence each.
+    """
+
+    intervals: tuple[Block, ...] = ()
+    components: tuple[Block, ...] = ()
+    bit: Block = ()
+    parts: Laid = ()
+    blanks: tuple[Blank, ...] = ()
+    doubts: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def assumed(self) -> str:
+        """A comment on what no file gives."""
+        return "assumed: put yours" if self.intervals or self.components else ""
+
+
 @dataclass(frozen=True)
 class Plan:
     """What a case file is made of.
 
     name, title : of the case, and what it is; hole : lines of TOML with survey or stations; shoe, depth [m] : casing
-    shoe and end of the hole; shoe_comment : why it is there; stiffness [N/m/m] : of the wall.
+    shoe, 0 where there is none, and end of the hole; shoe_comment : why it is there; stiffness [N/m/m] : of the wall.
     """
 
     name: str
@@ -70,16 +105,25 @@ class Plan:
     depth: float
     shoe_comment: str
     stiffness: float
+    given: Given = Given()
 
     def text(self) -> str:
         """The case file."""
         return "\n\n".join("\n".join(block) for block in self._blocks()) + "\n"
 
+    @property
+    def blanks(self) -> list[tuple[int, Blank]]:
+        """The keys that are to be filled in before the case can be read, with the numbers of their lines."""
+        lines = enumerate(self.text().splitlines(), start=1)
+        numbers = (number for number, line in lines if re.fullmatch(rf'\w+ = "" +# {FILL_IN}', line))
+        return list(zip(numbers, self.given.blanks, strict=True))
+
     def _blocks(self) -> Iterator[tuple[str, ...]]:
         """The lines of each table, between which stand blank ones."""
         quantity, template = Quantities(self.units), self.template
+        title = f"{self.title[0].upper()}{self.title[1:]}: change what differs in yours."
         yield (
-            f"# {self.title[0].upper()}{self.title[1:]}: change what differs in yours.",
+            *textwrap.wrap(title, WIDEST, initial_indent="# ", subsequent_indent="# "),
             '# A quantity is a text with its unit ("8.5 in", "1250 kg/m^3"), or a bare number in SI.',
             "# A pipe is one of the catalogue, which `fctd pipes` lists: sizes, mass, joints and limits come with it.",
             f"name = {json.dumps(self.name, ensure_ascii=False)}",
@@ -92,24 +136,9 @@ class Plan:
             entry("stiffness_per_length", f"{stiffness} N/m/m", "of the wall: the string presses less than 1 % of its"),
             " " * COMMENTS + "# clearance into it",
         )
-        cased = "from the surface down", "cased", self.shoe, self.shoe_comment, "inside the casing"
-        for hole, (where, kind, end, ends, size) in (
-            (template.cased, cased),
-            (template.open, ("", "open", self.depth, "the end of the hole", "")),
-        ):
-            yield (
-                aligned("[[wellbore.intervals]]", where),
-                entry("name", hole.name),
-                entry("kind", kind),
-                entry("to_md", quantity(LENGTH, end), ends),
-                entry("diameter", f"{hole.diameter} in", size),
-                f"friction = {hole.friction:.2f}",
-            )
-        for k, part in enumerate(template.string):
-            above = "" if k else "from the bit up; segments are chosen for you"
-            comment = "no length: it reaches the surface" if part.length is None else above
-            yield aligned("[[string.components]]", comment), *self._part(part, quantity)
-        mud = ["[mud]", entry("density", quantity(DENSITY, template.mud))]
+        yield from self.given.intervals or self._intervals(quantity)
+        yield from self.given.components or self._components(quantity)
+        mud = ["[mud]", entry("density", quantity(DENSITY, template.mud), self.given.assumed)]
         if template.weight_on_bit:
             plastic = "20 mPa*s" if self.units == "si" else "20 cP"
             mud.append(entry("viscosity", plastic, "plastic viscosity: it damps the string in time"))
@@ -121,9 +150,10 @@ class Plan:
         if template.weight_on_bit:
             yield *rig, aligned("autodriller = true", "holds the weight on bit where it drills in time")
             yield (
-                aligned("[bit]", "while drilling"),
+                aligned("[bit]", "while drilling" + (self.given.assumed and f", {self.given.assumed}")),
                 entry("weight_on_bit", quantity(FORCE, 1e3 * template.weight_on_bit)),
                 entry("torque", quantity(TORQUE, 1e3 * template.bit_torque), "of steady strings"),
+                *self.given.bit,
             )
             yield (aligned("[bit.rock]", "gives the torque in time: a PDC bit in medium rock"),)
         else:
@@ -140,15 +170,35 @@ class Plan:
     @property
     def period(self) -> float:
         """The slowest torsional period of the string [s], rounded to 0.1 s, or to one digit of a shorter one."""
-        lengths = lengths_of(self.template, self.shoe, self.depth)
         parts = [
             (length, section.axial_inertia, section.GJ)
-            for length, part in zip(lengths, self.template.string, strict=True)
-            for section in [section_of(_component(part), self.template.mud)]
+            for component, length in self.given.parts or laid(self.template, self.shoe, self.depth)
+            for section in [section_of(component, self.template.mud)]
             if length > 0
         ]
         period = torsional_period(*zip(*reversed(parts), strict=True))
         return round(period, 1) if period >= 0.1 else float(f"{period:.1g}")
+
+    def _intervals(self, quantity: "Quantities") -> Iterator[Block]:
+        cased = "from the surface down", "cased", self.shoe, self.shoe_comment, "inside the casing"
+        for hole, (where, kind, end, ends, size) in (
+            (self.template.cased, cased),
+            (self.template.open, ("", "open", self.depth, "the end of the hole", "")),
+        ):
+            yield (
+                aligned("[[wellbore.intervals]]", where),
+                entry("name", hole.name),
+                entry("kind", kind),
+                entry("to_md", quantity(LENGTH, end), ends),
+                entry("diameter", f"{hole.diameter} in", size),
+                f"friction = {hole.friction:.2f}",
+            )
+
+    def _components(self, quantity: "Quantities") -> Iterator[Block]:
+        for k, part in enumerate(self.template.string):
+            above = "" if k else "from the bit up; segments are chosen for you"
+            comment = "no length: it reaches the surface" if part.length is None else above
+            yield aligned("[[string.components]]", comment), *self._part(part, quantity)
 
     def _part(self, part: Part, quantity: "Quantities") -> Iterator[str]:
         yield entry("name", part.name)
@@ -180,7 +230,8 @@ class Plan:
             lasts = f"{PERIODS * self.period:g} s"
             yield from rotation(end, lasts, f"{PERIODS} records: the first ones wind the string up")
         else:
-            yield from trip("trip_in", quantity(LENGTH, self.depth - RUN), end, HOIST[self.units])
+            start = max(self.depth - RUN, 0.5 * self.depth)
+            yield from trip("trip_in", quantity(LENGTH, start), end, HOIST[self.units])
 
     def _others(self, quantity: "Quantities") -> Iterator[tuple[str, ...]]:
         """What else a string that drills may begin with: blocks of comments, each with its heading."""
@@ -222,13 +273,7 @@ class Quantities:
     def round_length(self, length: float) -> str:
         """A bare length of at least this [m]: 1, 2 or 5 times a power of ten in the system's unit."""
         unit, _ = self.units[LENGTH]
-        return f"{_round_up(length / Quantity(dimension=LENGTH).parse(f'1 {unit}')):g}"
-
-
-def _round_up(number: float) -> float:
-    """The least of 1, 2 or 5 times a power of ten that is not below a number above 0."""
-    power = 10.0 ** np.floor(np.log10(number))
-    return float(next(m * power for m in (1, 2, 5, 10) if m * power >= number))
+        return f"{round_up(length / Quantity(dimension=LENGTH).parse(f'1 {unit}')):g}"
 
 
 def _scaled(template: Template, units: UnitSystem) -> tuple[float, Template]:
@@ -248,7 +293,7 @@ def from_template(template: Template, name: str, units: UnitSystem) -> Plan:
     unit = "ft" if units == "field" else "m"
     hole = [aligned("stations = [", f"measured depth [{unit}], inclination and azimuth [deg]"), *rows, "]"]
     shoe, depth = scale * template.shoe, float(stations[-1, 0])
-    stiffness = stiff_wall(scaled, np.radians(stations) * [180 / np.pi, 1.0, 1.0], shoe)
+    stiffness = wall_of(scaled, np.radians(stations) * [180 / np.pi, 1.0, 1.0], shoe)
     return Plan(name, template.title, scaled, units, tuple(hole), shoe, depth, "the casing shoe", stiffness)
 
 
@@ -269,10 +314,16 @@ def from_survey(
         name_of_template = "horizontal" if steep else "build-hold"
     _, template = _scaled(TEMPLATES[name_of_template], units)
     hole = (entry("survey", path), *columns)
-    shoe, depth = sensible_shoe(stations, units), float(stations[-1, 0])
+    shoe, depth = sensible_shoe(stations, 10.0 if units == "si" else 50 * FOOT), float(stations[-1, 0])
     comment = "an assumed casing shoe, below the build: put yours"
     title = f"the well of {path} with the string of {template.title}"
-    return Plan(name, title, template, units, hole, shoe, depth, comment, stiff_wall(template, stations, shoe))
+    return Plan(name, title, template, units, hole, shoe, depth, comment, wall_of(template, stations, shoe))
+
+
+def wall_of(template: Template, stations: Array, shoe: float) -> float:
+    """Stiffness [N/m/m] of the wall for a template's string in its hole; see `stiff_wall`."""
+    parts = laid(template, shoe, float(stations[-1, 0]))
+    return stiff_wall(parts, template.mud, narrowest_of(template), stations)
 
 
 class ReadSurvey(NamedTuple):
@@ -320,44 +371,3 @@ def _lines_of(said: Choices, comment: str) -> tuple[str, ...]:
         inner = ", ".join(f"{name} = {json.dumps(text, ensure_ascii=False)}" for name, text in pairs if text)
         tables.append(f"{key} = {{{inner}}}")
     return (aligned(f"columns = {{{', '.join(tables)}}}", comment),)
-
-
-def sensible_shoe(stations: Array, units: UnitSystem) -> float:
-    """A round depth [m] at which casing may be set: where the build ends, in the middle part of the hole."""
-    depth, inclination = float(stations[-1, 0]), stations[:, 1]
-    landed = float(stations[np.argmax(inclination >= LANDED * inclination.max()), 0])
-    unit = 10.0 if units == "si" else 50 * FOOT
-    first, last = np.ceil(SHALLOWEST_SHOE * depth / unit), np.floor(DEEPEST_SHOE * depth / unit)
-    if last < max(first, 1):  # a hole too short for round depths
-        return SHALLOWEST_SHOE * depth
-    return float(np.clip(round(landed / unit), first, last) * unit)
-
-
-def stiff_wall(template: Template, stations: Array, shoe: float) -> float:
-    """A stiffness [N/m/m], 1, 2 or 5 times a power of ten: the string presses less than 1 % of its clearance into it.
-
-    The side force of a metre is tension times curvature, and weight: with the weight of the whole string, the sharpest
-    bend and the heaviest component it is the largest one without friction.
-    """
-    weight, heaviest, clearance = 0.0, 0.0, np.inf
-    narrowest = min(float(template.cased.diameter), float(template.open.diameter))
-    lengths = lengths_of(template, shoe, float(stations[-1, 0]))
-    for part, length in zip(template.string, lengths, strict=True):
-        section = section_of(_component(part), template.mud)
-        weight, heaviest = weight + section.weight * length, max(heaviest, section.weight)
-        clearance = min(clearance, 0.5 * 0.0254 * narrowest - section.contact_radius)
-    sharpest = float(mean_curvature(stations, np.linspace(0.0, stations[-1, 0], 2000)).max())
-    return _round_up((weight * sharpest + heaviest) / (0.01 * clearance))
-
-
-def lengths_of(template: Template, shoe: float, depth: float) -> list[float]:
-    """Lengths [m] of the components in a hole of a depth [m], from the bit up."""
-    lengths, above = [], depth
-    for part in template.string:
-        lengths.append(above if part.length is None else min(part.length or depth - shoe, above))
-        above -= lengths[-1]
-    return lengths
-
-
-def _component(part: Part) -> ComponentSpec:
-    return ComponentSpec.model_validate({"name": part.name, **part.keys})

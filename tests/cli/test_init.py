@@ -10,9 +10,13 @@ import pytest
 
 import fctd
 from fctd.model.templates import TEMPLATES
+from tests.case.witsml_files import DAMAGED, PIPE, geometry, objects, section
 from tests.commands import Command
 
 SURVEY = "md_ft,inc_deg,azi_deg\n" + "".join(f"{100 * k},{min(max(k - 10, 0), 60)},{40 + k % 3}\n" for k in range(101))
+METRIC = SURVEY.replace("md_ft", "md_m")
+EXAMPLES = Path(__file__).parents[2] / "examples"
+WITSML = [EXAMPLES / "my_survey.csv", "--string", EXAMPLES / "my_string.xml", "--hole", EXAMPLES / "my_hole.xml"]
 
 
 @pytest.fixture
@@ -122,6 +126,64 @@ def test_the_string_follows_the_survey(steepest: int, pipe: str, here: Path, cli
     (here / "s.csv").write_text(f"md_m,inc_deg,azi_deg\n0,0,0\n500,0,0\n1000,{steepest},0\n1500,{steepest},0\n")
     assert ("a horizontal well" in cli("init", "s.csv").out) == (steepest > 70)
     assert pipe in fctd.load_case("my_well.toml").string.components[0].name
+
+
+def test_string_and_hole_of_files(here: Path, cli: Command) -> None:
+    """What they lack is named with its line, and the commands that it names run once it is filled in."""
+    told = cli("init", *WITSML)
+    missing = re.fullmatch(
+        r"fill in: my_well\.toml: line (\d+), string\.components\[6\]\.linear_mass: its mass with tool joints, .*\n",
+        told.err,
+    )
+    assert missing is not None
+    text = (here / "my_well.toml").read_text(encoding="utf-8")
+    assert text.splitlines()[int(missing[1]) - 1].startswith('linear_mass = ""')
+    refused = cli("check", "my_well.toml", code=2).err
+    assert refused.startswith('my_well.toml: string.components[6].linear_mass = "": expected a mass per length')
+    (here / "my_well.toml").write_text(text.replace('linear_mass = ""', 'linear_mass = "49.3 lb/ft"'), encoding="utf-8")
+    assert "Fill in these lines, then: fctd check" in told.out
+    commands = [shlex.split(line.partition("fctd ")[2]) for line in told.out.splitlines() if "  fctd" in line]
+    assert [command[0] for command in commands] == ["chart", "equilibrium", "simulate"]
+    assert "143 segments" in cli("check", "my_well.toml").out
+    cli(*commands[1])
+
+
+def test_the_units_of_a_case_of_files(here: Path, cli: Command) -> None:
+    told = cli("init", *WITSML, "--units", "field", "--quiet", "-o", "field.toml")
+    assert told.out == ""
+    assert '"heavy weight drill pipe" of 492.125984 ft, has no wtPerLen' in told.err
+    assert 'diameter = "8.681 in"' in (here / "field.toml").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(("kind", "text", "message"), [row[1:] for row in DAMAGED], ids=[row[0] for row in DAMAGED])
+def test_a_damaged_file_is_refused(kind: str, text: str, message: str, here: Path, cli: Command) -> None:
+    """One message with file, element and value, exit code 2, and no case."""
+    (here / "w.xml").write_text(text, encoding="utf-8")
+    (here / "s.csv").write_text(METRIC)
+    told = cli("init", "s.csv", f"--{kind}", "w.xml", code=2)
+    assert told.err.startswith(f"w.xml: {message}")
+    assert len(told.err.splitlines()) == 1
+    assert not (here / "my_well.toml").exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--string", "s.xml"], "SURVEY is missing: expected a survey beside --string and --hole"),
+        (["s.csv", "--hole", "nowhere.xml"], "nowhere.xml: expected a WITSML wbGeometry file that can be read"),
+        (["s.csv", "--hole-name", "A"], '--hole-name = "A": expected a file of the hole beside it'),
+        (["s.csv", "--string", "s.xml"], "--string-name is missing: expected the name of one tubular of the 2"),
+        (["s.csv", "--string", "s.xml", "--string-name", "C"], '--string-name = "C": expected the name or the uid'),
+        (["s.csv", "--hole", "narrow.xml"], "--hole = "),
+    ],
+)
+def test_files_are_refused(arguments: list[str], message: str, here: Path, cli: Command) -> None:
+    string = [(name, "B", {"tubularComponent": PIPE}) for name in "AB"]
+    (here / "s.xml").write_text(objects("tubular", string), encoding="utf-8")
+    (here / "narrow.xml").write_text(geometry([section("casing", 0, 3000, 6.184)]), encoding="utf-8")
+    (here / "s.csv").write_text(METRIC)
+    assert message in cli("init", *arguments, code=2).err
+    assert not (here / "my_well.toml").exists()
 
 
 @pytest.mark.parametrize(

@@ -344,6 +344,15 @@ def test_the_message_in_the_guide_is_the_one_that_is_printed() -> None:
     assert str(refused.value).removeprefix(f"{ROOT}/examples/") in guide.splitlines()
 
 
+def test_the_blank_in_the_guide_is_the_one_that_is_named(
+    checkout: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (command,) = (command for command in commands(GUIDE) if "--string" in command)
+    run_command(command, checkout, monkeypatch)
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line in GUIDE.read_text(encoding="utf-8").splitlines()
+
+
 def test_every_note_has_its_line() -> None:
     assert set(re.findall(r"^\| `(\w+)` \| [A-Z]", (ROOT / "docs" / "steady.md").read_text(), re.MULTILINE)) == set(
         MEANINGS

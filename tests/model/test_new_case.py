@@ -12,15 +12,13 @@ from fctd.case.string import ComponentSpec
 from fctd.case.units import DENSITY, FORCE, LENGTH
 from fctd.model import layouts
 from fctd.model.drillstring import lay_out
+from fctd.model.first_runs import entry
 from fctd.model.new_case import (
     Plan,
     Quantities,
     UnitSystem,
-    entry,
     from_survey,
     from_template,
-    sensible_shoe,
-    stiff_wall,
 )
 from fctd.model.operations import rates_of_all
 from fctd.model.section import section_of
@@ -113,33 +111,6 @@ def test_a_softer_wall_would_be_penetrated_further() -> None:
     point = Solver(soft).solve("trip_out", rates_of_all(soft, ["trip_out"])["trip_out"], soft.depths[1])
     clearance = point._shape.walls.radius - point._shape.radius
     assert ((np.linalg.norm(point._shape.walls.offset, axis=1) - clearance) / clearance).max() > 0.01
-
-
-def test_the_wall_of_a_hanging_string_by_hand() -> None:
-    """Straight hole: the weight of a metre of pipe over a hundredth of its clearance, rounded up to 1, 2 or 5."""
-    template = TEMPLATES["casing-run"]
-    straight = np.array([[0.0, 0.0, 0.0], [1000.0, 0.0, 0.0]])
-    weight = 47 * 0.4536 / 0.3048 * 9.81 * (1 - template.mud / 7850)
-    clearance = 0.5 * 0.0254 * (12.25 - 10.625)
-    needed = weight / (0.01 * clearance)
-    assert needed == pytest.approx(2.8e6, rel=0.02)
-    assert stiff_wall(template, straight, 500.0) == 5e6
-
-
-@pytest.mark.parametrize(
-    ("stations", "shoe"),
-    [
-        ([(0, 0), (500, 0), (1230, 60), (3000, 60)], 1230.0),  # where the build ends
-        ([(0, 0), (500, 0), (800, 60), (3000, 60)], 1200.0),  # not above 40 %
-        ([(0, 0), (500, 0), (2800, 60), (3000, 60)], 2100.0),  # not below 70 %
-        ([(0, 0), (2000, 0)], 800.0),  # vertical
-        ([(0, 0), (8, 3)], 3.2),  # too short for a round depth
-    ],
-)
-def test_the_shoe_of_a_survey(stations: list[tuple[float, float]], shoe: float) -> None:
-    array = np.array([(md, np.radians(inc), 0.0) for md, inc in stations])
-    assert sensible_shoe(array, "si") == pytest.approx(shoe)
-    assert (sensible_shoe(array, "field") / 0.3048) % 50 == pytest.approx(0, abs=1e-6) or stations[-1][0] < 50
 
 
 @BOTH

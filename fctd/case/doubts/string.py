@@ -9,13 +9,12 @@ import numpy as np
 from fctd.case.doubts.usual import Doubts
 from fctd.case.hole import WellboreSpec
 from fctd.case.input_warnings import InputWarning
-from fctd.case.pipes.catalogue import pipe_named
+from fctd.case.pipes.catalogue import SAME_DIAMETER, pipe_named
 from fctd.case.pipes.filling import lacks_joints
 from fctd.case.rig import MudSpec
 from fctd.case.string import ComponentSpec, StringSpec
 
 LIGHT, HEAVY = 0.85, 2.5  # mass over that of the pipe body: spiral collars have 0.95, tool joints add up to 0.6
-SAME_DIAMETER: Final = 1e-4  # [m], a rounded diameter
 IN_GAUGE: Final = 0.9  # of the hole's diameter: a bit that drilled the hole, or runs in it
 
 

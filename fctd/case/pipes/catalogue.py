@@ -9,7 +9,7 @@ import difflib
 import math
 import re
 from collections.abc import Iterator
-from functools import cache
+from functools import cache, partial
 from importlib.resources import files
 from itertools import product
 from typing import Final, NamedTuple
@@ -22,6 +22,7 @@ INCH, FOOT, POUND = 0.0254, 0.3048, 0.45359237
 # Yield strength of collars up to this diameter [in], and of wider ones (API Spec 7-1, source "victor").
 SMALL_COLLAR, COLLAR_STRENGTH, WIDE_COLLAR_STRENGTH = 6.875, 110 * KSI, 100 * KSI
 NAMED: Final = 4  # pipes that a refusal names
+SAME_DIAMETER: Final = 1e-4  # [m], a rounded diameter
 
 
 class Source(NamedTuple):
@@ -101,6 +102,12 @@ def pipe_named(text: str) -> Pipe:
     if name.wall_share != 1.0 and found[0].kind != DRILL_PIPE:
         raise InputError(f"{found[0].name} without a class or wear, which drill pipe alone has", value=text)
     return of_grade(found[0], name.grade)._replace(wall_share=name.wall_share)
+
+
+def pipes_of_size(kind: str, outer: float, inner: float) -> list[Pipe]:
+    """The pipes of a kind whose nominal body has these diameters [m], within a tenth of a millimetre."""
+    near = partial(math.isclose, rel_tol=0.0, abs_tol=SAME_DIAMETER)
+    return [pipe for pipe in catalogue() if pipe.kind == kind and near(pipe.outer, outer) and near(pipe.inner, inner)]
 
 
 def of_grade(pipe: Pipe, grade: str | None) -> Pipe:

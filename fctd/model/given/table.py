@@ -1,0 +1,70 @@
+"""A table of a new case with what a file gives, and with blanks where it gives nothing that can be used."""
+
+import textwrap
+from typing import Final, Literal
+
+from fctd.case.units import ANGLE, AREA, LENGTH, LINEAR_MASS, STRESS, Dimension, Quantity
+from fctd.model.first_runs import aligned, entry
+from fctd.model.new_case import FILL_IN, WIDEST, Blank, Block, UnitSystem
+
+Measure = Literal["length", "diameter", "mass", "stress", "area", "angle"]
+# How each is written.
+_UNITS: Final[dict[Measure, tuple[Dimension, dict[UnitSystem, str]]]] = {
+    "length": (LENGTH, {"si": "m", "field": "ft"}),
+    "diameter": (LENGTH, {"si": "mm", "field": "in"}),
+    "mass": (LINEAR_MASS, {"si": "kg/m", "field": "lb/ft"}),
+    "stress": (STRESS, {"si": "MPa", "field": "ksi"}),
+    "area": (AREA, {"si": "mm^2", "field": "in^2"}),
+    "angle": (ANGLE, {"si": "deg", "field": "deg"}),
+}
+
+
+class Writer:
+    """Writes SI values in the units of a system, with nine digits: files have them with the noise of a conversion."""
+
+    def __init__(self, units: UnitSystem) -> None:
+        self.system = units
+
+    def __call__(self, measure: Measure, value: float) -> str:
+        dimension, units = _UNITS[measure]
+        unit = units[self.system]
+        return f"{value / Quantity(dimension=dimension).parse(f'1 {unit}'):.9g} {unit}"
+
+
+class GivenTable:
+    """The lines of a table, and its blanks.
+
+    key : of the table in the case, such as "string.components[0]"; file : that gives it.
+    """
+
+    def __init__(self, heading: str, comment: str, key: str, file: str, write: Writer) -> None:
+        self._lines, self._key, self._file, self._write = [aligned(heading, comment)], key, file, write
+        self.blanks: list[Blank] = []
+
+    @property
+    def block(self) -> Block:
+        """The lines."""
+        return tuple(self._lines)
+
+    def text(self, key: str, text: str, comment: str = "") -> None:
+        """A line with a text."""
+        self._lines.append(entry(key, text, comment))
+
+    def line(self, line: str, comment: str = "") -> None:
+        """A line as it is."""
+        self._lines.append(aligned(line, comment))
+
+    def value(self, key: str, measure: Measure, value: float, comment: str = "") -> None:
+        """A line with a quantity, of which the SI value is given."""
+        self.text(key, self._write(measure, value), comment)
+
+    def blank(self, key: str, expected: str, found: str) -> None:
+        """A key to be filled in, below a comment that says what to write and what the file has."""
+        blank = Blank(f"{self._key}.{key}", expected, f"{self._file}: {found}")
+        self.blanks.append(blank)
+        self.remark(f"Fill in {blank}.")
+        self._lines.append(aligned(f'{key} = ""', FILL_IN))
+
+    def remark(self, text: str) -> None:
+        """Lines of comment."""
+        self._lines += textwrap.wrap(text, WIDEST, initial_indent="# ", subsequent_indent="# ")
