@@ -209,6 +209,11 @@ class Case(Table):
         """
         return self._written.bare_lengths
 
+    @property
+    def written(self) -> Mapping[str, Any]:
+        """The tables as the user wrote them, without stations; of a case from no file those that were given."""
+        return self._written.raw or self.model_dump(exclude_unset=True, exclude={"file"})
+
     def quoting(self, error: InputError) -> InputError:
         """The error with the value as the user wrote it, where the error is about a key that he wrote."""
         others = (".contact_diameter", ".joint.tool_joint_diameter", ".pipe", ".outer_diameter")

@@ -12,14 +12,13 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
-from fctd.case.load import Case
 from fctd.plots import labels
 from fctd.plots.curves import BAND, CUT, MEASURED_LOOK, OPEN, RANGE_ALONE, draw_curve, draw_points
 from fctd.plots.describe import describe
 from fctd.plots.description import DepthAxis, Description, Group, Mark, Panel
 from fctd.plots.facts import heading_of_chart
 from fctd.plots.limit_lines import WIDTH as LIMIT_WIDTH
-from fctd.plots.loads import PLAIN, ChartLook
+from fctd.plots.loads import PLAIN, ChartLook, Compared
 from fctd.plots.palette import DARK, LOOKS, QUIET
 from fctd.plots.strip import LANE, draw_strip, state_handles
 from fctd.plots.style import POINTS, RC, SMALL, Sheet, line_style
@@ -40,16 +39,14 @@ SHOE: dict[str, Any] = {"color": QUIET, "linewidth": 0.9, "linestyle": (0, (1, 2
 LEADER: dict[str, Any] = {"color": QUIET, "linewidth": 0.6, "zorder": 1.4, "clip_on": False}
 
 
-def chart_figure(
-    chart: pd.DataFrame, units: System = "si", case: Case | None = None, look: ChartLook = PLAIN
-) -> Figure:
+def chart_figure(chart: pd.DataFrame, units: System = "si", case: Compared = None, look: ChartLook = PLAIN) -> Figure:
     """Load and torque against bit depth: a curve for each operation and set of friction factors.
 
     chart : of ``fctd.torque_drag``, SI.  case : for title, casing shoes, mud, loads at the bit and block weight, with
-    which the loads are those of the weight indicator.
+    which the loads are those of the weight indicator; of a table with a column ``case`` the charts by its names.
 
-    A colour is an operation, a dash a set of friction factors; factors that make no difference share a curve.  More
-    than ``MOST_CURVES`` series are drawn in groups.  A strip says where strings are buckled, and which rows are not
+    A colour is an operation, or a case where there are several, a dash a set of friction factors; factors that make no
+    difference share a curve.  More than ``MOST_CURVES`` series are drawn in groups.  A strip says where strings are buckled, and which rows are not
     ``converged``; a cross marks a row without loads, a band the loads of both shapes of a resolved string.  Where a
     string is locked up, loads at which slack-off is spent are hatched, and larger pushes, with which the axis would
     show nothing else, have triangles at its edge.
@@ -62,7 +59,7 @@ def chart_figure(
         step, height = layout.step, layout.above + layout.height + layout.below(levels)
         total = -(-len(pairs) // across) * height
         handles = _handles(described, style)
-        sheet = Sheet(step * across, total, *heading_of_chart(chart, units, case, look.rates, look.warnings), handles)
+        sheet = Sheet(step * across, total, *heading_of_chart(chart, units, case, look), handles)
         for k, pair in enumerate(pairs):
             pair.draw(sheet, k % across * step + LEFT, k // across * height + layout.above)
         return sheet.figure
@@ -232,7 +229,8 @@ def _handles(described: Description, style: str) -> list[Artist]:
     curves, lanes = described.curves, [lane for group in described.groups for lane in group.lanes]
     panels = [panel for group in described.groups for panel in group.panels]
     dashed = any(not key.marker for key in described.keys)
-    keys = [key for key in described.keys if not style or (style == STYLES[-1] and dashed and key.marker)]
+    told = style and not described.compared
+    keys = [key for key in described.keys if not told or (style == STYLES[-1] and dashed and key.marker)]
     handles: list[Artist] = [
         Line2D([], [], color=key.colour, marker=key.marker, linestyle=line_style(key.dash), markersize=4.5,
                label=key.name)

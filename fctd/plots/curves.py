@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 
 from fctd.plots.description import Curve, Points
 from fctd.plots.palette import BUCKLED, EDGE, LOOKS, MEASURED
-from fctd.plots.style import LOST, line_style
+from fctd.plots.style import LOST, RC, line_style
 
 # Rows that are answers with care, or locked up, have an open marker.
 OPEN: dict[str, Any] = {"linestyle": "none", "markerfacecolor": "white", "markersize": 5.5, "markeredgewidth": 1.2}
@@ -44,8 +44,9 @@ def draw_curve(ax: Axes, curve: Curve) -> None:
                 ax.plot(np.where(at, line, np.nan), depth, **look)
     spread = np.flatnonzero(curve.marks).tolist()
     ax.plot(
-        line, depth, color=colour, linestyle=line_style(curve.dash), marker=marker, markevery=spread, markersize=4.5
-    )
+        line, depth, color=colour, linestyle=line_style(curve.dash), marker=marker, markevery=spread, markersize=4.5,
+        linewidth=curve.width * RC["lines.linewidth"],
+    )  # fmt: skip
     care = curve.care
     if care.any():
         ax.plot(line[care], depth[care], color=colour, marker=marker, **OPEN)

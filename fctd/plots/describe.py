@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -19,16 +19,19 @@ from fctd.plots.loads import (
     PLAIN,
     TORQUE,
     ChartLook,
+    Compared,
     as_load,
+    cases_of,
     groups_of,
     limits_of_load,
     limits_of_torque,
     measured_columns,
     spent_at,
 )
-from fctd.plots.palette import BUCKLED, DASHES, LOOKS, QUIET, SOLID
+from fctd.plots.palette import BUCKLED, CASES, DASHES, LOOKS, QUIET, SOLID
 from fctd.results.columns import DEPTH
-from fctd.results.series import Chart, Series, frictions_of, series_of
+from fctd.results.differences import in_a_row
+from fctd.results.series import Chart, Series, frictions_of, has_fan, series_of
 from fctd.results.status import SteadyStatus
 from fctd.results.unit_systems import System, reworded, shown
 
@@ -44,17 +47,21 @@ AIR: Final = 0.02  # of the span of depths, above and below them
 # Where rows stand that have no place on their line: from the left edge of the axis, for the first curve, and from curve
 # to curve, in shares of the axis.
 EDGE, APART = 0.015, 0.025
+WIDEST, NARROWEST = 2.2, 0.9  # lines of the first and the last case, so that one below another is seen
 
 
-def describe(chart: Chart, units: System = "si", case: Case | None = None, look: ChartLook = PLAIN) -> Description:
+def describe(chart: Chart, units: System = "si", case: Compared = None, look: ChartLook = PLAIN) -> Description:
     """The description of a chart; the arguments are those of ``chart_figure``."""
-    load, measured, series = look.load_of(case), look.measured, series_of(chart, units)
-    frictions = frictions_of(series)
+    cases, measured, series = cases_of(case), look.measured, series_of(chart, units)
+    load, names = look.load_of(cases), list(dict.fromkeys(one.case for one in series))
+    if len(names) > len(CASES):
+        raise InputError(f"at most {len(CASES)} cases in a picture", key="cases", value=len(names))
+    frictions, fan, several = frictions_of(series), has_fan(series), len({one.operation for one in series}) > 1
     columns = LOAD_COLUMNS[load], TORQUE
-    lines = [limit_lines(look.margins, case, load, column) for column in columns]
+    lines = [limit_lines(look.margins, cases.get(""), load, column) for column in columns]
     values = [[line.value for line in of] for of in lines]
     limits = (
-        limits_of_load(series, case, load, units, measured, values[0]),
+        limits_of_load(series, cases, load, units, measured, values[0]),
         limits_of_torque(series, units, measured, values[1]),
     )
     metre = shown(DEPTH.name, units)
@@ -75,15 +82,17 @@ def describe(chart: Chart, units: System = "si", case: Case | None = None, look:
             reasons = {text: reworded(str(text), units) for text in dict.fromkeys(one.columns["reason"])}
             rows, none = one.columns, np.full(len(one.columns[column]), np.nan)
             ends = (none, none) if k else (rows[end] for end in ("hookload_low_N", "hookload_high_N"))
-            low, high = (as_load(case, one.operation, end, load) * unit.factor for end in ends)
+            low, high = (as_load(cases[one.case], one.operation, end, load) * unit.factor for end in ends)
             edge = limits[k].low + (EDGE + APART * at) * (limits[k].high - limits[k].low)
-            dash = DASHES[frictions.index(one.friction) % len(DASHES)] if factors or len(of) == 1 else SOLID
+            dash = DASHES[frictions.index(one.friction) % len(DASHES)] if fan and (factors or len(of) == 1) else SOLID
+            name, (colour, width) = _name(one, factors, group), _look(one, names)
+            key = one.case or (KINDS[one.operation].label if several else name.full)
             curves.append(
                 Curve(
-                    one.operation, one.friction, _name(one.operation, factors, group), dash, lanes.get(of[0], 0),
+                    one.operation, one.friction, name, dash, lanes.get(of[0], 0),
                     rows[DEPTH.name] * metre.factor, rows[column] * unit.factor,
                     low, high, rows["status"].astype(str), rows["buckling"].astype(str),
-                    np.array([reasons[text] for text in rows["reason"]]), limits[k], edge, bool(k),
+                    np.array([reasons[text] for text in rows["reason"]]), limits[k], edge, bool(k), key, colour, width,
                 )
             )  # fmt: skip
         return Panel(
@@ -93,7 +102,7 @@ def describe(chart: Chart, units: System = "si", case: Case | None = None, look:
                 line._replace(depth=line.depth * metre.factor, value=line.value * unit.factor)
                 for line in lines[k] if line.operation in kinds
             ),
-            spent_at(case, load) * unit.factor if limits[k].cut and not k else None,
+            spent_at(cases, load) * unit.factor if limits[k].cut and not k else None,
         )  # fmt: skip
 
     described = []
@@ -101,7 +110,8 @@ def describe(chart: Chart, units: System = "si", case: Case | None = None, look:
         lanes, number_of = _lanes(group, metre.factor)
         described.append(Group(name, (panel(columns[0], group, number_of), panel(TORQUE, group, number_of)), lanes))
     depth = _depth_axis(series, measured, metre.factor, metre.label)
-    return Description(depth, _marks(case, depth, metre.factor), tuple(described), tuple(_keys(series, frictions)))
+    keys = _keys(series, frictions) if names == [""] else _keys_of_cases(series, names, frictions if fan else [])
+    return Description(depth, _marks(cases, depth, metre.factor), tuple(described), tuple(keys), names != [""])
 
 
 def _distinct(group: list[Series], column: str, span: float) -> list[list[int]]:
@@ -118,22 +128,33 @@ def _distinct(group: list[Series], column: str, span: float) -> list[list[int]]:
 
 def _same(one: Series, other: Series, column: str, most: float) -> bool:
     names = DEPTH.name, "status", "buckling"
-    if one.operation != other.operation or not all(np.array_equal(one.columns[n], other.columns[n]) for n in names):
+    if one[:2] != other[:2] or not all(np.array_equal(one.columns[n], other.columns[n]) for n in names):
         return False
     return np.allclose(one.columns[column], other.columns[column], rtol=0.0, atol=most, equal_nan=True)
 
 
 def _factors(of: list[Series], group: list[Series]) -> str:
     """The friction factors of a curve that draws some series of a group; empty where they make no difference."""
-    same = [one for one in group if one.operation == of[0].operation]
-    if len({one.friction for one in group}) == 1 or (len(of) > 1 and len(of) == len(same)):
+    same = [one for one in group if one[:2] == of[0][:2]]
+    if len({one.friction for one in group}) == 1 or (len(of) == len(same) and (len(of) > 1 or of[0].case)):
         return ""
     return f"μ {' and '.join(one.friction for one in of)}"
 
 
-def _name(kind: str, factors: str, group: list[Series]) -> Name:
+def _look(one: Series, names: list[str]) -> tuple[str, float]:
+    """Colour and width of a curve; names : of all cases."""
+    if not one.case:
+        return LOOKS[one.operation][0], 1.0
+    at = names.index(one.case)
+    return CASES[at], WIDEST + (NARROWEST - WIDEST) * at / max(len(names) - 1, 1)
+
+
+def _name(one: Series, factors: str, group: list[Series]) -> Name:
     """The name of a curve of a group."""
-    label = KINDS[kind].label
+    kind, label = one.operation, KINDS[one.operation].label
+    if one.case:  # marker and legend tell the operation
+        short = ", ".join(filter(None, [one.case, factors]))
+        return Name(", ".join(filter(None, [one.case, SHORT.get(kind, label), factors])), short, factors or one.case)
     several = len({one.operation for one in group}) > 1 or not factors
     full, short = (
         ", ".join(filter(None, [word if several else "", factors])) for word in (label, SHORT.get(kind, label))
@@ -190,7 +211,20 @@ def _depth_axis(series: list[Series], measured: pd.DataFrame | None, factor: flo
     return DepthAxis(f"{DEPTH.label}, {unit}", unit, top, bottom, top - air, bottom + air)
 
 
-def _marks(case: Case | None, depth: DepthAxis, factor: float) -> tuple[Mark, ...]:
+def _marks(cases: Mapping[str, Case | None], depth: DepthAxis, factor: float) -> tuple[Mark, ...]:
+    """The marks of all cases from the top; one that not all of them have says whose it is."""
+    owners: dict[Mark, list[str]] = {}
+    for name, case in cases.items():
+        for mark in _marks_of(case, depth, factor):
+            owners.setdefault(mark, []).append(name)
+    marks = [
+        mark if len(of) == len(cases) else mark._replace(lines=(f"{', '.join(mark.lines)}: {in_a_row(of)}",))
+        for mark, of in owners.items()
+    ]
+    return tuple(sorted(marks, key=lambda mark: mark.depth))
+
+
+def _marks_of(case: Case | None, depth: DepthAxis, factor: float) -> tuple[Mark, ...]:
     """The ends of the intervals that are shoes or have names, from the top; that of the last lies at the last depth."""
     if case is None:
         return ()
@@ -217,3 +251,11 @@ def _keys(series: list[Series], frictions: list[str]) -> list[Key]:
     if len(frictions) > 1:
         keys += [Key(f"μ {friction}", QUIET, "", DASHES[k % len(DASHES)]) for k, friction in enumerate(frictions)]
     return keys
+
+
+def _keys_of_cases(series: list[Series], names: list[str], frictions: list[str]) -> list[Key]:
+    """What the colours of cases, the markers of operations and the dashes of factors stand for."""
+    kinds = dict.fromkeys(one.operation for one in series)
+    keys = [Key(name, CASES[k], "", SOLID) for k, name in enumerate(names)]
+    keys += [Key(KINDS[kind].label, QUIET, LOOKS[kind][1], SOLID) for kind in kinds if len(kinds) > 1]
+    return keys + [Key(f"μ {friction}", QUIET, "", DASHES[k % len(DASHES)]) for k, friction in enumerate(frictions)]

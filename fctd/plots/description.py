@@ -47,7 +47,8 @@ class Curve:
 
     lane : number of its lane in the strip of states, 0 without one.  value : NaN without loads; low, high : of both
     shapes, NaN where they do not differ.  status, modes, reasons : texts of each row.  edge : where rows stand that
-    have no place on the line.
+    have no place on the line.  key : its name in the legend, where several curves may share one.  colour : of its
+    operation, or of its case among several; width : of its line, in that of other lines.
     """
 
     operation: str
@@ -65,11 +66,14 @@ class Curve:
     limits: Limits
     edge: float
     torque: bool
+    key: str
+    colour: str
+    width: float = 1.0
 
     @property
     def look(self) -> tuple[str, str]:
         """Colour and marker."""
-        return LOOKS[self.operation]
+        return self.colour, LOOKS[self.operation][1]
 
     @cached_property
     def locked(self) -> Flags:
@@ -218,12 +222,16 @@ class Mark(NamedTuple):
 
 @dataclass(frozen=True)
 class Description:
-    """A chart: axis of depths, ends of intervals, groups of panels, and what the looks of its curves stand for."""
+    """A chart: axis of depths, ends of intervals, groups of panels, and what the looks of its curves stand for.
+
+    compared : whether it has several cases.
+    """
 
     depth: DepthAxis
     marks: tuple[Mark, ...]
     groups: tuple[Group, ...]
     keys: tuple[Key, ...]
+    compared: bool = False
 
     @property
     def curves(self) -> list[Curve]:

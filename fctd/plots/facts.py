@@ -10,6 +10,8 @@ from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.case.units import conversion
 from fctd.model.operations import SteadyRates, rad_per_s, rates_of_all
+from fctd.plots.loads import ChartLook, Compared
+from fctd.results.differences import in_a_row
 from fctd.results.notes import meanings_of, worst
 from fctd.results.profile import place_in_words
 from fctd.results.series import frictions_of, in_words, series_of
@@ -48,25 +50,24 @@ def facts_of(
     return facts
 
 
-def heading_of_chart(
-    chart: pd.DataFrame,
-    units: System,
-    case: Case | None,
-    rates: Mapping[str, SteadyRates] | None,
-    warnings: Sequence[str],
-) -> tuple[str, list[str]]:
-    """Title of a chart, and the lines below it, the first of facts."""
+def heading_of_chart(chart: pd.DataFrame, units: System, case: Compared, look: ChartLook) -> tuple[str, list[str]]:
+    """Title of a chart, and the lines below it, the first of facts, which are those of all cases among several."""
     series = series_of(chart, units)
     kinds, frictions = list(dict.fromkeys(one.operation for one in series)), frictions_of(series)
-    words = [] if case is None else [case.name]
+    if isinstance(case, Mapping):
+        words = [in_a_row(list(case))]
+        all_facts = [facts_of(of.case, kinds, units, of.rates) for of in case.values()]
+    else:
+        words = [] if case is None else [case.name]
+        all_facts = [] if case is None else [facts_of(case, kinds, units, look.rates)]
+    facts = [fact for fact in all_facts[0] if all(fact in of for of in all_facts)] if all_facts else []
     words += [KINDS[kinds[0]].label] if len(kinds) == 1 else []
     words += [in_words(frictions[0])] if len(frictions) == 1 else []
-    facts = "" if case is None else "; ".join(facts_of(case, kinds, units, rates))
     notes = [
         f"note {code}: {found['headline']}: {found['remedy']}"
         for code, found in meanings_of(chart.get("notes", ())).items()
     ]
-    return "; ".join(words), [facts, *_told(warnings), *notes]
+    return "; ".join(words), ["; ".join(facts), *look.told, *_told(look.warnings), *notes]
 
 
 def heading_of_profile(

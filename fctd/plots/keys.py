@@ -1,14 +1,10 @@
 """Keys of a case in words, with their units, for the axes of pictures."""
 
-import types
-from collections.abc import Iterator
 from itertools import pairwise
-from typing import Any, Final, Union, get_args, get_origin
+from typing import Final
 
-from fctd.case.errors import Table
-from fctd.case.load import Case
+from fctd.case.key_quantities import unit_of
 from fctd.case.raw_case import split_key
-from fctd.case.units import Quantity
 
 # Names whose words are others than their own.
 WORDS: Final = {
@@ -52,35 +48,3 @@ def labelled(key: str, unit: str) -> str:
     for sign, shown in SIGNS.items():
         written = written.replace(sign, shown)
     return f"{in_words(key)}, {written}" if written else in_words(key)
-
-
-def unit_of(key: str) -> str:
-    """The unit of a bare number in a key of the case, "" of a number without one."""
-    found: set[str] = set()
-    _look(Case, [part for part in split_key(key) if isinstance(part, str)], found)
-    return found.pop() if len(found) == 1 else ""
-
-
-def _look(model: type[Table], names: list[str], found: set[str]) -> None:
-    """Add the units of the fields that a path of names leads to."""
-    field = model.model_fields.get(names[0])
-    if field is None:
-        return
-    for annotation in (field.annotation, *field.metadata):
-        for part in _parts(annotation):
-            if isinstance(part, Quantity) and len(names) == 1:
-                found.add(part.dimension.unit)
-            elif isinstance(part, type) and issubclass(part, Table) and len(names) > 1:
-                _look(part, names[1:], found)
-
-
-def _parts(annotation: Any) -> Iterator[Any]:
-    """The types and the constraints that an annotation is made of."""
-    if hasattr(annotation, "__metadata__"):
-        yield from annotation.__metadata__
-        yield from _parts(get_args(annotation)[0])
-    elif get_origin(annotation) in (Union, types.UnionType, tuple):
-        for argument in get_args(annotation):
-            yield from _parts(argument)
-    else:
-        yield annotation

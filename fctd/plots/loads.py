@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final, Literal, NamedTuple
+from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,14 +14,18 @@ from fctd.calibration.measured import measured_column
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.model.operations import SteadyRates, weight_indicator
-from fctd.results.series import Series, frictions_of, in_words
+from fctd.results.series import Series, frictions_of, has_fan, in_words
 from fctd.results.status import SteadyStatus
 from fctd.results.unit_systems import System, shown
 
 if TYPE_CHECKING:
     import pandas as pd
 
+    from fctd.steady.chart import Chart
+
 Load = Literal["string", "indicator"]
+# The case of a chart, or the charts of the cases that its column ``case`` names.
+Compared: TypeAlias = "Case | Mapping[str, Chart] | None"
 
 LOAD_COLUMNS: Final[dict[Load, str]] = {"string": "hookload_N", "indicator": "weight_indicator_N"}
 NAMES: Final = {
@@ -45,8 +49,9 @@ class ChartLook:
     """What a chart shows beside its rows, in a picture and on a page.
 
     load : hook load of the string, or the reading of the weight indicator; by default that of ``usual_load``.
-    rates : of the operations, else the case's own.  measured : of ``read_measured``.  warnings : lines below the title,
-    before the notes of the chart.  margins : of ``margin_table``, whose limits are drawn as lines.
+    rates : of the operations, else the case's own.  measured : of ``read_measured``.  told : lines below the facts;
+    warnings : lines below these, before the notes of the chart.  margins : of ``margin_table``, whose limits are drawn
+    as lines.
     """
 
     load: Load | None = None
@@ -54,13 +59,19 @@ class ChartLook:
     measured: pd.DataFrame | None = None
     warnings: Sequence[str] = ()
     margins: pd.DataFrame | None = None
+    told: Sequence[str] = ()
 
-    def load_of(self, case: Case | None) -> Load:
-        """The load that a chart of a case shows."""
-        return self.load or usual_load([] if case is None else [case])
+    def load_of(self, cases: Mapping[str, Case | None]) -> Load:
+        """The load that a chart of cases shows."""
+        return self.load or usual_load([case for case in cases.values() if case is not None])
 
 
 PLAIN: Final = ChartLook()
+
+
+def cases_of(case: Compared) -> dict[str, Case | None]:
+    """The cases of a chart by the names of their series: "" of one alone."""
+    return {name: chart.case for name, chart in case.items()} if isinstance(case, Mapping) else {"": case}
 
 
 class Limits(NamedTuple):
@@ -74,10 +85,13 @@ class Limits(NamedTuple):
 def groups_of(series: list[Series]) -> list[tuple[str, list[Series]]]:
     """The series in groups of at most ``MOST_CURVES``, with a heading each; a lone group has none.
 
-    A group has one set of friction factors or one operation, whichever gives fewer groups.
+    A group has one set of friction factors or one operation, whichever gives fewer groups; of several cases it has all,
+    and where these are too many curves one set of one operation.
     """
     if len(series) <= MOST_CURVES:
         return [("", series)]
+    if any(one.case for one in series):
+        return _groups_of_cases(series)
     by_friction = [(in_words(name), [s for s in series if s.friction == name]) for name in frictions_of(series)]
     by_operation = []
     for kind in dict.fromkeys(s.operation for s in series):
@@ -89,6 +103,18 @@ def groups_of(series: list[Series]) -> list[tuple[str, list[Series]]]:
             words = label if len(same) <= MOST_CURVES else f"{label}, μ {part[0].friction} to {part[-1].friction}"
             by_operation.append((words, part))
     return by_operation if len(by_operation) < len(by_friction) else by_friction
+
+
+def _groups_of_cases(series: list[Series]) -> list[tuple[str, list[Series]]]:
+    ways: list[dict[str, list[Series]]] = [{}, {}, {}]
+    for one in series:
+        operation, friction = KINDS[one.operation].label, in_words(one.friction)
+        for way, words in zip(ways, (operation, friction, f"{operation}, {friction}"), strict=True):
+            way.setdefault(words, []).append(one)
+    if not has_fan(series):
+        return list(ways[0].items())  # each case has its own factors
+    fitting = [way for way in ways if max(map(len, way.values())) <= MOST_CURVES]
+    return list(min(fitting or ways[-1:], key=len).items())
 
 
 def usual_load(cases: Sequence[Case]) -> Load:
@@ -120,14 +146,14 @@ def as_load(case: Case | None, kind: str, hookload: Array, load: Load) -> Array:
     return np.array([weight_indicator(case.rig, KINDS[kind].direction, float(value)) for value in hookload])
 
 
-def spent_at(case: Case | None, load: Load) -> float:
-    """The load [N] at which slack-off is spent: nothing but the block pulls the string down."""
-    return -push_of(case) if load == "string" else 0.0
+def spent_at(cases: Mapping[str, Case | None], load: Load) -> float:
+    """The load [N] at which slack-off is spent in every case: nothing but the block pulls the string down."""
+    return -max(map(push_of, cases.values())) if load == "string" else 0.0
 
 
 def limits_of_load(
-    series: Sequence[Series], case: Case | None, load: Load, units: System, measured: pd.DataFrame | None,
-    lines: Sequence[Array] = (),
+    series: Sequence[Series], cases: Mapping[str, Case | None], load: Load, units: System,
+    measured: pd.DataFrame | None, lines: Sequence[Array] = (),
 ) -> Limits:  # fmt: skip
     """Limits of the axis of hook loads; the pushes of locked-up strings do not set them.
 
@@ -137,17 +163,16 @@ def limits_of_load(
     visible = [*_free(series, column), *_measured(measured, column), *lines]
     for end in ("hookload_low_N", "hookload_high_N"):
         for one, values in zip(series, _free(series, end), strict=True):
-            visible.append(as_load(case, one.operation, values[np.isfinite(values)], load))
+            visible.append(as_load(cases[one.case], one.operation, values[np.isfinite(values)], load))
     locked = any(_locked(one).any() for one in series)
     if locked:
-        visible.append(np.array([spent_at(case, load)]))
+        visible.append(np.array([spent_at(cases, load)]))
         # A chart of nothing but pushes shows the least of them.
         shown_loads, every = _finite(visible), _finite([one.columns[column] for one in series])
         if np.ptp(shown_loads) == 0 and len(every):
             visible.append(every.max(keepdims=True))
-    largest = max(
-        _largest(series, ["hookload_N"]), case.rig.block_weight if case is not None and load == "indicator" else 0.0
-    )
+    blocks = [case.rig.block_weight for case in cases.values() if case is not None and load == "indicator"]
+    largest = max(_largest(series, ["hookload_N"]), *blocks, 0.0)
     return _span(visible, LEAST_SHARE * largest, shown(column, units).factor, cut=locked)
 
 

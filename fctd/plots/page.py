@@ -13,11 +13,10 @@ import plotly.graph_objects as go
 from numpy.typing import NDArray
 from plotly.subplots import make_subplots
 
-from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.plots.describe import describe
 from fctd.plots.facts import heading_of_chart, heading_of_profile
-from fctd.plots.loads import PLAIN, ChartLook
+from fctd.plots.loads import PLAIN, ChartLook, Compared
 from fctd.plots.palette import EDGE, LOOKS, QUIET
 from fctd.plots.traces import SHOE, SYMBOLS, TITLE, buckled, layout_of, plain, traces_of
 from fctd.plots.tracks import TRACKS, SideForce, depth_ends, label_of, limits_near, limits_of_track, peaks_of, values_of
@@ -62,13 +61,11 @@ def save_page(figure: go.Figure, path: Path) -> list[Path]:
     return [path]
 
 
-def chart_page(
-    chart: pd.DataFrame, units: System = "si", case: Case | None = None, look: ChartLook = PLAIN
-) -> go.Figure:
+def chart_page(chart: pd.DataFrame, units: System = "si", case: Compared = None, look: ChartLook = PLAIN) -> go.Figure:
     """The chart of ``chart_figure`` as a page, with the same arguments; the pointer shows each row with its reason."""
     described = describe(chart, units, case, look)
     figure = go.Figure(traces_of(described), layout_of(described))
-    title, lines = heading_of_chart(chart, units, case, look.rates, look.warnings)
+    title, lines = heading_of_chart(chart, units, case, look)
     over = TITLE + (GROUP if len(described.groups) > 1 else 0)
     return with_heading(figure, title, lines, PANEL * len(described.groups), over)
 

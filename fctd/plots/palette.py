@@ -30,6 +30,8 @@ LOOKS: Final = _OWN_LOOKS | {kind: (DARK, "p") for kind in KINDS if kind not in 
 BUCKLED: Final = dict(zip(buckling.BUCKLED, ("#f0f0f0", "#c6c6c6"), strict=True))
 EDGE = "#8a8a8a"
 MEASURED = "#ffe04d"  # of the faces of measured points
+# Of the cases of a comparison.
+CASES: Final = tuple(PALETTE.values())
 # Dashes, drawn and left out in turn, in widths of a line.
 Dash = tuple[float, ...]
 SOLID: Final[Dash] = ()

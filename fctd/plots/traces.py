@@ -33,12 +33,11 @@ LINE, LONGEST = 60, 300  # characters of a line and of a text under the pointer
 
 def traces_of(described: Description) -> list[Trace]:
     """The traces of a chart, first those of the legend, which has each name once."""
-    several = len({curve.operation for curve in described.curves}) > 1
     found, names = [_key(key) for key in described.keys], set[str]()
     panels = [panel for group in described.groups for panel in group.panels]
     for k, panel in enumerate(panels, start=1):
         axes = {"xaxis": f"x{k if k > 1 else ''}", "yaxis": f"y{k if k > 1 else ''}"}
-        for trace in _panel(panel, several=several):
+        for trace in _panel(panel):
             name = trace["name"]
             new = "showlegend" not in trace and name not in names
             names.add(name)
@@ -112,10 +111,10 @@ def _mark(layout: dict[str, Any], described: Description, panel: Panel, k: str, 
         })  # fmt: skip
 
 
-def _panel(panel: Panel, *, several: bool) -> Iterator[Trace]:
-    """The traces of a panel; several : whether the chart has more than one operation."""
+def _panel(panel: Panel) -> Iterator[Trace]:
+    """The traces of a panel."""
     for curve in panel.curves:
-        yield from _curve(curve, panel.unit, several=several)
+        yield from _curve(curve, panel.unit)
     for points in panel.points:
         left, right = points.bars
         look = {
@@ -131,18 +130,18 @@ def _panel(panel: Panel, *, several: bool) -> Iterator[Trace]:
         yield _limit(line, panel.unit)
 
 
-def _curve(curve: Curve, unit: str, *, several: bool) -> Iterator[Trace]:
+def _curve(curve: Curve, unit: str) -> Iterator[Trace]:
     """The line of a curve, the marks of its buckled rows, of loads beyond the axis, and of rows without loads."""
     colour, marker = curve.look
-    # Of several operations the legend names the operation, and the dashes of the factors once for all.
-    name, symbol = plain(KINDS[curve.operation].label if several else curve.name.full), SYMBOLS[marker]
+    # The legend names operation or case, and the dashes of the factors once for all.
+    name, symbol = plain(curve.key), SYMBOLS[marker]
     full, texts = plain(curve.name.full), [_wrapped(text) for text in curve.texts]
     yield from buckled(curve.line, curve.depth, curve.modes)
     # The pointer finds every row, with a marker or without; sizes of 0 would make markers of the legend small too.
     seen = curve.marks | curve.care
     yield {
         "x": curve.line, "y": curve.depth, "mode": "lines+markers", "name": name, "text": texts, "showlegend": False,
-        "line": stroke(colour, curve.dash, WIDTH),
+        "line": stroke(colour, curve.dash, WIDTH * curve.width),
         "marker": {
             "symbol": [f"{symbol}-open" if care else symbol for care in curve.care], "size": 8,
             "color": [colour if at else CLEAR for at in seen],

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 # A table of ``fctd.torque_drag``, or its columns.
 Chart: TypeAlias = "pd.DataFrame | Mapping[str, NDArray[Any]]"
 
+CASE = "case"  # the column that names the case of a row, where a table has several
 FRICTION_LABEL = "friction_label"  # the column that names friction factors which differ along the hole
 OWN = "case's"  # factors of the case that differ along the hole, without a label
 
@@ -24,10 +25,11 @@ OWN = "case's"  # factors of the case that differ along the hole, without a labe
 class Series(NamedTuple):
     """One curve of a chart.
 
-    operation : kind; friction : "0.25", or the label of factors that differ along the hole; columns : those of the
-    chart, each (n,) by rising depth.
+    case : its name in a chart of several cases, else ""; operation : kind; friction : "0.25", or the label of factors
+    that differ along the hole; columns : those of the chart, each (n,) by rising depth.
     """
 
+    case: str
     operation: str
     friction: str
     columns: dict[str, NDArray[Any]]
@@ -44,18 +46,27 @@ def series_of(chart: Chart, units: System = "si") -> list[Series]:
         frictions = [names[label] for label in columns[FRICTION_LABEL]]
     else:
         frictions = [OWN if isnan(factor) else f"{factor:g}" for factor in columns["friction"]]
-    rows: dict[tuple[str, str], list[int]] = {}
-    for k, key in enumerate(zip(columns["operation"], frictions, strict=True)):
+    cases = columns.get(CASE, np.full(len(frictions), ""))
+    rows: dict[tuple[str, str, str], list[int]] = {}
+    for k, key in enumerate(zip(cases, columns["operation"], frictions, strict=True)):
         rows.setdefault(key, []).append(k)
     return [
-        Series(str(operation), friction, {name: values[at] for name, values in columns.items()})
-        for (operation, friction), at in rows.items()
+        Series(str(case), str(operation), friction, {name: values[at] for name, values in columns.items()})
+        for (case, operation, friction), at in rows.items()
     ]
 
 
 def frictions_of(series: list[Series]) -> list[str]:
     """The friction factors of series, each once."""
     return list(dict.fromkeys(one.friction for one in series))
+
+
+def has_fan(series: list[Series]) -> bool:
+    """Whether any case has several sets of friction factors: else the factors are told with the case."""
+    found: dict[str, set[str]] = {}
+    for one in series:
+        found.setdefault(one.case, set()).add(one.friction)
+    return max(map(len, found.values())) > 1
 
 
 def in_words(friction: str) -> str:

@@ -4,6 +4,7 @@ import numpy as np
 
 from fctd.model.operations import SteadyRates
 from fctd.plots.facts import facts_of, heading_of_chart, heading_of_profile
+from fctd.plots.loads import ChartLook
 from tests.plots.made import chart, points, well
 
 CASE = well(bit={"weight_on_bit": 8e4, "torque": 4e3}, rig={"block_weight": 3e4}, mud={"density": 1200.0})
@@ -31,12 +32,11 @@ def test_shoes_end_intervals_above_the_end_of_the_hole() -> None:
 
 
 def test_titles_name_what_all_curves_share() -> None:
-    assert (
-        heading_of_chart(chart(["trip_in"], [0.2]), "si", CASE, None, ())[0]
-        == "test; slacking off; friction factor 0.2"
-    )
-    title, lines = heading_of_chart(chart(["trip_in", "trip_out"], [0.2, 0.3]), "si", None, None, ["w"])
-    assert (title, lines) == ("", ["", "warning w"])
+    one = chart(["trip_in"], [0.2])
+    assert heading_of_chart(one, "si", CASE, ChartLook())[0] == "test; slacking off; friction factor 0.2"
+    look = ChartLook(told=["a line"], warnings=["w"])
+    title, lines = heading_of_chart(chart(["trip_in", "trip_out"], [0.2, 0.3]), "si", None, look)
+    assert (title, lines) == ("", ["", "a line", "warning w"])
     assert heading_of_profile(points(), "field", ["w"], 3)[0].endswith("; the first of 3 sets of factors")
     title, lines = heading_of_profile(points(), "field", ["w"])
     assert title.startswith("test; bit at 2887 ft + 1 ft of stretch; friction factor")

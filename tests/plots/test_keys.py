@@ -2,7 +2,7 @@
 
 import pytest
 
-from fctd.plots.keys import labelled, unit_of
+from fctd.plots.keys import labelled
 
 
 @pytest.mark.parametrize(
@@ -22,7 +22,3 @@ from fctd.plots.keys import labelled, unit_of
 )
 def test_a_key_is_labelled_in_words_with_its_unit(key: str, unit: str, label: str) -> None:
     assert labelled(key, unit) == label
-
-
-def test_a_key_that_no_case_has_is_without_a_unit() -> None:
-    assert unit_of("mud.colour.shade") == ""

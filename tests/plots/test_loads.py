@@ -6,17 +6,18 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.plots import loads
-from fctd.plots.loads import BESIDE, LEVER, Limits, as_load, groups_of, spent_at, usual_load
+from fctd.plots.loads import BESIDE, LEVER, Limits, as_load, cases_of, groups_of, spent_at, usual_load
 from fctd.results.series import series_of
 from tests.plots.made import chart, locked_chart, well
 
 CASE = well(rig={"block_weight": 3e4, "sheave_efficiency": 0.98})
 
 
-def limits_of_load(table: pd.DataFrame, *rest: Any) -> Limits:
-    return loads.limits_of_load(series_of(table), *rest)
+def limits_of_load(table: pd.DataFrame, case: Case | None, *rest: Any) -> Limits:
+    return loads.limits_of_load(series_of(table), cases_of(case), *rest)
 
 
 def limits_of_torque(table: pd.DataFrame, *rest: Any) -> Limits:
@@ -100,7 +101,7 @@ def test_the_weight_indicator_follows_the_sensors() -> None:
     assert as_load(CASE, "trip_out", np.array([1e5]), "indicator") == pytest.approx([1.3e5 * 0.98])
     assert as_load(CASE, "trip_out", np.array([1e5]), "string") == [1e5]
     assert np.isnan(as_load(None, "trip_out", np.array([1e5]), "indicator")).all()
-    assert (spent_at(CASE, "string"), spent_at(CASE, "indicator")) == (-3e4, 0.0)
+    assert [spent_at({"": CASE}, load) for load in ("string", "indicator")] == [-3e4, 0.0]
 
 
 def test_a_picture_of_several_cases_shows_one_load() -> None:
