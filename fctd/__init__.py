@@ -6,6 +6,7 @@
     for record in fctd.Simulation(case): print(record["hookload_N"])
     point = fctd.equilibrium(case, operation="trip_out", bit_depth="8000 ft")
     chart = fctd.chart(case, operation=["trip_in", "trip_out"], bit_depths="shoe:td:50", friction=[0.2, 0.3])
+    beside = fctd.compare([chart, fctd.chart(other, "trip_in", "shoe:td:50")])
     rows = fctd.torque_drag(case, operation=["trip_in", "trip_out"], bit_depths=range(1750, 2451, 10))
     left = fctd.limits_of(case, bit_depths="td")
     known = fctd.run_uncertainty(fctd.run_sweep("sweep.toml"))
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
     from fctd.results.tables import SimulationResult, open_result
     from fctd.simulation.simulate import Simulation, simulate
     from fctd.steady.chart import Chart, chart
+    from fctd.steady.comparison import Comparison, compare
     from fctd.steady.equilibrium import equilibrium, lie_along
     from fctd.steady.margin_table import limits_of
     from fctd.steady.refine import Refinement, refine
@@ -49,6 +51,7 @@ _HOMES = {
     "Case": "fctd.case.load",
     "Chart": "fctd.steady.chart",
     "CheckedCase": "fctd.results.checked",
+    "Comparison": "fctd.steady.comparison",
     "Contacts": "fctd.model.wellbore",
     "Equilibrium": "fctd.steady.steady_string",
     "InputError": "fctd.case.errors",
@@ -63,6 +66,7 @@ _HOMES = {
     "calibrate": "fctd.calibration.calibrate",
     "chart": "fctd.steady.chart",
     "check_case": "fctd.results.checked",
+    "compare": "fctd.steady.comparison",
     "equilibrium": "fctd.steady.equilibrium",
     "fastest_trips": "fctd.hydraulics.surge",
     "find_contacts": "fctd.model.wellbore",
@@ -86,6 +90,7 @@ __all__ = [
     "Case",
     "Chart",
     "CheckedCase",
+    "Comparison",
     "Contacts",
     "Equilibrium",
     "InputError",
@@ -100,6 +105,7 @@ __all__ = [
     "calibrate",
     "chart",
     "check_case",
+    "compare",
     "equilibrium",
     "fastest_trips",
     "find_contacts",

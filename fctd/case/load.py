@@ -42,7 +42,7 @@ from fctd.case.wall import ContactSpec, check_friction
 _OF_SURVEYS: Final = (".csv", ".txt", ".tsv", ".dat", ".xlsx", ".xml")
 # Other keys in a message, whose values are shown.
 _OTHERS: Final = re.compile(r"wellbore\.intervals\[\d+\]\.diameter")
-_SAME_DEPTH: Final = 1e-6  # m: one depth written in two units
+SAME_DEPTH: Final = 1e-6  # m: one depth written in two units
 
 
 @dataclass(frozen=True)
@@ -100,7 +100,7 @@ class Case(Table):
     @model_validator(mode="after")
     def _check(self) -> Self:
         for i, (before, here) in enumerate(pairwise(self.operations), start=1):
-            if abs(here.start_md - before.end_md) > _SAME_DEPTH:
+            if abs(here.start_md - before.end_md) > SAME_DEPTH:
                 raise InputError(
                     f"{before.end_md:g} m, where the operation before ends (or leave it out)",
                     key=f"operations[{i}].{here.start_key}",
@@ -270,7 +270,7 @@ def naming_file(case: Case) -> Iterator[None]:
 
 def check_bit_depth(md: float, top: float, bottom: float, key: str, value: object) -> None:
     """Raise InputError unless a bit depth lies below the top of the string and in the hole, all [m]."""
-    if not top < md <= bottom + _SAME_DEPTH:
+    if not top < md <= bottom + SAME_DEPTH:
         raise InputError(
             f"a depth below string.top_md, {top:g} m, within survey and intervals, {bottom:g} m", key=key, value=value
         )

@@ -91,6 +91,15 @@ DEPTHS_HELP = (
     "Bit depths, 1750:2450:10 in m, with --units field in ft, '5000 ft:8000 ft:30 ft' or shoe:td:50; the last is "
     "always among them."
 )
+FrictionFan = Annotated[
+    list[str],
+    typer.Option(
+        "--friction",
+        metavar="X",
+        help="Friction factor of every interval, 0.25, a list, 0.1,0.2,0.3, a fan, 0.1:0.4:0.1, or by kind, "
+        "cased=0.2,open=0.3; may be repeated.",
+    ),
+]
 PROGRAM = "fctd chart"
 LIMIT_DEPTHS = 13  # at most so many depths of a chart have their limits: a line needs no more
 
@@ -105,15 +114,7 @@ def chart_command(
         str | None,
         typer.Option("--depths", metavar="FROM:TO:STEP", help=DEPTHS_HELP, show_default=False),
     ] = None,
-    frictions: Annotated[
-        list[str],
-        typer.Option(
-            "--friction",
-            metavar="X",
-            help="Friction factor of every interval, 0.25, a list, 0.1,0.2,0.3, a fan, 0.1:0.4:0.1, or by kind, "
-            "cased=0.2,open=0.3; may be repeated.",
-        ),
-    ] = [],  # noqa: B006
+    frictions: FrictionFan = [],  # noqa: B006
     speed: Speed = None,
     rpm: Rpm = None,
     flow: Flow = None,

@@ -3,7 +3,7 @@
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from itertools import groupby
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from rich.box import SIMPLE_HEAD
@@ -13,12 +13,14 @@ from fctd.case.text import counted, printable
 from fctd.cli.options import messages, screen
 from fctd.plots.loads import LOAD_COLUMNS, Load
 from fctd.results.columns import BUCKLED, COLUMNS, DEPTH, IN_CHART
+from fctd.results.columns import Column as ShownColumn
 from fctd.results.notes import MEANINGS
 from fctd.results.series import FRICTION_LABEL, in_words
 from fctd.results.status import SteadyStatus
 from fctd.results.unit_systems import System, reworded, shown
 from fctd.steady.torque_drag import Row
 
+T = TypeVar("T")
 SCREEN_ROWS = 36
 # Columns of a chart on the screen; the weight indicator stands in place of the hook load where it is shown.
 SHOWN = [column for column in (DEPTH, *IN_CHART) if column.heading]
@@ -49,29 +51,47 @@ def print_chart(rows: list[Row], name: str, units: System, load: Load) -> None:
     )  # fmt: skip
     each, printed = max(SCREEN_ROWS // len(series), 1), 0
     for (operation, friction), of in series.items():
-        # Evenly spread rows, always with the deepest one.
-        picked = np.unique(np.linspace(len(of) - 1, 0, min(each, len(of))).round().astype(int))
+        picked = spread(of, each)
         printed += len(picked)
-        for k, row in enumerate(of[i] for i in picked):
-            values = [
-                "–" if np.isnan(row[name]) else f"{row[name] * units_of[name].factor:z.{digits}f}"
-                for name, digits in ((column.name, column.digits) for column in columns)
-            ]
+        for k, row in enumerate(picked):
+            values = [cell(row, column, units_of[column.name].factor) for column in columns]
             if buckled:
                 values.append(_buckled(row, units_of[DEPTH.name].factor))
             names = (operation, friction) if fan else (operation,)
             table.add_row(*(("",) * len(names) if k else names), *values, row["status"].replace("_", " "))
     screen.print(table)
-    counts = ", ".join(f"{count} {status}" for status, count in Counter(row["status"] for row in rows).most_common())
     left_out = f"; {printed} of them above, all of them in a file by --out" if printed < len(rows) else ""
-    screen.print(f"{counted(len(rows), 'row')}: {counts}{left_out}", soft_wrap=True)
-    if load == "indicator":
-        screen.print("indicator: as the rig reads it, block included; --load string leaves it out", soft_wrap=True)
+    screen.print(f"{counts_of(rows)}{left_out}", soft_wrap=True)
+    explain(load)
     depth = units_of["bit_depth_m"]
     for (operation, friction), of in series.items():
         name = f"{operation}, friction {friction}" if fan else operation
-        for line in _exceptions(of, depth.factor, depth.label):
+        for line in exceptions(of, depth.factor, depth.label):
             messages.print(reworded(f"{name}: {line}", units), soft_wrap=True)
+
+
+def spread(items: Sequence[T], most: int) -> list[T]:
+    """At most so many items, evenly spread, always with the last one."""
+    picked = np.unique(np.linspace(len(items) - 1, 0, min(most, len(items))).round().astype(int))
+    return [items[k] for k in picked]
+
+
+def cell(row: Row, column: ShownColumn, factor: float) -> str:
+    """A load of a row to the digits of its column; factor : of its unit."""
+    value = row[column.name]
+    return "–" if np.isnan(value) else f"{value * factor:z.{column.digits}f}"
+
+
+def counts_of(rows: Sequence[Row]) -> str:
+    """How many rows there are of each status."""
+    counts = Counter(row["status"] for row in rows).most_common()
+    return f"{counted(len(rows), 'row')}: {', '.join(f'{count} {status}' for status, count in counts)}"
+
+
+def explain(load: Load) -> None:
+    """Say what the weight indicator reads, where it is shown."""
+    if load == "indicator":
+        screen.print("indicator: as the rig reads it, block included; --load string leaves it out", soft_wrap=True)
 
 
 def _buckled(row: Row, factor: float) -> str:
@@ -80,7 +100,7 @@ def _buckled(row: Row, factor: float) -> str:
     return "–" if np.isnan(first) else f"{row['buckling']} {first:.0f}–{last:.0f}"
 
 
-def _exceptions(rows: list[Row], factor: float, label: str) -> list[str]:
+def exceptions(rows: list[Row], factor: float, label: str) -> list[str]:
     """The runs of rows of one series that are not converged, and those with the same note, a line each."""
     depths = [row["bit_depth_m"] * factor for row in rows]
     reasons = {row["status"]: row["reason"] for row in rows}  # the last, at the greatest depth, of each status

@@ -31,6 +31,7 @@ GROUPS: dict[str, dict[str, dict[str, str]]] = {
     "Begin": {"init": {}, "check": {}, "pipes": {}, "schema": {}},
     "Steady strings": {
         "chart": {"bit_depth": "--depths"},
+        "compare": {"bit_depth": "--depths"},
         "equilibrium": {},
         "limits": {"bit_depths": "--depths"},
         "refine": {"bit_depth": "--bit-depth"},

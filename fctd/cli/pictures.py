@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from fctd.case.errors import InputError
-from fctd.case.load import Case
 from fctd.cli.options import check_target
-from fctd.plots.loads import ChartLook, Load
+from fctd.plots.loads import ChartLook, Compared, Load
 from fctd.plots.tracks import SideForce
 from fctd.results.unit_systems import System
 from fctd.steady.steady_string import Equilibrium
@@ -65,7 +64,7 @@ def check_pictures(targets: Mapping[str, Path | None], suffixes: Sequence[str] =
         check_package(path, key)
 
 
-def draw_chart(path: Path, chart: "pd.DataFrame", units: System, case: Case, look: ChartLook) -> list[Path]:
+def draw_chart(path: Path, chart: "pd.DataFrame", units: System, case: Compared, look: ChartLook) -> list[Path]:
     """Write a chart; the arguments are those of ``chart_figure``.  Returns the files."""
     from fctd import plots
 

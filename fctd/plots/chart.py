@@ -46,10 +46,10 @@ def chart_figure(chart: pd.DataFrame, units: System = "si", case: Compared = Non
     which the loads are those of the weight indicator; of a table with a column ``case`` the charts by its names.
 
     A colour is an operation, or a case where there are several, a dash a set of friction factors; factors that make no
-    difference share a curve.  More than ``MOST_CURVES`` series are drawn in groups.  A strip says where strings are buckled, and which rows are not
-    ``converged``; a cross marks a row without loads, a band the loads of both shapes of a resolved string.  Where a
-    string is locked up, loads at which slack-off is spent are hatched, and larger pushes, with which the axis would
-    show nothing else, have triangles at its edge.
+    difference share a curve.  More than ``MOST_CURVES`` series are drawn in groups.  A strip says where strings are
+    buckled, and which rows are not ``converged``; a cross marks a row without loads, a band the loads of both shapes of
+    a resolved string.  Where a string is locked up, loads at which slack-off is spent are hatched, and larger pushes,
+    with which the axis would show nothing else, have triangles at its edge.
     """
     described = describe(chart, units, case, look)
     with mpl.rc_context(RC):

@@ -47,7 +47,7 @@ AIR: Final = 0.02  # of the span of depths, above and below them
 # Where rows stand that have no place on their line: from the left edge of the axis, for the first curve, and from curve
 # to curve, in shares of the axis.
 EDGE, APART = 0.015, 0.025
-WIDEST, NARROWEST = 2.2, 0.9  # lines of the first and the last case, so that one below another is seen
+WIDEST, NARROWEST = 1.9, 0.9  # lines of the first and the last case, so that one below another is seen
 
 
 def describe(chart: Chart, units: System = "si", case: Compared = None, look: ChartLook = PLAIN) -> Description:
@@ -153,8 +153,9 @@ def _name(one: Series, factors: str, group: list[Series]) -> Name:
     """The name of a curve of a group."""
     kind, label = one.operation, KINDS[one.operation].label
     if one.case:  # marker and legend tell the operation
-        short = ", ".join(filter(None, [one.case, factors]))
-        return Name(", ".join(filter(None, [one.case, SHORT.get(kind, label), factors])), short, factors or one.case)
+        word = SHORT.get(kind, label) if len({of.operation for of in group}) > 1 else ""
+        full, short = (", ".join(filter(None, [one.case, of, factors])) for of in (word, ""))
+        return Name(full, short, factors or one.case)
     several = len({one.operation for one in group}) > 1 or not factors
     full, short = (
         ", ".join(filter(None, [word if several else "", factors])) for word in (label, SHORT.get(kind, label))
@@ -218,7 +219,7 @@ def _marks(cases: Mapping[str, Case | None], depth: DepthAxis, factor: float) ->
         for mark in _marks_of(case, depth, factor):
             owners.setdefault(mark, []).append(name)
     marks = [
-        mark if len(of) == len(cases) else mark._replace(lines=(f"{', '.join(mark.lines)}: {in_a_row(of)}",))
+        mark if len(of) == len(cases) else mark._replace(lines=(*mark.lines, in_a_row(of)))
         for mark, of in owners.items()
     ]
     return tuple(sorted(marks, key=lambda mark: mark.depth))

@@ -51,7 +51,7 @@ def facts_of(
 
 
 def heading_of_chart(chart: pd.DataFrame, units: System, case: Compared, look: ChartLook) -> tuple[str, list[str]]:
-    """Title of a chart, and the lines below it, the first of facts, which are those of all cases among several."""
+    """Title of a chart, and the lines below it: what is told, facts that all cases share, warnings, notes."""
     series = series_of(chart, units)
     kinds, frictions = list(dict.fromkeys(one.operation for one in series)), frictions_of(series)
     if isinstance(case, Mapping):
@@ -67,7 +67,7 @@ def heading_of_chart(chart: pd.DataFrame, units: System, case: Compared, look: C
         f"note {code}: {found['headline']}: {found['remedy']}"
         for code, found in meanings_of(chart.get("notes", ())).items()
     ]
-    return "; ".join(words), ["; ".join(facts), *look.told, *_told(look.warnings), *notes]
+    return "; ".join(words), [*look.told, "; ".join(facts), *_told(look.warnings), *notes]
 
 
 def heading_of_profile(

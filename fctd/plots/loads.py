@@ -49,7 +49,7 @@ class ChartLook:
     """What a chart shows beside its rows, in a picture and on a page.
 
     load : hook load of the string, or the reading of the weight indicator; by default that of ``usual_load``.
-    rates : of the operations, else the case's own.  measured : of ``read_measured``.  told : lines below the facts;
+    rates : of the operations, else the case's own.  measured : of ``read_measured``.  told : lines above the facts;
     warnings : lines below these, before the notes of the chart.  margins : of ``margin_table``, whose limits are drawn
     as lines.
     """

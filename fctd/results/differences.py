@@ -17,12 +17,17 @@ from fctd.case.raw_case import look_up
 from fctd.case.spellings import split
 from fctd.case.text import counted, printable
 from fctd.case.units import Quantity
-from fctd.results.unit_systems import IN_MESSAGES, PINTS, System, shown
+from fctd.results.unit_systems import IN_MESSAGES, System, shown
 
 ALIKE: Final = 1e-9  # share of a number by which two spellings of it may differ
 # Keys of the files of a survey and a caliper: what they hold is compared, and the files may have any names.
 _OF_SURVEY: Final = "survey", "columns", "sheet", "stations"
 _OF_CALIPER: Final = "log", "columns", "sheet"
+# Units in which cases are written and messages are not, and those of the field.
+_METRIC: Final = {
+    "sg": "ppg", "g/cm^3": "ppg", "t": "klbf", "daN": "klbf", "N·m": "ft·lbf", "daN·m": "ft·lbf", "Pa": "psi",
+    "GPa": "ksi", "L/min": "gpm", "L/s": "gpm", "m^3/s": "gpm", "cm": "in",
+}  # fmt: skip
 _SIGNS: Final = {"*": "·", "^2": "²", "^3": "³"}
 
 
@@ -54,11 +59,19 @@ class Difference(NamedTuple):
         return texts
 
     def sentence(self, names: Sequence[str], units: System = "si") -> str:
-        """The key with the values and the cases that have them: "mud.density: 1.2 sg (A and C), 1.3 sg (B)"."""
+        """The key with the values and the cases that have them: "mud.density: 1.2 sg (A and C), 1.3 sg (B)".
+
+        Of more than two cases with the same value, the last of the line, only the number is told.
+        """
         having: dict[str, list[str]] = {}
         for text, name in zip(self.texts(units), names, strict=True):
             having.setdefault(text, []).append(name)
-        values = ", ".join(f"{text} ({in_a_row(those)})" for text, those in having.items())
+        usual = max(having, key=lambda text: len(having[text]))
+        words = {text: in_a_row(those) for text, those in having.items()}
+        if len(having[usual]) > 2:
+            words = {text: of for text, of in words.items() if text != usual}
+            words[usual] = f"the other {len(having[usual])}"
+        values = ", ".join(f"{text} ({of})" for text, of in words.items())
         return printable(f"{self.key}: {values}")
 
 
@@ -203,8 +216,9 @@ def _same(one: Any, other: Any) -> bool:
 def _unit_of(quantity: Quantity, written: Sequence[Any], units: System) -> tuple[str, float]:
     """The unit in which a quantity is told, with a blank before it, and what it is in SI."""
     unit = next(filter(None, map(_written_unit, written)), quantity.dimension.unit)
-    unit = IN_MESSAGES.get(unit, unit) if units == "field" else unit
-    factor = quantity.dimension.factor(PINTS.get(unit, unit))
+    if units == "field":
+        unit = (IN_MESSAGES | _METRIC).get(unit.replace("*", "·"), unit)
+    factor = quantity.dimension.factor(unit.replace("·", "*"))
     for sign, plain in _SIGNS.items():
         unit = unit.replace(sign, plain)
     return f" {unit}", factor

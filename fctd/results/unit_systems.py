@@ -81,7 +81,7 @@ def shown_unit(unit: str, system: System) -> Shown:
         label = measure.field if system == "field" else measure.si
     else:
         label = IN_MESSAGES.get(unit, unit) if system == "field" else unit
-    return Shown(conversion(unit, PINTS.get(label, label)) if label != unit else 1.0, label.replace("*", "·"))
+    return Shown(conversion(unit, _PINTS.get(label, label)) if label != unit else 1.0, label.replace("*", "·"))
 
 
 def in_words(value: float, column: str, system: System) -> str:
@@ -159,7 +159,7 @@ def reworded(text: str, system: System) -> str:
 
     def convert(found: re.Match[str]) -> str:
         unit = found["unit"]
-        factor = conversion(unit.replace("·", "*"), PINTS.get(IN_MESSAGES[unit], IN_MESSAGES[unit]))
+        factor = conversion(unit.replace("·", "*"), _PINTS.get(IN_MESSAGES[unit], IN_MESSAGES[unit]))
         numbers = found[0].removesuffix(unit)
         return re.sub(_NUMBER, lambda n: _short(float(n[0]) * factor, n[0]), numbers) + IN_MESSAGES[unit]
 
@@ -167,12 +167,12 @@ def reworded(text: str, system: System) -> str:
     return _IN_MESSAGES.sub(convert, text)
 
 
-PINTS: Final = {"kft·lbf": "kft*lbf", "ppg": "lb/gal"}
+_PINTS: Final = {"kft·lbf": "kft*lbf", "ppg": "lb/gal"}
 
 
 def _factor(unit: str, target: str) -> float:
     """How many target units a unit is, both of a measure."""
-    return conversion(PINTS.get(unit, unit), PINTS.get(target, target))
+    return conversion(_PINTS.get(unit, unit), _PINTS.get(target, target))
 
 
 def _short(value: float, before: str) -> str:

@@ -36,7 +36,7 @@ def test_titles_name_what_all_curves_share() -> None:
     assert heading_of_chart(one, "si", CASE, ChartLook())[0] == "test; slacking off; friction factor 0.2"
     look = ChartLook(told=["a line"], warnings=["w"])
     title, lines = heading_of_chart(chart(["trip_in", "trip_out"], [0.2, 0.3]), "si", None, look)
-    assert (title, lines) == ("", ["", "a line", "warning w"])
+    assert (title, lines) == ("", ["a line", "", "warning w"])
     assert heading_of_profile(points(), "field", ["w"], 3)[0].endswith("; the first of 3 sets of factors")
     title, lines = heading_of_profile(points(), "field", ["w"])
     assert title.startswith("test; bit at 2887 ft + 1 ft of stretch; friction factor")

@@ -1,0 +1,97 @@
+"""Charts of several cases on the screen: loads side by side, and lines for what is not converged or has a note."""
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+from rich.box import SIMPLE_HEAD
+from rich.table import Column, Table
+
+from fctd.case.operations import KINDS
+from fctd.case.text import printable
+from fctd.cli.chart_table import cell, counts_of, exceptions, explain, spread
+from fctd.cli.limits import rows_of
+from fctd.cli.options import messages, screen
+from fctd.plots.loads import LOAD_COLUMNS, NAMES, TORQUE, Load
+from fctd.results.columns import COLUMNS, DEPTH
+from fctd.results.series import FRICTION_LABEL
+from fctd.results.status import SteadyStatus
+from fctd.results.unit_systems import System, reworded, shown
+from fctd.steady.comparison import Comparison
+from fctd.steady.torque_drag import Row
+
+SCREEN_ROWS: Final = 24  # of a table
+# Rows of a case by operation and set of friction factors, "" where each case has one set, and by bit depth [m].
+ByDepth = dict[tuple[str, str], dict[float, Row]]
+
+
+def print_comparison(found: Comparison, units: System, load: Load) -> None:
+    """Print a table of loads and one of torques, with a column for each case, and lines for runs of other rows.
+
+    load : that it shows, of the string or with the block.
+    """
+    rows = {name: rows_of(chart.rows) for name, chart in found.charts.items()}
+    fan = any(len({row[FRICTION_LABEL] for row in of}) > 1 for of in rows.values())
+    by_depth = {name: _by_depth(of, units, fan=fan) for name, of in rows.items()}
+    turning = [
+        kind for kind, of in KINDS.items()
+        if of.on_bottom or any(kind in chart.rates and chart.rates[kind].spin for chart in found.charts.values())
+    ]  # fmt: skip
+    series = list(dict.fromkeys(key for of in by_depth.values() for key in of))
+    for column in (LOAD_COLUMNS[load], TORQUE):
+        drawn = [key for key in series if column != TORQUE or key[0] in turning]
+        if drawn:
+            screen.print(f"{NAMES[column]}, {shown(column, units).label}", soft_wrap=True)
+            screen.print(_table(by_depth, drawn, column, units, fan=fan))
+    if any(row["status"] != SteadyStatus.CONVERGED for of in rows.values() for row in of):
+        screen.print("*: not converged", soft_wrap=True)
+    for name, of in rows.items():
+        screen.print(f"{printable(name)}: {counts_of(of)}", soft_wrap=True)
+    explain(load)
+    metre = shown(DEPTH.name, units)
+    for name, keys in by_depth.items():
+        for (operation, friction), at_depths in keys.items():
+            words = f"{printable(name)}, {operation}{f', friction {friction}' if friction else ''}"
+            for line in exceptions(list(at_depths.values()), metre.factor, metre.label):
+                messages.print(reworded(f"{words}: {line}", units), soft_wrap=True)
+
+
+def _by_depth(rows: Sequence[Row], units: System, *, fan: bool) -> ByDepth:
+    found: ByDepth = {}
+    for row in rows:
+        friction = reworded(row[FRICTION_LABEL], units) if fan else ""
+        found.setdefault((row["operation"], friction), {})[row[DEPTH.name]] = row
+    return found
+
+
+def _table(
+    cases: dict[str, ByDepth], series: Sequence[tuple[str, str]], column: str, units: System, *, fan: bool
+) -> Table:
+    """A column of the charts of all cases, a row for each operation, set of factors and bit depth."""
+    metre, unit = shown(DEPTH.name, units), shown(column, units)
+    table = Table(
+        Column("operation", no_wrap=True),
+        *([Column("μ", overflow="fold")] if fan else []),
+        Column(f"bit\n{metre.label}", justify="right", no_wrap=True),
+        *(Column(printable(name), justify="right", overflow="fold") for name in cases),
+        box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
+    )  # fmt: skip
+    for key in series:
+        rows = [of.get(key, {}) for of in cases.values()]
+        for k, depth in enumerate(_depths(rows, max(SCREEN_ROWS // len(series), 1))):
+            names = (key if fan else key[:1]) if k == 0 else ("",) * (1 + fan)
+            values = [_value(of[depth], column, unit.factor) if depth in of else "" for of in rows]
+            table.add_row(*names, f"{depth * metre.factor:.{DEPTH.digits}f}", *values)
+    return table
+
+
+def _depths(rows: Sequence[dict[float, Row]], most: int) -> list[float]:
+    """Evenly spread bit depths, of those that all cases share where there are any, and the deepest of each case."""
+    common = set.intersection(*map(set, rows)) or set().union(*rows)
+    deepest = {max(of) for of in rows if of}
+    return sorted({*spread(sorted(common), most), *deepest})
+
+
+def _value(row: Row, column: str, factor: float) -> str:
+    mark = "" if row["status"] == SteadyStatus.CONVERGED or np.isnan(row[column]) else "*"
+    return cell(row, COLUMNS[column], factor) + mark
