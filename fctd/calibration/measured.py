@@ -24,7 +24,6 @@ from fctd.case.operations import KINDS
 from fctd.case.tables.fields import Field
 from fctd.case.tables.readings import TORQUE_OF_STRING
 from fctd.model.operations import string_load, weight_indicator
-from fctd.results.columns import COLUMNS
 from fctd.results.unit_systems import System
 
 if TYPE_CHECKING:
@@ -44,12 +43,6 @@ _LOAD_COLUMNS: Final = {
     for end in ENDS
 }
 _EXAMPLE: Final = "bit_depth_m, operation, hookload_kN, hookload_low_kN, hookload_high_kN, torque_kN_m"
-
-
-def measured_column(column: str, end: str) -> str:
-    """Column of an end of a range, "low" or "high", beside a column such as ``hookload_N``."""
-    stem = COLUMNS[column].stem
-    return f"{stem}_{end}{column.removeprefix(stem)}"
 
 
 def read_measured(

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 from uuid import uuid4
 
-import numpy as np
 import typer
 
 from fctd.calibration.measured import read_measured
@@ -80,7 +79,7 @@ from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System
 from fctd.steady.chart_saver import ChartSaver
 from fctd.steady.equilibrium import Solver
-from fctd.steady.margin_table import limits_of
+from fctd.steady.margin_table import limits_of, of_lines
 from fctd.steady.torque_drag import Row, chart_rows
 from fctd.store.limits import LimitReached
 
@@ -101,7 +100,6 @@ FrictionFan = Annotated[
     ),
 ]
 PROGRAM = "fctd chart"
-LIMIT_DEPTHS = 13  # at most so many depths of a chart have their limits: a line needs no more
 
 
 def chart_command(
@@ -264,14 +262,14 @@ def _chart(
             rows = chart_rows(case, kinds, bit_depths, factors or None, **drive, progress=show, **keep)
             margins = None
             if asked.limits:
-                spread = np.linspace(0, len(bit_depths) - 1, min(LIMIT_DEPTHS, len(bit_depths))).round().astype(int)
-                depths = [bit_depths[k] for k in np.unique(spread)]
 
                 def show_limits(done: int, total: int) -> None:
                     bar.update(task, description="limits", completed=done, total=total)
                     limits.check()
 
-                margins = limits_of(case, kinds, depths, factors[0] if factors else None, **drive, progress=show_limits)
+                margins = limits_of(
+                    case, kinds, of_lines(bit_depths), factors[0] if factors else None, **drive, progress=show_limits
+                )
 
         # The last depth at which string and hole fit.
         possible = [row["bit_depth_m"] for row in rows if row["status"] != SteadyStatus.NOT_POSSIBLE]

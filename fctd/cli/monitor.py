@@ -2,7 +2,7 @@
 
 from pathlib import Path
 from time import sleep
-from typing import Annotated
+from typing import Annotated, NoReturn
 
 import numpy as np
 import pandas as pd
@@ -11,9 +11,11 @@ from rich.box import SIMPLE_HEAD
 from rich.table import Column, Table
 
 from fctd.case.errors import InputError, naming
+from fctd.case.friction import parse_frictions
 from fctd.case.load import Case, naming_file
 from fctd.case.tables.headers import parse_choices
 from fctd.case.text import counted, printable
+from fctd.cli.chart import DEPTHS_HELP
 from fctd.cli.options import (
     CaseFile,
     Overrides,
@@ -31,13 +33,15 @@ from fctd.cli.options import (
     screen,
     tell,
 )
-from fctd.cli.pictures import check_package
+from fctd.cli.pictures import PICTURE_HELP, check_package, check_pictures
+from fctd.cli.roadmap import DEPTHS, Drawing, solved
 from fctd.cli.steady import check_table, file_option, in_units
 from fctd.monitoring.alarm import Alarm
 from fctd.monitoring.chart import Fit
 from fctd.monitoring.friction import parse_uncertainty
 from fctd.monitoring.monitor import Monitor, Monitored, result_of
 from fctd.monitoring.quantities import SERIES
+from fctd.monitoring.roadmap import FAN
 from fctd.monitoring.series import read_series
 from fctd.monitoring.text_series import Tail
 from fctd.results.table_files import write_table
@@ -98,6 +102,32 @@ def monitor_command(
     plot: Annotated[
         Path | None, file_option("--plot", "Stretches and apparent friction over depth, .png, .svg or .pdf.")
     ] = None,
+    chart: Annotated[
+        Path | None,
+        file_option(
+            "--chart", f"The readings over a fan of friction factors, drawn anew as they come, {PICTURE_HELP}."
+        ),
+    ] = None,
+    depths: Annotated[
+        str | None,
+        typer.Option(
+            "--depths",
+            metavar="FROM:TO:STEP",
+            help=f"With --chart: {DEPTHS_HELP} Default: {DEPTHS} depths from the last shoe to the end of the hole.",
+        ),
+    ] = None,
+    frictions: Annotated[
+        list[str],
+        typer.Option(
+            "--friction",
+            metavar="X",
+            help="With --chart: the fan, as of fctd chart; default: "
+            f"{', '.join(f'{factor:g}' for factor in FAN)} in the intervals of --fit.",
+        ),
+    ] = [],  # noqa: B006
+    limits: Annotated[
+        bool, typer.Option("--limits", help="With --chart: draw the limits of fctd limits as lines.")
+    ] = False,
     units: Units = "si",
     quiet: Quiet = False,
     strict: Strict = False,
@@ -107,8 +137,13 @@ def monitor_command(
     if plot is not None:
         check_target(plot, "--plot", PICTURES)
         check_package(plot, "--plot")
+    check_pictures({"--plot": plot, "--chart": chart})
+    for key, value in {"--depths": depths, "--friction": frictions, "--limits": limits}.items():
+        if value and chart is None:
+            raise InputError("--chart beside it, the picture that shows it", key=key, value=value)
+    factors = parse_frictions(frictions, "--friction")
     case = read_case(case_file, changes_of(overrides))
-    for key, path in {"--out": out, "--plot": plot}.items():
+    for key, path in {"--out": out, "--plot": plot, "--chart": chart}.items():
         refuse_sources(case, path, key, [series])
     said = parse_choices(columns, SERIES)
     with naming_file(case):
@@ -117,28 +152,35 @@ def monitor_command(
         )
     if not 0 < poll <= LONGEST_POLL:
         raise InputError(f"seconds above 0 and at most {LONGEST_POLL:g}", key="--poll", value=poll)
-    tell(case, case.warnings, strict=strict, units=units)
-    if follow:
+    told = tell(case, case.warnings, strict=strict, units=units)
+    table = None if follow else read_series(series, said)
+    drawing = None
+    if chart is not None:
+        with naming_file(case):
+            drawing = solved(watch, chart, depths, factors, limits, units, told, quiet)
+    if table is None:
         try:
-            _follow(watch, Tail(series, said), poll, units)
+            _follow(watch, Tail(series, said), poll, units, drawing)
         except KeyboardInterrupt:
             _print_alarms(watch.finish(), units)
-            _report(watch, case, out, plot, units, quiet)
+            _report(watch, case, out, plot, drawing, units, quiet)
             raise
-    table = read_series(series, said)
-    with naming(series):
-        _print_alarms([*watch.feed(table), *watch.finish()], units)
-    _report(watch, case, out, plot, units, quiet)
+    else:
+        with naming(series):
+            _print_alarms([*watch.feed(table), *watch.finish()], units)
+        _report(watch, case, out, plot, drawing, units, quiet)
     finish(any(np.isfinite(found.factor) for found in watch.found), ["alarm"] if watch.alarms else [], strict)
 
 
-def _follow(watch: Monitor, tail: Tail, poll: float, units: System) -> None:
-    """Print alarms as their rows come; ends by KeyboardInterrupt alone."""
+def _follow(watch: Monitor, tail: Tail, poll: float, units: System, drawing: Drawing | None) -> NoReturn:
+    """Print alarms as their rows come, and draw the roadmap; ends by KeyboardInterrupt alone."""
     while True:
         with naming(tail.path):
             rows = tail.rows()
             if rows is not None:
                 _print_alarms(watch.feed(rows), units)
+        if drawing is not None:
+            drawing.follow(watch)
         sleep(poll)
 
 
@@ -147,8 +189,10 @@ def _print_alarms(alarms: list[Alarm], units: System) -> None:
         screen.print(f"alarm: {reworded(alarm.sentence, units)}", soft_wrap=True, style="bold")
 
 
-def _report(watch: Monitor, case: Case, out: Path | None, plot: Path | None, units: System, quiet: bool) -> None:
-    """Print what was found, and write table and picture."""
+def _report(
+    watch: Monitor, case: Case, out: Path | None, plot: Path | None, drawing: Drawing | None, units: System, quiet: bool
+) -> None:
+    """Print what was found, and write table and pictures."""
     found = result_of(watch)
     written = []
     if out is not None:
@@ -161,6 +205,8 @@ def _report(watch: Monitor, case: Case, out: Path | None, plot: Path | None, uni
         from fctd import plots
 
         written += plots.save(plots.monitor_figure(found, case, units=units), plot)
+    if drawing is not None:
+        written += drawing.write(watch)
     if not quiet:
         _print(found, case, units)
     for line in found.told:

@@ -64,12 +64,14 @@ def check_pictures(targets: Mapping[str, Path | None], suffixes: Sequence[str] =
         check_package(path, key)
 
 
-def draw_chart(path: Path, chart: "pd.DataFrame", units: System, case: Compared, look: ChartLook) -> list[Path]:
-    """Write a chart; the arguments are those of ``chart_figure``.  Returns the files."""
+def draw_chart(
+    path: Path, chart: "pd.DataFrame", units: System, case: Compared, look: ChartLook, refresh: float | None = None
+) -> list[Path]:
+    """Write a chart; the arguments are those of ``chart_figure``, and of ``save_page``.  Returns the files."""
     from fctd import plots
 
     if path.suffix.lower() == PAGE:
-        return plots.save_page(plots.chart_page(chart, units, case, look), path)
+        return plots.save_page(plots.chart_page(chart, units, case, look), path, refresh)
     return plots.save(plots.chart_figure(chart, units, case, look), path)
 
 

@@ -81,10 +81,10 @@ class Chart:
             return Solver(case.model_copy(update={"wellbore": wellbore}), hole.with_friction(table_of(own)))
 
         self._own = Solver(case, hole)
-        self._solvers = [solver(self._set(float(factor)).of(intervals)) for factor in FACTORS]
+        self._solvers = [solver(self.set_of(float(factor)).of(intervals)) for factor in FACTORS]
         held = tuple(
             factor.shifted(CASED_STEP if self.fit != "all" and interval.kind != self.fit else 0.0)
-            for factor, interval in zip(self._set(float(FACTORS[HELD])).of(intervals), intervals, strict=True)
+            for factor, interval in zip(self.set_of(float(FACTORS[HELD])).of(intervals), intervals, strict=True)
         )
         self._other = solver(held)
         # Of mud at rest: a reading is brought to mud at rest by ``relief``.
@@ -95,7 +95,8 @@ class Chart:
         self._inverses: dict[tuple[Mode, float, float], PchipInterpolator | None] = {}
         self._stiffness = section_of(case.string.components[-1], case.mud.density).EA
 
-    def _set(self, factor: float) -> FrictionSet:
+    def set_of(self, factor: float) -> FrictionSet:
+        """A friction factor of the intervals whose factor is inferred."""
         return FrictionSet(every=factor) if self.fit == "all" else FrictionSet(**{self.fit: factor})
 
     def loads(self, kind: str, depth: float) -> Array:

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd.arrays import Array
-from fctd.calibration.measured import measured_column
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.model.operations import SteadyRates, weight_indicator
+from fctd.results.columns import measured_column
 from fctd.results.series import Series, frictions_of, has_fan, in_words
 from fctd.results.status import SteadyStatus
 from fctd.results.unit_systems import System, shown

@@ -36,8 +36,10 @@ FOLDER: Final = Path(__file__).parent
 VIEWPORT: Final = '<meta name="viewport" content="width=device-width, initial-scale=1">'
 
 
-def save_page(figure: go.Figure, path: Path) -> list[Path]:
+def save_page(figure: go.Figure, path: Path, refresh: float | None = None) -> list[Path]:
     """Write a page; returns the file.  Raises InputError where it cannot be written.
+
+    refresh : time after which the page loads itself anew [s], of one that is replaced meanwhile.
 
     The heading of the figure becomes text that wraps, and its panels stand in rows that the window has room for.
     """
@@ -55,7 +57,8 @@ def save_page(figure: go.Figure, path: Path) -> list[Path]:
             include_plotlyjs=True, div_id="fctd", config=CONFIG, default_height=None,
             post_script=(FOLDER / "page.js").read_text(encoding="utf-8"),
         )  # fmt: skip
-        text = text.replace("</head>", f"{VIEWPORT}<title>{title}</title><style>{style}</style></head>", 1)
+        head = VIEWPORT if refresh is None else f'{VIEWPORT}<meta http-equiv="refresh" content="{refresh:g}">'
+        text = text.replace("</head>", f"{head}<title>{title}</title><style>{style}</style></head>", 1)
         text = text.replace("<body>", f"<body><header><h1>{title}</h1>{lines}</header>", 1)
         scratch.write_text(text, encoding="utf-8")
     return [path]

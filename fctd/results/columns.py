@@ -84,3 +84,9 @@ PROFILE: Final = (
 )
 COLUMNS: Final = {column.name: column for column in (DEPTH, *LOADS, *BUCKLED, *SHAPES, *SHARES, *PROFILE)}
 IN_CHART: Final = tuple(load for load in LOADS if load.in_chart)
+
+
+def measured_column(column: str, end: str) -> str:
+    """Column of an end of a measured range, "low" or "high", beside a column such as ``hookload_N``."""
+    stem = COLUMNS[column].stem
+    return f"{stem}_{end}{column.removeprefix(stem)}"

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Final
 
+import numpy as np
+
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionChoice
 from fctd.case.load import Case, naming_file, with_friction
@@ -29,6 +31,7 @@ COLUMNS: Final = {
 }  # fmt: skip
 # What is looked at where no operation is named: pulling, setting down, turning.
 USUAL: Final = ("trip_out", "trip_in", "rotate_off_bottom")
+MOST_ON_LINE: Final = 13  # depths of a limit that is drawn as a line, which needs no more
 Progress = Callable[[int, int], None]
 
 
@@ -79,6 +82,12 @@ def limits_of(
     table = pd.DataFrame(rows)
     table.attrs = attrs_of(case, kinds, {"speed": speed, "rpm": rpm, "flow": flow})
     return table
+
+
+def of_lines(bit_depths: Sequence[float]) -> list[float]:
+    """Those of bit depths at which limits are computed that are drawn as lines: evenly spread, with both ends."""
+    picked = np.linspace(0, len(bit_depths) - 1, min(MOST_ON_LINE, len(bit_depths))).round().astype(int)
+    return [bit_depths[k] for k in np.unique(picked).tolist()]
 
 
 def margin_rows(

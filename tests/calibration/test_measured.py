@@ -5,9 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fctd.calibration.measured import measured_column, read_measured
+from fctd.calibration.measured import read_measured
 from fctd.calibration.rows import read_rows
 from fctd.case.errors import InputError
+from fctd.results.columns import measured_column
 from tests.cases import make_case, pipe
 
 CASE = make_case([[0.0, 0, 0], [2000, 0, 0]], [pipe(None, 40)], rig={"block_weight": 1e5, "sheave_efficiency": 0.9})

@@ -1,0 +1,65 @@
+"""The roadmap of ``fctd monitor --chart``: solved once, and drawn anew where there are new readings."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from fctd.case.errors import InputError
+from fctd.case.friction import FrictionSet
+from fctd.case.load import Case
+from fctd.case.text import printable
+from fctd.cli.options import messages
+from fctd.cli.pictures import draw_chart
+from fctd.cli.steady import read_bit_depths, row_bar
+from fctd.model.depths import usual_depths
+from fctd.monitoring.monitor import Monitor
+from fctd.monitoring.roadmap import Roadmap, roadmap
+from fctd.plots.loads import ChartLook
+from fctd.results.unit_systems import System, reworded
+
+DEPTHS = 40  # of the curves without --depths
+REFRESH = 10.0  # time after which a page that is still being drawn reloads itself [s]
+
+
+class Drawing:
+    """The picture of a roadmap; warnings : lines of the case below its title."""
+
+    def __init__(self, path: Path, road: Roadmap, units: System, warnings: Sequence[str]) -> None:
+        self.path, self.road, self.units, self.warnings = path, road, units, warnings
+        self._drawn = -1  # stretches in the file
+
+    def follow(self, watch: Monitor) -> None:
+        """Draw it anew where the monitor has found more; a file that cannot be written now is tried again later."""
+        if len(watch.found) == self._drawn:
+            return
+        try:
+            self.write(watch, REFRESH)
+        except InputError as error:
+            told = f"warning: {printable(str(error))}; the picture will be drawn with the next reading"
+            messages.print(told, soft_wrap=True)
+        self._drawn = len(watch.found)
+
+    def write(self, watch: Monitor, refresh: float | None = None) -> list[Path]:
+        """Replace the file as a whole; refresh : time after which a page reloads itself [s].  Returns the file."""
+        lines = [*self.road.told(watch.found), *(f"alarm: {alarm.sentence}" for alarm in watch.alarms)]
+        look = ChartLook(
+            rates=self.road.rates, measured=self.road.points(watch.found), warnings=self.warnings,
+            margins=self.road.margins, told=[reworded(line, self.units) for line in lines],
+        )  # fmt: skip
+        return draw_chart(self.path, self.road.rows, self.units, self.road.chart.case, look, refresh)
+
+
+def solved(
+    watch: Monitor, path: Path, depths: str | None, factors: Sequence[FrictionSet], limits: bool, units: System,
+    warnings: Sequence[str], quiet: bool,
+) -> Drawing:  # fmt: skip
+    """The roadmap of a monitor's case, with a progress bar; depths : of ``--depths``, or none."""
+    case: Case = watch.chart.case
+    bit_depths = usual_depths(case, DEPTHS) if depths is None else read_bit_depths(depths, case, units)
+    with row_bar(quiet) as bar:
+        task = bar.add_task("compiling", total=None)
+
+        def show(what: str, done: int, total: int) -> None:
+            bar.update(task, description=printable(what), completed=done, total=total)
+
+        road = roadmap(watch.chart, bit_depths, factors, limits=limits, progress=show)
+    return Drawing(path, road, units, warnings)
