@@ -12,6 +12,10 @@ import fctd
 from fctd import plots
 from fctd.case.units import in_steps
 from fctd.hydraulics.pressures import circulation
+from fctd.model.depths import usual_depths
+from fctd.monitoring.monitor import Monitor
+from fctd.monitoring.roadmap import roadmap as fan_of
+from fctd.monitoring.series import read_series
 from fctd.plots.flow import losses_panels
 from fctd.plots.loads import ChartLook
 from fctd.store.parquet import read_frame
@@ -55,6 +59,26 @@ def chart() -> Figure:
     case = fctd.load_case(PAPER)
     kinds = ["trip_in", "rotate_off_bottom", "trip_out"]
     return plots.chart_figure(fctd.torque_drag(case, kinds, range(1750, 2451, 25)), "si", case)
+
+
+def compare() -> Figure:
+    """The example well with its own mud and with a heavier one in a smoother hole."""
+    cases = [fctd.load_case(WELL), fctd.load_case(WELL, {"mud.density": "1.4 sg", "friction.open": 0.25})]
+    kinds = ["trip_out", "trip_in", "rotate_off_bottom"]
+    return fctd.compare([fctd.chart(case, kinds, "shoe:td:100") for case in cases]).plot().figure
+
+
+def roadmap() -> Figure:
+    """The first readings of the example, up to a stand below the alarm, on a fan of friction factors."""
+    case = fctd.load_case(WELL)
+    watch = Monitor(case)
+    readings = read_series(ROOT / "examples" / "my_readings.csv")
+    watch.feed(readings[readings["bit_depth_m"] < 2250])
+    fan = [watch.chart.set_of(factor) for factor in (0.2, 0.3, 0.4)]
+    road = fan_of(watch.chart, usual_depths(case, 40), fan)
+    told = [*road.told(watch.found), *(f"alarm: {alarm.sentence}" for alarm in watch.alarms)]
+    look = ChartLook(rates=road.rates, measured=road.points(watch.found), told=told)
+    return plots.chart_figure(road.rows, "si", case, look)
 
 
 def limits() -> Figure:
@@ -131,8 +155,8 @@ def _tables(*names: str) -> dict[str, pd.DataFrame]:
 
 
 PICTURES: dict[str, Callable[[], Figure]] = {
-    "overview": overview, "chart": chart, "limits": limits, "feeding": feeding, "monitor": monitor, "run": run,
-    "hydraulics": hydraulics,
+    "overview": overview, "chart": chart, "compare": compare, "limits": limits, "feeding": feeding, "monitor": monitor,
+    "roadmap": roadmap, "run": run, "hydraulics": hydraulics,
     "public_well": public_well, "judged_rows": judged_rows,
     "bands": bands, "stick_slip": stick_slip,
 }  # fmt: skip

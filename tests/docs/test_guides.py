@@ -155,7 +155,7 @@ def run_command(command: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> 
     monkeypatch.setattr(sys, "argv", [program, *shlex.split(shorter(command).removeprefix(f".venv/bin/{program} "))])
     with exit_code_0():
         main.run(PROGRAMS[program])
-    for target in re.findall(r"--(?:out|parts|trips|plot|plot-profile|plot-feeding|table|png) (\S+)", command):
+    for target in re.findall(r"--(?:out|parts|trips|plot|plot-profile|plot-feeding|table|png|chart) (\S+)", command):
         assert (folder / target).exists()
 
 
