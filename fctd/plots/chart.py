@@ -116,10 +116,7 @@ class _Pair:
         for panel, width in zip(self.group.panels, self.layout.widths, strict=True):
             curves = [curve for curve in panel.curves if style and np.isfinite(curve.end[0])]
             # The numbers of the lanes.
-            texts = [
-                f"{curve.lane}: {getattr(curve.name, style)}" if curve.lane else getattr(curve.name, style)
-                for curve in curves
-            ]
+            texts = [": ".join(filter(None, [str(curve.lane or ""), getattr(curve.name, style)])) for curve in curves]
             low, high, room = panel.limits.low, panel.limits.high, width * POINTS
             ends = [(curve.end[0] - low) / (high - low) * room for curve in curves]
             self.texts.append(texts)

@@ -10,6 +10,7 @@ import numpy as np
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
+from fctd.case.text import printable
 from fctd.plots.description import Curve, DepthAxis, Description, Group, Key, Lane, Mark, Name, Panel, Points
 from fctd.plots.limit_lines import limit_lines
 from fctd.plots.loads import (
@@ -47,6 +48,7 @@ AIR: Final = 0.02  # of the span of depths, above and below them
 # Where rows stand that have no place on their line: from the left edge of the axis, for the first curve, and from curve
 # to curve, in shares of the axis.
 EDGE, APART = 0.015, 0.025
+LONGEST = 40  # characters of the name of a case
 WIDEST, NARROWEST = 1.9, 0.9  # lines of the first and the last case, so that one below another is seen
 
 
@@ -86,7 +88,7 @@ def describe(chart: Chart, units: System = "si", case: Compared = None, look: Ch
             edge = limits[k].low + (EDGE + APART * at) * (limits[k].high - limits[k].low)
             dash = DASHES[frictions.index(one.friction) % len(DASHES)] if fan and (factors or len(of) == 1) else SOLID
             name, (colour, width) = _name(one, factors, group), _look(one, names)
-            key = one.case or (KINDS[one.operation].label if several else name.full)
+            key = _cut(one.case) or (KINDS[one.operation].label if several else name.full)
             curves.append(
                 Curve(
                     one.operation, one.friction, name, dash, lanes.get(of[0], 0),
@@ -152,15 +154,21 @@ def _look(one: Series, names: list[str]) -> tuple[str, float]:
 def _name(one: Series, factors: str, group: list[Series]) -> Name:
     """The name of a curve of a group."""
     kind, label = one.operation, KINDS[one.operation].label
-    if one.case:  # marker and legend tell the operation
+    if one.case:  # marker, colour and legend tell the operation and the case
         word = SHORT.get(kind, label) if len({of.operation for of in group}) > 1 else ""
-        full, short = (", ".join(filter(None, [one.case, of, factors])) for of in (word, ""))
-        return Name(full, short, factors or one.case)
+        full, short = (", ".join(filter(None, [_cut(one.case), of, factors])) for of in (word, ""))
+        return Name(full, short, factors)
     several = len({one.operation for one in group}) > 1 or not factors
     full, short = (
         ", ".join(filter(None, [word if several else "", factors])) for word in (label, SHORT.get(kind, label))
     )
     return Name(full, short, factors or short)
+
+
+def _cut(name: str) -> str:
+    """The name of a case as a label; of a long one its beginning and its end, in which names of one file differ."""
+    text = printable(name)
+    return text if len(text) <= LONGEST else f"{text[: LONGEST - 15]}…{text[-14:]}"
 
 
 def _lanes(group: list[Series], metre: float) -> tuple[tuple[Lane, ...], dict[int, int]]:
@@ -219,7 +227,7 @@ def _marks(cases: Mapping[str, Case | None], depth: DepthAxis, factor: float) ->
         for mark in _marks_of(case, depth, factor):
             owners.setdefault(mark, []).append(name)
     marks = [
-        mark if len(of) == len(cases) else mark._replace(lines=(*mark.lines, in_a_row(of)))
+        mark if len(of) == len(cases) else mark._replace(lines=(*mark.lines, in_a_row([*map(_cut, of)])))
         for mark, of in owners.items()
     ]
     return tuple(sorted(marks, key=lambda mark: mark.depth))
@@ -257,6 +265,6 @@ def _keys(series: list[Series], frictions: list[str]) -> list[Key]:
 def _keys_of_cases(series: list[Series], names: list[str], frictions: list[str]) -> list[Key]:
     """What the colours of cases, the markers of operations and the dashes of factors stand for."""
     kinds = dict.fromkeys(one.operation for one in series)
-    keys = [Key(name, CASES[k], "", SOLID) for k, name in enumerate(names)]
+    keys = [Key(_cut(name), CASES[k], "", SOLID) for k, name in enumerate(names)]
     keys += [Key(KINDS[kind].label, QUIET, LOOKS[kind][1], SOLID) for kind in kinds if len(kinds) > 1]
     return keys + [Key(f"μ {friction}", QUIET, "", DASHES[k % len(DASHES)]) for k, friction in enumerate(frictions)]

@@ -56,7 +56,7 @@ def heading_of_chart(chart: pd.DataFrame, units: System, case: Compared, look: C
     kinds, frictions = list(dict.fromkeys(one.operation for one in series)), frictions_of(series)
     if isinstance(case, Mapping):
         words = [in_a_row(list(case))]
-        all_facts = [facts_of(of.case, kinds, units, of.rates) for of in case.values()]
+        all_facts = [facts_of(of.case, list(of.rates), units, of.rates) for of in case.values()]
     else:
         words = [] if case is None else [case.name]
         all_facts = [] if case is None else [facts_of(case, kinds, units, look.rates)]

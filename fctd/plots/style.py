@@ -126,10 +126,13 @@ class Sheet:
         # matplotlib fills columns first.
         ordered = [handles[row * columns + column] for column in range(columns) for row in range(rows)
                    if row * columns + column < len(handles)]  # fmt: skip
-        return self.figure.legend(
+        legend = self.figure.legend(
             handles=ordered, ncols=columns, loc="lower left", bbox_to_anchor=(MARGIN / self.width, 0.04 / self.height),
             fontsize=8, borderaxespad=0, handlelength=2.6, columnspacing=1.4, labelspacing=0.45,
         )  # fmt: skip
+        for text in legend.get_texts():  # a case's name is no formula
+            text.set_parse_math(False)
+        return legend
 
 
 def _wrapped(text: str, width: float) -> list[str]:

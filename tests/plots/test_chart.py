@@ -3,6 +3,7 @@
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 from matplotlib.text import Annotation
 
@@ -12,6 +13,7 @@ from fctd.plots.chart import LEADER
 from fctd.plots.describe import describe
 from fctd.results.notes import MEANINGS
 from fctd.results.series import FRICTION_LABEL
+from fctd.steady.chart import Chart
 from tests.plots.made import (
     DEPTHS,
     chart,
@@ -104,6 +106,17 @@ def test_no_text_covers_another(kinds: list[str], factors: list[float], units: A
     )
     named = CASE.model_copy(update={"name": "a well of a rather long name, $1 \\frac 5$"})
     assert texts_that_overlap(plots.chart_figure(table, units, named, plots.ChartLook(load))) == []
+
+
+def test_no_text_of_several_cases_covers_another() -> None:
+    """Two cases of long names, with a formula and a character that does not print, whose strings are not converged."""
+    names = ["a well of a rather long name, $1 \\frac 5$, plan A \x1b", "a well of a rather long name, plan B"]
+    tables = [chart(["trip_out", "trip_in"], [0.2], {"under_resolved": "trip_in"}).assign(case=name) for name in names]
+    charts = {name: Chart(CASE, table, (), (), {}) for name, table in zip(names, tables, strict=True)}
+    look = plots.ChartLook("string", told=["mud.density: 1 sg, 2 sg"] * 3)
+    figure = plots.chart_figure(pd.concat(tables), "si", charts, look)
+    assert texts_that_overlap(figure) == []
+    assert any(text.endswith("plan A \\x1b") and len(text) == 40 for text in legend_of(figure))
 
 
 def test_where_slack_off_is_spent_is_hatched_and_named() -> None:

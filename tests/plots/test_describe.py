@@ -5,10 +5,13 @@ import pandas as pd
 import pytest
 
 from fctd.case.errors import InputError
+from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.plots.describe import MOST_GROUPS, SAME, describe
+from fctd.plots.description import Description
 from fctd.plots.loads import ChartLook
-from fctd.plots.palette import DASHES, LOOKS, SOLID
+from fctd.plots.palette import CASES, DASHES, LOOKS, SOLID
+from fctd.steady.chart import Chart as CaseChart
 from tests.plots.made import BLOCK, FOOT, LBF, chart, locked_chart, well
 
 CASE = well(rig={"block_weight": BLOCK})
@@ -144,3 +147,73 @@ def test_pushes_are_hatched_where_a_string_locks_up() -> None:
     assert (left.spent, right.spent) == (-30.0, None)
     assert describe(locked_chart(), "si", CASE).groups[0].panels[0].spent == 0.0
     assert describe(chart(["trip_in"], [0.2]), "si", CASE).groups[0].panels[0].spent is None
+
+
+def compared(frictions: dict[str, list[float]], kinds: list[str], **wells: Case) -> Description:
+    """The description of the charts of cases; frictions : of each."""
+    tables = [chart(kinds, of).assign(case=name) for name, of in frictions.items()]
+    charts = {
+        name: CaseChart(wells.get(name, well()), table, (), (), {})
+        for name, table in zip(frictions, tables, strict=True)
+    }
+    return describe(pd.concat(tables, ignore_index=True), "si", charts, ChartLook("string"))
+
+
+def test_a_case_has_a_colour_and_an_operation_its_marker() -> None:
+    found = compared({"A": [0.2], "B": [0.3]}, ["trip_out", "trip_in"])
+    curves = found.groups[0].panels[0].curves
+    assert [(curve.key, curve.look) for curve in curves] == [
+        ("A", (CASES[0], "^")), ("A", (CASES[0], "v")), ("B", (CASES[1], "^")), ("B", (CASES[1], "v")),
+    ]  # fmt: skip
+    assert curves[0].width > curves[2].width
+    # Each case has its own factors, which are not those of a fan.
+    assert {curve.dash for curve in curves} == {SOLID}
+    assert [curve.name.full for curve in curves[:2]] == ["A, picking up", "A, slacking off"]
+    assert [key.name for key in found.keys] == ["A", "B", "picking up", "slacking off"]
+
+
+def test_equal_curves_of_two_cases_are_both_drawn() -> None:
+    found = compared({"A": [0.2, 0.3], "B": [0.2, 0.3]}, ["rotate_off_bottom"])
+    loads, torques = (panel.curves for panel in found.groups[0].panels)
+    assert [curve.name.full for curve in loads] == ["A", "B"]
+    assert [curve.name.full for curve in torques] == ["A, μ 0.2", "A, μ 0.3", "B, μ 0.2", "B, μ 0.3"]
+    assert [key.name for key in found.keys] == ["A", "B", "μ 0.2", "μ 0.3"]
+
+
+@pytest.mark.parametrize(
+    ("cases", "kinds", "frictions", "groups"),
+    [
+        (6, 3, 1, ["slacking off", "picking up", "rotating off bottom"]),
+        (6, 1, 2, ["friction factor 0.1", "friction factor 0.2"]),
+        (2, 3, 3, ["slacking off", "picking up", "rotating off bottom"]),
+        (6, 2, 2, [f"{kind}, friction factor {f}" for kind in ("slacking off", "picking up") for f in (0.1, 0.2)]),
+    ],
+)
+def test_groups_of_curves_have_all_cases(cases: int, kinds: int, frictions: int, groups: list[str]) -> None:
+    """Of made-up loads; a group has at most ten curves and all cases."""
+    factors = [round(0.1 * k, 1) for k in range(1, frictions + 1)]
+    found = compared({f"case {k}": factors for k in range(cases)}, list(KINDS)[:kinds])
+    assert sorted(group.name for group in found.groups) == sorted(groups)
+    assert all(len({curve.key for curve in group.panels[1].curves}) == cases for group in found.groups)
+
+
+def test_a_seventh_case_is_refused() -> None:
+    with pytest.raises(InputError, match="at most 6 cases"):
+        compared({str(k): [0.2] for k in range(7)}, ["trip_in"])
+
+
+def test_a_shoe_that_not_all_cases_have_says_whose_it_is() -> None:
+    """Both end at 2,000 m; one has its shoe 300 m lower, and a block that pushes more."""
+    deep = well(rig={"block_weight": 3e4})
+    upper = deep.wellbore.intervals[0].model_copy(update={"to_md": 1800.0})
+    hole = deep.wellbore.model_copy(update={"intervals": (upper, *deep.wellbore.intervals[1:])})
+    found = compared({"A": [0.2], "B": [0.2]}, ["trip_in"], B=deep.model_copy(update={"wellbore": hole}))
+    assert [mark.lines for mark in found.marks] == [("shoe 1500 m", "A"), ("shoe 1800 m", "B")]
+
+
+def test_a_long_name_keeps_its_beginning_and_its_end() -> None:
+    names = [f"well \x1b {'x' * 60} {k}" for k in (1, 2)]
+    keys = [key.name for key in compared({name: [0.2] for name in names}, ["trip_in"]).keys]
+    assert [key[:8] for key in keys] == ["well \\x1"] * 2
+    assert keys[0] != keys[1]
+    assert max(map(len, keys)) == 40
