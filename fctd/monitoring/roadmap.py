@@ -76,16 +76,18 @@ class Roadmap:
         if not drawn:
             return ["no steady reading in the hole of the case yet", *self._left_out(found)]
         last = drawn[-1].stretch
-        words = f"{counted(len(drawn), 'reading')}; the last one: {KINDS[KIND_OF[last.mode]].label} at "
-        words += f"{last.bit_depth:.1f} m, weight indicator {last.hook_load.median / 1e3:.1f} kN"
-        if last.mode in ROTATING:
-            words += f", drive torque {last.torque.median / 1e3:.2f} kN·m"
+        what = f"{KINDS[KIND_OF[last.mode]].label} at {last.bit_depth:.1f} m"
+        words = [f"{counted(len(drawn), 'reading')}; the last one: {what}"]
+        if np.isfinite(last.hook_load.median):
+            words.append(f"weight indicator {last.hook_load.median / 1e3:.1f} kN")
+        if last.mode in ROTATING and np.isfinite(last.torque.median):
+            words.append(f"drive torque {last.torque.median / 1e3:.2f} kN·m")
         if np.isfinite(drawn[-1].factor):
-            words += f", friction factor of {self.chart.fit} hole {drawn[-1].factor:.2f}"
+            words.append(f"friction factor of {self.chart.fit} hole {drawn[-1].factor:.2f}")
         top, bottom = (float(end) for end in (self.rows["bit_depth_m"].min(), self.rows["bit_depth_m"].max()))
         outside = sum(not top <= reading.stretch.bit_depth <= bottom for reading in drawn)
         beyond = f"{counted(outside, 'reading')} outside the depths of the curves, {top:.1f} to {bottom:.1f} m"
-        return [words, *([beyond] if outside else []), *self._left_out(found)]
+        return [", ".join(words), *([beyond] if outside else []), *self._left_out(found)]
 
     def _left_out(self, found: Sequence[Apparent]) -> list[str]:
         deepest = self.chart.deepest
