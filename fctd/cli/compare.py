@@ -9,7 +9,7 @@ import typer
 
 from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
-from fctd.case.friction import parse_frictions
+from fctd.case.friction import FrictionSet, parse_frictions
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import SAME_DEPTH, Case, naming_file, with_friction
 from fctd.case.raw_case import parse_override
@@ -106,8 +106,7 @@ def compare_command(
     kinds, factors = read_kinds(operations, USUAL), parse_frictions(frictions, "--friction")
     drive = read_drive(speed, rpm, flow, units)
     bit_depths, ends = _depths(depths, cases, units)
-    # Factors of the option stand in place of those of the cases.
-    compared = [with_friction(case, factors[0]) if factors else case for case in cases.values()]
+    compared = [_with_factors(case, factors) for case in cases.values()]
     lines = [found.sentence(list(cases), units) for found in differences(compared, units)]
     for line in [*_shortened(lines, ON_SCREEN), *ends]:
         screen.print(line, soft_wrap=True)
@@ -159,6 +158,12 @@ def _read(sources: Sequence[str], shared: Mapping[str, Any]) -> dict[str, Case]:
         raise InputError(f"{expected}: {given[0][0]} {given[0][0]} mud.density='1.4 sg'", key="CASE", value=sources[0])
     cases = [read_case(path, {**shared, **changes}) for path, changes in given]
     return dict(zip(names_of(cases), cases, strict=True))
+
+
+def _with_factors(case: Case, factors: Sequence[FrictionSet]) -> Case:
+    """The case with the first factors of the option, which stand in place of its own; InputError names its file."""
+    with naming_file(case):
+        return with_friction(case, factors[0] if factors else None)
 
 
 def _depths(text: str, cases: Mapping[str, Case], units: System) -> tuple[dict[str, list[float]], list[str]]:

@@ -78,6 +78,7 @@ def test_the_same_case_twice_differs_in_no_key(case_file: Path, cli: Command) ->
         (["CASE", "CASE", "--plot", "CASE"], "--plot"),
         (["CASE", "CASE", "--depths", "5000:6000:10"], "tiny.toml: --depths"),
         (["CASE", "CASE", "--depths", "shoe:td:10"], "the case has one interval"),
+        (["CASE", "CASE", "--friction", "cased=0.2,open=0.3"], "tiny.toml: wellbore.intervals[0].kind"),
         (["CASE"] * 7 + ["--plot", "p.png"], "at most 6 cases"),
     ],
 )
