@@ -87,6 +87,7 @@ def differences(cases: Sequence[Case], units: System = "si") -> list[Difference]
     A value that a case derives from another key differs with that key alone.  units : of depths in the words of a
     survey.  Reads surveys and calipers; raises InputError where one cannot be used.
 
+    >>> from fctd import load_case
     >>> light, heavy = (load_case("examples/my_well.toml", {"mud.density": mud}) for mud in ("1250 kg/m^3", "1.4 sg"))
     >>> [found.sentence(["light", "heavy"]) for found in differences([light, heavy])]
     ['mud.density: 1250 kg/m³ (light), 1400 kg/m³ (heavy)']
