@@ -81,8 +81,8 @@ def compare(charts: Iterable[Chart] | Mapping[str, Chart], units: System = "si")
     ['mud.density: 1250 kg/m³ (my well 1), 1400 kg/m³ (my well 2)']
     >>> found.table[["case", "hookload_N"]].round(-3)
             case  hookload_N
-    0  my well 1    918000.0
-    1  my well 2    898000.0
+    0  my well 1    932000.0
+    1  my well 2    911000.0
     """
     if not isinstance(charts, Mapping):
         found = list(charts)
