@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from fctd.simulation.simulate import Simulation, simulate
     from fctd.steady.chart import Chart, chart
     from fctd.steady.equilibrium import equilibrium, lie_along
+    from fctd.steady.free_point import free_point
     from fctd.steady.margin_table import limits_of
     from fctd.steady.refine import Refinement, refine
     from fctd.steady.steady_string import Equilibrium
@@ -66,6 +67,7 @@ _HOMES = {
     "equilibrium": "fctd.steady.equilibrium",
     "fastest_trips": "fctd.hydraulics.surge",
     "find_contacts": "fctd.model.wellbore",
+    "free_point": "fctd.steady.free_point",
     "hydraulics_of": "fctd.hydraulics.pressures",
     "lie_along": "fctd.steady.equilibrium",
     "limits_of": "fctd.steady.margin_table",
@@ -103,6 +105,7 @@ __all__ = [
     "equilibrium",
     "fastest_trips",
     "find_contacts",
+    "free_point",
     "hydraulics_of",
     "lie_along",
     "limits_of",
