@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from fctd.steady.chart import Chart, chart
     from fctd.steady.equilibrium import equilibrium, lie_along
     from fctd.steady.free_point import free_point
+    from fctd.steady.jar import jar_forces
     from fctd.steady.margin_table import limits_of
     from fctd.steady.refine import Refinement, refine
     from fctd.steady.steady_string import Equilibrium
@@ -69,6 +70,7 @@ _HOMES = {
     "find_contacts": "fctd.model.wellbore",
     "free_point": "fctd.steady.free_point",
     "hydraulics_of": "fctd.hydraulics.pressures",
+    "jar_forces": "fctd.steady.jar",
     "lie_along": "fctd.steady.equilibrium",
     "limits_of": "fctd.steady.margin_table",
     "load_case": "fctd.case.load",
@@ -107,6 +109,7 @@ __all__ = [
     "find_contacts",
     "free_point",
     "hydraulics_of",
+    "jar_forces",
     "lie_along",
     "limits_of",
     "load_case",

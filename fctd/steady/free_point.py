@@ -215,7 +215,7 @@ def _row(held: Held, by: str, found: Row) -> Row:
 
 
 def _lower_end(force: float, point: Equilibrium) -> float:
-    """Where the lower end of a string is along the hole [m], with the stretch of the half segment below its last spring.
+    """Where the lower end of a string is along the hole [m], with the stretch of half a segment below its last spring.
 
     A place that is fixed at the top moves at its lower end as far as the stuck string does at its top.
     """

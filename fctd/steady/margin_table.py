@@ -93,7 +93,7 @@ def limits_of(
 
 
 def _stuck_at(stuck_at: float | str, case: Case, kinds: Sequence[str], flow: float | str | None) -> float:
-    """The depth at which a string is stuck [m]; raises InputError for kinds and a flow that are not for such a string."""
+    """The depth at which a string is stuck [m]; raises InputError for kinds that do not load it, and for a flow."""
     for kind in kinds:
         if kind not in USUAL:
             raise InputError(f"{', '.join(USUAL)} of a string that is stuck", key="operation", value=kind)

@@ -103,8 +103,8 @@ def first_limit(point: Equilibrium, only: str | None = None) -> First:
 class Loaded:
     """A string of an operation whose loads at the bit grow.
 
-    solver : of its case; rates : of the operation; laid : the string.  A string that is stuck above its bit is loaded at
-    its stuck point in place of the bit (stuck.py).
+    solver : of its case; rates : of the operation; laid : the string.  One that is stuck above its bit is loaded at its
+    stuck point in place of the bit (stuck.py).
     """
 
     stuck: ClassVar[bool] = False
@@ -125,9 +125,9 @@ class Loaded:
         """The string without loads that are added."""
         return self.pulled(0.0) if KINDS[self.operation].direction < 0 else self.pressed(0.0, 0.0)
 
-    def pulled(self, overpull: float) -> Equilibrium:
-        """The string that a stuck bit holds with a force [N]."""
-        return self._solve(self.operation, {"overpull": overpull}, {})
+    def pulled(self, overpull: float, **contact: Any) -> Equilibrium:
+        """The string that a stuck bit holds with a force [N]; contact : other keys of contact."""
+        return self._solve(self.operation, {"overpull": overpull}, contact)
 
     def pressed(self, weight: float, torque: float, **contact: Any) -> Equilibrium:
         """The string with more weight on its bit [N], and more torque at it [N m]; contact : other keys of contact."""

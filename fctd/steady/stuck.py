@@ -24,8 +24,9 @@ from fctd.steady.steady_string import Equilibrium
 
 # Speed along the hole [m/s] and around it [rad/s] of a string that creeps: mud does not hold it back.
 CREEP: Final = 1e-4
-# A load is met within so many N or N m, in so many steps.
-NEAR, STEPS = 1.0, 30
+# A load is met within so many N or N m, in so many steps; it jumps where the string winds itself into a longer helix, and
+# is then that beside a jump which is known within the last number.
+NEAR, STEPS, JUMP = 1.0, 40, 20.0
 
 
 @dataclass
@@ -46,16 +47,16 @@ class StuckString(Loaded):
 
     @cached_property
     def own(self) -> BitLoads:
-        """A string that turns hangs from its free weight; pull and weight set down count from none at the stuck point."""
+        """One that turns hangs with its free weight; pull and weight set down count from none at the stuck point."""
         if KINDS[self.operation].direction:
             return BitLoads(0.0, 0.0)
         hung = tension_at(self.whole, self.whole.bit_depth - self.laid.string.bit_depth)
         return BitLoads(-hung, 0.0)
 
     def tensioned(self, force: float) -> Equilibrium:
-        """The string with a tension at its stuck point [N], below 0 a push."""
+        """The string with a tension at its stuck point [N], below 0 a push; its waves have their wall force."""
         if KINDS[self.operation].direction < 0:
-            return self.pulled(force)
+            return self.pulled(force, helical_force="analytic")
         return self.pressed(-force, 0.0, helical_force="analytic")
 
     def at_hookload(self, hookload: float) -> tuple[float, Equilibrium] | None:
@@ -76,8 +77,8 @@ def stuck_string(
 ) -> StuckString:
     """A string that is stuck at a measured depth [m], in mud at rest; operation : pulls, sets down or turns.
 
-    solver : of the case, with its bit at ``bit_depth`` [m]; rates : of the free string; whole : that string, where it is
-    known.  Raises InputError where string and hole do not fit, and for a depth that is not on the string.
+    solver : of the case, with its bit at ``bit_depth`` [m]; rates : of the free string; whole : that string, if known.
+    Raises InputError where string and hole do not fit, and for a depth that is not on the string.
     """
     rates = rates._replace(flow=0.0)
     above = Solver(above_stuck_point(solver.case, bit_depth, md), solver.hole, solver.work)
@@ -105,18 +106,27 @@ def _met(
 ) -> tuple[float, Equilibrium] | None:
     """The force at the stuck point at which a load of a string is the one that is wanted, by secants, and the string.
 
-    None where a string on the way has no balance.
+    The load grows with the force, steeply where a string that is set down is about to lock up: where a secant leads out
+    of the interval in which the force lies, or to a load without a steady string, its middle is next.
     """
-    before, here, missing = 0.0, 0.0, 0.0
+    low, high = -np.inf, np.inf
+    before, here, missing, slope = 0.0, 0.0, 0.0, 1.0
     for step in range(STEPS):
         point = at(here)
         if not point.answered:
-            return None
+            if not step:
+                return None
+            here = 0.5 * (before + here)
+            continue
         left = load(point) - wanted
-        if abs(left) <= NEAR:
+        low, high = (here, high) if left < 0 else (low, here)
+        if abs(left) <= NEAR or high - low <= JUMP:
             return here, point
-        slope = (left - missing) / (here - before) if step else 1.0
-        if slope == 0:
+        slope = (left - missing) / (here - before) if step else slope
+        ahead = here - left / slope if slope > 0 else np.nan
+        if not low < ahead < high:
+            ahead = 0.5 * (low + high)
+        if not np.isfinite(ahead):
             return None
-        before, here, missing = here, here - left / slope, left
+        before, here, missing = here, ahead, left
     return None
