@@ -65,13 +65,14 @@ def jar_forces(
 
     jar : its depth [m] or the name of its component.  stuck_at, bit_depth [m] : by default the end of the hole.
     up : pulls at the jar [N], for which the string is pulled; down : pushes at the jar [N], for which it is set down;
-    hookload : of the string [N], to which it is pulled and set down.  Texts have units.
+    hookload : of the string [N], to which it is pulled, set down, or either where it is between those of the free string.
+    Texts have units.
 
     Columns: direction (up or down), jar_md_m, stuck_md_m, bit_depth_m, hookload_N, weight_indicator_N,
     force_at_jar_N and force_at_stuck_N (effective tension, below 0 a push), over_free_N (hook load above that of the
-    free string that moves the same way), limit and share_used (of the limit that the string uses most), hoist_share (of
-    the hoist's capacity), buckling (its mode), reason.  NaN where no steady string has the load.  The pressure that opens
-    a jar while pumps run is left out.  Raises InputError for unusable input.
+    free string that moves the same way), limit and share_used (of the limit that it uses most), hoist_share (of the
+    hoist's capacity), buckling (its mode), reason.  NaN where no steady string has the load.  The pressure that opens a
+    jar while pumps run is left out.  Raises InputError for unusable input.
 
         >>> case = fctd.load_case("examples/my_well.toml")
         >>> rows = fctd.jar_forces(case, "2750 m", up=["400 kN"])
@@ -88,20 +89,25 @@ def jar_forces(
         if not case.string.top_md < place <= stuck:
             expected = f"a depth along the string, above the place where it is stuck, {stuck:g} m"
             raise InputError(expected, key="jar", value=f"{place:g} m")
-        asked = [(UP, "up", force) for force in up] + [(DOWN, "down", force) for force in down]
-        asked += [(direction, "hookload", load) for load in hookload for direction in KINDS]
-        if not asked:
+        where = {"jar_md_m": place, "stuck_md_m": stuck, "bit_depth_m": bit}
+        solver, rows = Solver(case), list[Row]()
+        strings = {way: stuck_string(solver, kind, steady_rates(case, kind), bit, stuck) for way, kind in KINDS.items()}
+        for key, loads in (("up", up), ("down", down), ("hookload", hookload)):
+            for load in loads:
+                value = argument(load, FORCE, key)
+                if not np.isfinite(value) or (value < 0 and key != "hookload"):
+                    raise InputError("a force of at least 0", key=key, value=load)
+                for way in _ways(strings, value) if key == "hookload" else (key,):
+                    rows.append({"direction": way, **where, **_row(strings[way], key, value, stuck - place)})
+        if not rows:
             raise InputError("forces at the jar, or a hook load", key="up")
-        solver, strings, rows = Solver(case), dict[str, StuckString](), list[Row]()
-        for direction, key, load in asked:
-            value, kind = argument(load, FORCE, key), KINDS[direction]
-            if not np.isfinite(value) or (value < 0 and key != "hookload"):
-                raise InputError("a force of at least 0", key=key, value=load)
-            if direction not in strings:
-                strings[direction] = stuck_string(solver, kind, steady_rates(case, kind), bit, stuck)
-            where = {"jar_md_m": place, "stuck_md_m": stuck, "bit_depth_m": bit}
-            rows.append({"direction": direction, **where, **_row(strings[direction], key, value, stuck - place)})
     return pd.DataFrame(rows)
+
+
+def _ways(strings: dict[str, StuckString], hookload: float) -> list[str]:
+    """The directions in which a string comes to a hook load [N]: both between those of the free string."""
+    lifted, lowered = (strings[way].free.hookload for way in (UP, DOWN))
+    return [way for way, comes in ((UP, hookload > lowered), (DOWN, hookload < lifted)) if comes]
 
 
 def _row(string: StuckString, key: str, value: float, above: float) -> Row:

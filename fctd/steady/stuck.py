@@ -24,8 +24,8 @@ from fctd.steady.steady_string import Equilibrium
 
 # Speed along the hole [m/s] and around it [rad/s] of a string that creeps: mud does not hold it back.
 CREEP: Final = 1e-4
-# A load is met within so many N or N m, in so many steps; it jumps where the string winds itself into a longer helix, and
-# is then that beside a jump which is known within the last number.
+# A load is met within so many N or N m, in so many steps; it jumps where the string winds itself into a longer helix,
+# and is then that beside a jump which is known within the last number.
 NEAR, STEPS, JUMP = 1.0, 40, 20.0
 
 
