@@ -8,6 +8,7 @@
     chart = fctd.chart(case, operation=["trip_in", "trip_out"], bit_depths="shoe:td:50", friction=[0.2, 0.3])
     rows = fctd.torque_drag(case, operation=["trip_in", "trip_out"], bit_depths=range(1750, 2451, 10))
     left = fctd.limits_of(case, bit_depths="td")
+    found = fctd.free_point(case, pull="200 kN", stretch="0.6 m")
     known = fctd.run_uncertainty(fctd.run_sweep("sweep.toml"))
     lost = fctd.hydraulics_of(case, flow="2000 L/min")
     trips = fctd.surge_pressures(case, speeds=[0.5])
@@ -42,6 +43,7 @@ if TYPE_CHECKING:
     from fctd.steady.refine import Refinement, refine
     from fctd.steady.steady_string import Equilibrium
     from fctd.steady.torque_drag import torque_drag
+    from fctd.steady.wear import casing_wear
     from fctd.sweep.swept import Swept, run_sweep, run_uncertainty
     from fctd.sweep.uncertainty import Uncertainty
 
@@ -63,6 +65,7 @@ _HOMES = {
     "Wellbore": "fctd.model.wellbore",
     "build_wellbore": "fctd.model.wellbore",
     "calibrate": "fctd.calibration.calibrate",
+    "casing_wear": "fctd.steady.wear",
     "chart": "fctd.steady.chart",
     "check_case": "fctd.results.checked",
     "equilibrium": "fctd.steady.equilibrium",
@@ -102,6 +105,7 @@ __all__ = [
     "Wellbore",
     "build_wellbore",
     "calibrate",
+    "casing_wear",
     "chart",
     "check_case",
     "equilibrium",

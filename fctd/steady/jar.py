@@ -53,7 +53,7 @@ def jar_depth(case: Case, jar: float | str, bit_depth: float) -> float:
 def jar_forces(
     case: Case,
     jar: float | str,
-    stuck_at: float | str = "td",
+    stuck_at: float | str | None = None,
     bit_depth: float | str = "td",
     *,
     up: Sequence[float | str] = (),
@@ -63,10 +63,11 @@ def jar_forces(
 ) -> pd.DataFrame:
     """Hook loads and forces at a jar of a string that is stuck below it, a row for each load that is asked for, SI.
 
-    jar : its depth [m] or the name of its component.  stuck_at, bit_depth [m] : by default the end of the hole.
+    jar : its depth [m] or the name of its component.  bit_depth [m] : by default the end of the hole; stuck_at [m] : by
+    default the bit.
     up : pulls at the jar [N], for which the string is pulled; down : pushes at the jar [N], for which it is set down;
-    hookload : of the string [N], to which it is pulled, set down, or either where it is between those of the free string.
-    Texts have units.
+    hookload : of the string [N], to which it is pulled or set down, or both between those of the free string.  Texts
+    have units.
 
     Columns: direction (up or down), jar_md_m, stuck_md_m, bit_depth_m, hookload_N, weight_indicator_N,
     force_at_jar_N and force_at_stuck_N (effective tension, below 0 a push), over_free_N (hook load above that of the
@@ -83,7 +84,7 @@ def jar_forces(
 
     with naming_file(case):
         bit = depth_of(bit_depth, case, "bit_depth")
-        stuck = depth_of(stuck_at, case, "stuck_at")
+        stuck = bit if stuck_at is None else depth_of(stuck_at, case, "stuck_at")
         case = with_friction(case, friction)
         place = jar_depth(case, jar, bit)
         if not case.string.top_md < place <= stuck:
