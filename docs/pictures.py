@@ -14,6 +14,7 @@ from fctd.case.units import in_steps
 from fctd.hydraulics.pressures import circulation
 from fctd.plots.flow import losses_panels
 from fctd.plots.loads import ChartLook
+from fctd.plots.wear import wear_panels
 from fctd.store.parquet import read_frame
 from fctd.sweep.dataset import open_dataset
 from fctd.sweep.run import sweep
@@ -117,6 +118,13 @@ def hydraulics() -> Figure:
     return plots.panels_figure(losses_panels(table, last, "si", ["API RP 13D, concentric"]))
 
 
+def wear() -> Figure:
+    """The wear of the example's casing while its open hole is drilled."""
+    case = fctd.load_case(WELL, {"wellbore.intervals[0].casing": "9 5/8 in 47 N-80"})
+    table = fctd.casing_wear(case, "shoe:td:50", penetration="20 m/h", rpm=120)
+    return plots.panels_figure(wear_panels(case, table, "si", ["20 m/h, 120 rev/min, wear factors 2 to 10e-10/psi"]))
+
+
 def _swept(name: str) -> Uncertainty:
     """What an example sweep says."""
     spec = read_sweep(ROOT / "examples" / f"{name}.toml")
@@ -132,7 +140,7 @@ def _tables(*names: str) -> dict[str, pd.DataFrame]:
 
 PICTURES: dict[str, Callable[[], Figure]] = {
     "overview": overview, "chart": chart, "limits": limits, "feeding": feeding, "monitor": monitor, "run": run,
-    "hydraulics": hydraulics,
+    "hydraulics": hydraulics, "wear": wear,
     "public_well": public_well, "judged_rows": judged_rows,
     "bands": bands, "stick_slip": stick_slip,
 }  # fmt: skip

@@ -9,7 +9,6 @@ import typer
 from fctd.case.doubts import warnings_of
 from fctd.case.text import printable
 from fctd.case.units import FORCE, LENGTH, TORQUE, Dimension
-from fctd.cli.check import Row, facts_table
 from fctd.cli.limits import rows_of
 from fctd.cli.options import (
     CaseFile,
@@ -34,8 +33,6 @@ from fctd.steady.free_point import STRETCH, free_point
 
 if TYPE_CHECKING:
     import pandas as pd
-
-FORMULA = "the same bodies in a straight hole without friction (drillers' formula)"
 
 
 def freepoint_command(
@@ -108,34 +105,28 @@ def freepoint_command(
 def _print(table: "pd.DataFrame", name: str, units: System) -> None:
     screen.print(printable(name), style="bold", soft_wrap=True)
     for row in rows_of(table):
-        screen.print(_question(row, units), soft_wrap=True)
-        screen.print(facts_table(_facts(row, units)))
+        for line in _lines(row, units):
+            screen.print(line, soft_wrap=True)
+    screen.print("hook loads are those of the string alone, without the block", soft_wrap=True)
 
 
-def _question(row: dict[str, Any], units: System) -> str:
-    """What was measured, in words."""
-    bit = f"bit at {in_words(row['bit_depth_m'], 'bit_depth_m', units)}"
+def _lines(row: dict[str, Any], units: System) -> list[str]:
+    """What was measured and what was found, in words."""
+
+    def words(column: str) -> str:
+        return in_words(row[column], column, units)
+
     if row["by"] == STRETCH:
-        load, first = (in_words(row[name], name, units) for name in ("pull_N", "first_hookload_N"))
-        return f"{in_words(row['stretch_m'], 'stretch_m', units)} of stretch by {load} more than {first}, {bit}"
-    load, first = (in_words(row[name], name, units) for name in ("torque_N_m", "first_torque_N_m"))
-    return f"{row['turns']:g} turns by {load} more than {first}, {bit}"
-
-
-def _facts(row: dict[str, Any], units: System) -> list[Row]:
-    """What was found."""
-    straight = (FORMULA, in_words(row["straight_md_m"], "straight_md_m", units), "")
+        moved, load, first = (words(name) for name in ("stretch_m", "pull_N", "first_hookload_N"))
+        arrived = ("first_force_N", "last_force_N")
+    else:
+        moved, load, first = f"{row['turns']:g} turns", words("torque_N_m"), words("first_torque_N_m")
+        arrived = ("first_arrived_N_m", "last_arrived_N_m")
+    lines = [f"{row['by']}: {moved} by {load} more than {first}, bit at {words('bit_depth_m')}"]
     if np.isnan(row["free_point_md_m"]):
-        return [("free point", "none", f"that is {reworded(row['reason'], units)}"), straight]
-    names = ("first_force_N", "last_force_N") if row["by"] == STRETCH else ("first_arrived_N_m", "last_arrived_N_m")
-    arrives = [in_words(row[name], name, units) for name in names]
-    more = in_words(row["per_percent_m"], "per_percent_m", units)
-    return [
-        (
-            "free point",
-            in_words(row["free_point_md_m"], "free_point_md_m", units),
-            f"{more} for 1 % of the {row['by']}",
-        ),
-        ("arrives there", f"{arrives[0]} to {arrives[1]}", ""),
-        straight,
-    ]
+        lines.append(f"  no free point: that is {reworded(row['reason'], units)}")
+    else:
+        lines.append(f"  free point at {words('free_point_md_m')}, {words('per_percent_m')} deeper for 1 % more of it")
+        lines.append(f"  there the load grows from {words(arrived[0])} to {words(arrived[1])}")
+    straight = f"  drillers' formula, bodies in a straight hole without friction: {words('straight_md_m')}"
+    return [*lines, straight]

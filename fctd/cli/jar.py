@@ -42,15 +42,15 @@ from fctd.cli.steady import (
 from fctd.model.depths import read_depth
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, in_words, reworded, shown
-from fctd.steady.jar import UP, jar_depth, jar_forces
+from fctd.steady.jar import UP, jar_forces
 
 if TYPE_CHECKING:
     import pandas as pd
 
 # Columns on the screen, with headings.
 SHOWN = {
-    "force_at_jar_N": "at the jar", "force_at_stuck_N": "at stuck point", "hookload_N": "hook load",
-    "weight_indicator_N": "indicator", "over_free_N": "over free",
+    "force_at_jar_N": "at the\njar", "force_at_stuck_N": "at stuck\npoint", "hookload_N": "hook\nload",
+    "weight_indicator_N": "weight\nindicator", "over_free_N": "over\nfree",
 }  # fmt: skip
 PLACES = {"jar": "jar_md_m", "stuck": "stuck_md_m", "bit": "bit_depth_m"}
 
@@ -89,10 +89,9 @@ def jar_command(
         _read(texts, f"--{key}", units) for key, texts in (("up", up), ("down", down), ("hookload", hookload))
     )
     bit = read_depth(bit_depth, case, "--bit-depth", bare_length(units))
-    named = jar in [component.name for component in case.string.components]
-    place = jar_depth(case, jar, bit) if named else read_depth(jar, case, "--jar", bare_length(units))
     warnings = warnings_of(case)
     tell(case, warnings, strict=strict, units=units)
+    place = f"{jar} {bare_length(units)}" if _is_number(jar) else jar
     table = jar_forces(case, place, read_stuck(stuck_at, case, units), bit, up=pulls, down=pushes, hookload=hung)
     written: list[Path] = []
     try:  # written before anything is printed, as the terminal may be closed
@@ -103,6 +102,14 @@ def jar_command(
     print_written(written)
     beyond = {*table.loc[table["share_used"] > 1, "limit"], *(["hoist"] if (table["hoist_share"] > 1).any() else [])}
     finish(bool((table["reason"] == "none").all()), beyond, strict)
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def _read(texts: Sequence[str], key: str, units: System) -> list[float]:
@@ -127,10 +134,10 @@ def _print(table: "pd.DataFrame", name: str, units: System) -> None:
 
 
 def _table(table: "pd.DataFrame", units: System) -> Table:
-    headings = (*SHOWN.values(), "used, %", "hoist, %")
+    headings = (*SHOWN.values(), "used\n%", "hoist\n%")
     found = Table(
-        Column("jar", no_wrap=True), *(Column(name, justify="right", no_wrap=True) for name in headings),
-        Column("until"), box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
+        Column("\njar", no_wrap=True), *(Column(name, justify="right", no_wrap=True) for name in headings),
+        Column("first\nlimit"), box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
     )  # fmt: skip
     for row in rows_of(table):
         cells = ["–" if np.isnan(row[name]) else f"{row[name] * shown(name, units).factor:z.1f}" for name in SHOWN]

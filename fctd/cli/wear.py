@@ -13,6 +13,7 @@ from fctd.case.errors import InputError
 from fctd.case.text import printable
 from fctd.case.units import LENGTH, SPEED, TIME, typed
 from fctd.cli.chart import DEPTHS_HELP
+from fctd.cli.hydraulics import number
 from fctd.cli.limits import rows_of
 from fctd.cli.options import (
     CaseFile,
@@ -51,9 +52,13 @@ if TYPE_CHECKING:
 SCREEN_ROWS: Final = 16  # of a casing
 # Columns on the screen, with headings.
 SHOWN: Final = {
-    "md_m": "depth", "side_force_N": "side force", "low_groove_m": "groove, low", "high_groove_m": "groove, high",
-    "high_worn": "of the wall", "burst_Pa": "burst, new", "low_burst_Pa": "burst, worn",
+    "md_m": "\ndepth", "side_force_N": "side\nforce", "low_groove_m": "groove,\nfrom", "high_groove_m": "\nto",
+    "high_worn": "of the\nwall", "burst_Pa": "burst,\nnew", "low_burst_Pa": "burst,\nworn",
 }  # fmt: skip
+# Columns of a range, from the lowest to the highest wear factor.
+GROOVES: Final = ("low_groove_m", "high_groove_m")
+WORN: Final = ("low_worn", "high_worn")
+LEFT: Final = ("high_burst_Pa", "low_burst_Pa")
 # Digits after the point of these columns, in SI and in field units.
 DIGITS: Final = {
     "md_m": (0, 0), "side_force_N": (2, 3), "low_groove_m": (2, 4), "high_groove_m": (2, 4), "high_worn": (1, 1),
@@ -167,20 +172,25 @@ def _facts(table: "pd.DataFrame", units: System) -> list[str]:
         if row["high_groove_m"] == 0:
             lines.append(f"{name}: no wear")
             continue
-        grooves = [in_words(row[f"{side}_groove_m"], "groove_m", units) for side in ("low", "high")]
-        left = [in_words(row[f"{side}_burst_Pa"], "burst_Pa", units) for side in ("high", "low")]
-        shares = [f"{100 * row[name]:.1f} %" for name in ("low_worn", "high_worn")]
+        depth, groove, worn = (_span(row, *names, units) for names in (GROOVES, WORN, LEFT))
         lines.append(
-            f"{name}: deepest at {in_words(row['md_m'], 'md_m', units)}, {_span(grooves)} or {_span(shares)} of the "
-            f"wall; burst {_span(left)} of {in_words(row['burst_Pa'], 'burst_Pa', units)}"
+            f"{name}: deepest groove at {in_words(row['md_m'], 'md_m', units)}, {depth}, {groove} of the wall; "
+            f"burst {worn} of {in_words(row['burst_Pa'], 'burst_Pa', units)}"
             + ("; the wall may be worn through" if row["high_worn"] >= 1 else "")
         )
     return lines
 
 
-def _span(texts: list[str]) -> str:
-    """Two texts as a range, one where they are equal."""
-    return texts[0] if texts[0] == texts[1] else " to ".join(texts)
+def _span(row: dict[str, Any], first: str, last: str, units: System) -> str:
+    """Two numbers of a row as a range with one unit, one number where they are equal."""
+    factor, unit = _unit(first, units)
+    numbers = [number(row[name] * factor) for name in (first, last)]
+    return f"{numbers[0] if numbers[0] == numbers[1] else ' to '.join(numbers)} {unit}"
+
+
+def _unit(column: str, units: System) -> tuple[float, str]:
+    """Factor and label of a column; shares in per cent."""
+    return (100.0, "%") if column in WORN else shown(column, units)
 
 
 def _print(table: "pd.DataFrame", name: str, lines: list[str], units: System) -> None:
@@ -199,14 +209,13 @@ def _print(table: "pd.DataFrame", name: str, lines: list[str], units: System) ->
 
 def _table(of: "pd.DataFrame", units: System) -> Table:
     """The rows of a casing, at evenly spread depths where they are many, with that of the deepest groove."""
-    unit = {name: "%" if name == "high_worn" else shown(name, units).label for name in SHOWN}
-    factor = {name: 100.0 if name == "high_worn" else shown(name, units).factor for name in SHOWN}
+    unit = {name: _unit(name, units) for name in SHOWN}
     table = Table(
-        *(Column(f"{words}\n{unit[name]}", justify="right") for name, words in SHOWN.items()), box=SIMPLE_HEAD,
-        collapse_padding=True, pad_edge=False,
+        *(Column(f"{words}\n{unit[name][1]}", justify="right", no_wrap=True) for name, words in SHOWN.items()),
+        box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
     )  # fmt: skip
     rows = rows_of(of)
     picked = np.linspace(0, len(rows) - 1, min(SCREEN_ROWS, len(rows))).round().astype(int)
     for k in np.unique(np.append(picked, np.argmax(of["high_groove_m"].to_numpy()))):
-        table.add_row(*(f"{rows[k][name] * factor[name]:.{DIGITS[name][units == 'field']}f}" for name in SHOWN))
+        table.add_row(*(f"{rows[k][name] * unit[name][0]:.{DIGITS[name][units == 'field']}f}" for name in SHOWN))
     return table

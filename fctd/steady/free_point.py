@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 STRETCH, TWIST = "stretch", "twist"
-NEAR: Final = 0.01  # [m]: a free point is found within this
+NEAR: Final = 0.1  # [m]: a free point is found within this; its strings are cut anew at every depth
 SHALLOWEST: Final = 30.0  # [m] below the top of the string: a free point nearer to the rig is a slip of a reading
 BESIDE: Final = 10.0  # [m]: places beside the free point, for what an error of the reading makes of it
 Row = dict[str, Any]
@@ -68,6 +69,7 @@ class Held:
         moved : by how much that of a string moves between both readings, NaN where a reading has no steady string.
         """
 
+        @cache
         def missing(md: float) -> float:
             return moved(self.at(md)) - measured
 
@@ -115,7 +117,7 @@ def free_point(
         >>> case = fctd.load_case("examples/my_well.toml")
         >>> found = fctd.free_point(case, pull="200 kN", stretch="0.6 m").iloc[0]
         >>> round(found["free_point_md_m"]), round(found["straight_md_m"])
-        (0, 0)
+        (2305, 2111)
     """
     import pandas as pd  # slow to import
 
