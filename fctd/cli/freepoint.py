@@ -124,7 +124,7 @@ def _lines(row: dict[str, Any], units: System) -> list[str]:
         arrived = ("first_arrived_N_m", "last_arrived_N_m")
     lines = [f"{row['by']}: {moved} by {load} more than {first}, bit at {words('bit_depth_m')}"]
     if np.isnan(row["free_point_md_m"]):
-        lines.append(f"  no free point: that is {reworded(row['reason'], units)}")
+        lines.append(f"  no free point: {reworded(row['reason'], units)}")
     else:
         lines.append(f"  free point at {words('free_point_md_m')}, {words('per_percent_m')} deeper for 1 % more of it")
         lines.append(f"  there the load grows from {words(arrived[0])} to {words(arrived[1])}")

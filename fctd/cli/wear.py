@@ -10,10 +10,9 @@ from rich.table import Column, Table
 
 from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
-from fctd.case.text import printable
+from fctd.case.text import counted, printable
 from fctd.case.units import LENGTH, SPEED, TIME, typed
 from fctd.cli.chart import DEPTHS_HELP
-from fctd.cli.hydraulics import number
 from fctd.cli.limits import rows_of
 from fctd.cli.options import (
     CaseFile,
@@ -43,7 +42,7 @@ from fctd.cli.steady import (
     row_bar,
 )
 from fctd.results.table_files import write_table
-from fctd.results.unit_systems import System, in_words, shown
+from fctd.results.unit_systems import System, in_words, reworded, shown
 from fctd.steady.wear import STEP, TURNING, USUAL_FACTORS, casing_wear
 
 if TYPE_CHECKING:
@@ -139,7 +138,7 @@ def wear_command(
     try:  # written before anything is printed, as the terminal may be closed
         if table_out is not None:
             metadata = metadata_of(case, units, [operation], {"rpm": asked["rpm"]}, warnings)
-            metadata |= {key: table.attrs[key] for key in ("turns", "time_s", "wear_factors")}
+            metadata |= {key: table.attrs[key] for key in ("turns", "time_s", "wear_factors", "doubted")}
             written += write_table(in_units(units, table), table_out, metadata)
         if plot is not None:
             from fctd.plots.wear import wear_panels
@@ -150,7 +149,7 @@ def wear_command(
     finally:
         _print(table, case.name, lines, units)
     print_written(written)
-    finish(True, ["worn_through"] if (table["high_worn"] >= 1).any() else [], strict)
+    finish(not table.attrs["doubted"], ["worn_through"] if (table["high_worn"] >= 1).any() else [], strict)
 
 
 def _read_factors(text: str) -> list[float]:
@@ -178,13 +177,19 @@ def _facts(table: "pd.DataFrame", units: System) -> list[str]:
             f"burst {worn} of {in_words(row['burst_Pa'], 'burst_Pa', units)}"
             + ("; the wall may be worn through" if row["high_worn"] >= 1 else "")
         )
+    if doubted := table.attrs["doubted"]:
+        last = max(doubted)
+        place = in_words(last, "bit_depth_m", units)
+        words = reworded(doubted[last], units)
+        lines.append(f"the string is doubtful at {counted(len(doubted), 'bit depth')}, the last {place}: {words}")
     return lines
 
 
 def _span(row: dict[str, Any], first: str, last: str, units: System) -> str:
     """Two numbers of a row as a range with one unit, one number where they are equal."""
     factor, unit = _unit(first, units)
-    numbers = [number(row[name] * factor) for name in (first, last)]
+    values = [row[name] * factor for name in (first, last)]
+    numbers = [f"{value:.0f}" if value >= 100 else f"{value:.3g}" for value in values]
     return f"{numbers[0] if numbers[0] == numbers[1] else ' to '.join(numbers)} {unit}"
 
 

@@ -24,6 +24,7 @@ from fctd.case.units import FORCE, LENGTH, TORQUE, Dimension, argument, bare
 from fctd.model.depths import depth_of
 from fctd.model.operations import SteadyRates, steady_rates
 from fctd.steady.equilibrium import Solver
+from fctd.steady.margins import swivel_of
 from fctd.steady.steady_string import Equilibrium
 from fctd.steady.stuck import StuckString, ends_of, stuck_string
 
@@ -34,6 +35,7 @@ STRETCH, TWIST = "stretch", "twist"
 NEAR: Final = 0.1  # [m]: a free point is found within this; its strings are cut anew at every depth
 SHALLOWEST: Final = 30.0  # [m] below the top of the string: a free point nearer to the rig is a slip of a reading
 BESIDE: Final = 10.0  # [m]: places beside the free point, for what an error of the reading makes of it
+MOST: Final = 1e9  # N, N m, m or turns: no reading is larger
 Row = dict[str, Any]
 # Columns of numbers, in the order of the table.
 NUMBERS: Final = (
@@ -79,10 +81,10 @@ class Held:
         if not np.isfinite([least, most]).all():
             return none | {"reason": "a reading has no steady string: check both loads"}
         if least > 0:
-            return none | {"reason": f"less than {SHALLOWEST:g} m of string have under that load: check the readings"}
+            return none | {"reason": f"{SHALLOWEST:g} m of string would move more under that load: check the readings"}
         if most < 0:
             times = measured / (most + measured)
-            return none | {"reason": f"{times:.3g} times as much as a string has that is stuck at its bit"}
+            return none | {"reason": f"a string that is stuck at its bit moves less, by a factor of {times:.3g}"}
         md = float(brentq(missing, top, bottom, xtol=NEAR))
         low, high = max(md - BESIDE, top), min(md + BESIDE, bottom)
         slope = (missing(high) - missing(low)) / (high - low)
@@ -134,9 +136,12 @@ def free_point(
             raise InputError("pull and stretch beside it", key="first_hookload", value=first_hookload)
         if twisted is not None:
             before = argument(first_torque, TORQUE, "first_torque")
-            if not 0 <= before < np.inf:
+            if not 0 <= before <= MOST:
                 raise InputError("a torque of at least 0", key="first_torque", value=first_torque)
-            rows.append(_by_twist(_held(solver, "rotate_off_bottom", depth), *twisted, before))
+            held = _held(solver, "rotate_off_bottom", depth)
+            if swivel := swivel_of(held.whole._shape.laid):
+                raise InputError(f"none, since no torque passes the swivel above {swivel}", key="torque", value=torque)
+            rows.append(_by_twist(held, *twisted, before))
         if not rows:
             raise InputError("pull and stretch, or torque and turns, that were measured", key="pull")
     return pd.DataFrame(rows)
@@ -155,10 +160,9 @@ def _pair(
 
 def _above_0(key: str, value: float | str, dimension: Dimension | None) -> float:
     found = bare(value, key, "a number of turns") if dimension is None else argument(value, dimension, key)
-    if not 0 < found < np.inf:
-        raise InputError(
-            f"{'a number of turns' if dimension is None else dimension.noun} above 0", key=key, value=value
-        )
+    if not 0 < found <= MOST:
+        noun = "a number of turns" if dimension is None else dimension.noun
+        raise InputError(f"{noun} above 0", key=key, value=value)
     return found
 
 
@@ -198,6 +202,8 @@ def _by_twist(held: Held, torque: float, turns: float, first: float) -> Row:
         return wound(string, first + torque)[0] - wound(string, first)[0]
 
     found = held.find(moved, turns)
+    if np.isnan(found["free_point_md_m"]) and first + torque <= held.whole.surface_torque:
+        found["reason"] += "; friction takes that torque on its way to the bit"
     arrived = _arrived(held, found, lambda string: [wound(string, at)[1] for at in (first, first + torque)])
     return _row(held, TWIST, found) | {
         "straight_md_m": _straight(held, 2 * np.pi * turns / torque, _torsional), "first_torque_N_m": first,

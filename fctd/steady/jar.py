@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 UP, DOWN = "up", "down"
 # The operation that brings a load to the jar, by the direction in which it jars.
 KINDS: Final = {UP: "trip_out", DOWN: "trip_in"}
+MOST: Final = 1e9  # [N]: no rig pulls harder
 Row = dict[str, Any]
 
 
@@ -96,7 +97,7 @@ def jar_forces(
         for key, loads in (("up", up), ("down", down), ("hookload", hookload)):
             for load in loads:
                 value = argument(load, FORCE, key)
-                if not np.isfinite(value) or (value < 0 and key != "hookload"):
+                if not (-MOST if key == "hookload" else 0) <= value <= MOST:
                     raise InputError("a force of at least 0", key=key, value=load)
                 for way in _ways(strings, value) if key == "hookload" else (key,):
                     rows.append({"direction": way, **where, **_row(strings[way], key, value, stuck - place)})

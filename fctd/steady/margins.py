@@ -165,7 +165,7 @@ def margins(loaded: Loaded, *, beyond_buckling: bool = True) -> Iterator[Margin]
     if kind.direction > 0:
         yield from _set_down(loaded, beyond_buckling)
     if rates.spin > 0:
-        if kind.direction >= 0 and (swivel := _swivel_of(laid)):
+        if kind.direction >= 0 and (swivel := swivel_of(laid)):
             yield Margin(TORQUE, "none", swivel, reason=f"no torque passes the swivel above {swivel}")
         elif kind.direction >= 0:
             yield _turned(loaded, first_limit, _weakest(laid, "torsion"))
@@ -212,7 +212,7 @@ def _turned(loaded: Loaded, limit_of: LimitOf, scale: float) -> Margin:
     )  # fmt: skip
 
 
-def _swivel_of(laid: LaidString) -> str:
+def swivel_of(laid: LaidString) -> str:
     """The name of the component below a swivel, empty without one."""
     string = laid.string
     return next((part.component.name for part, of in zip(string.parts, string.sections, strict=True) if of.swivel), "")

@@ -38,6 +38,7 @@ LEAST_FACTOR, MOST_FACTOR = 0.01, 1e4  # [1e-10/psi]
 STEP: Final = 10.0  # [m] of casing in a row of the table
 TURNING: Final = tuple(kind for kind, of in KINDS.items() if of.turns)
 MOST_ROWS: Final = 100_000
+LONGEST: Final = 3.6e8  # [s]: no rig drills a well for eleven years
 _IN_SI: Final = (LikelyUnit(0.0, 1e-5, "", 1e10),)
 Progress = Callable[[int, int], None]
 Row = dict[str, Any]
@@ -101,7 +102,8 @@ def casing_wear(
     and high_area_m2 (of the groove, by the wear factors), low_groove_m and high_groove_m (its depth), low_worn and
     high_worn (as a share of the wall), burst_Pa (of new casing), low_burst_Pa and high_burst_Pa (beside the deeper
     and the shallower groove).
-    ``attrs`` have ``turns``, ``time_s`` and ``wear_factors``.  Raises InputError for unusable input, for a case without
+    ``attrs`` have ``turns``, ``time_s``, ``wear_factors`` and ``doubted``, why by bit depth of strings whose loads are
+    doubtful.  Raises InputError for unusable input, for a case without
     casing whose wall is known, and where a string of the schedule has no steady state.
 
         >>> case = fctd.load_case("examples/my_well.toml", {"wellbore.intervals[0].casing": "9 5/8 in 47 N-80"})
@@ -124,8 +126,11 @@ def casing_wear(
             raise InputError("a length of casing for a row of the table", key="step", value=step)
         solver = Solver(with_friction(case, friction))
         worn = [Worn(_ends(top, min(of.to_md, depths[-1]), every)) for top, of in casings if top < depths[-1]]
+        doubted = {}
         for done, (depth, lasts) in enumerate(zip(depths, time, strict=True)):
             point = _string(solver, operation, rates, depth)
+            if not point.status.acceptable:
+                doubted[depth] = f"{point.status}: {point.message}"
             for one in worn:
                 one.add(point, lasts * rates.spin / (2 * np.pi))
             if progress is not None:
@@ -134,7 +139,7 @@ def casing_wear(
     rows = [row for (_, of), one in zip(casings, worn, strict=False) for row in _rows(case, of, one, turns, low, high)]
     table = pd.DataFrame(rows)
     table.attrs = attrs_of(case, [operation], {"rpm": rpm}) | {
-        "turns": turns, "time_s": float(sum(time)), "wear_factors": [low, high],
+        "turns": turns, "time_s": float(sum(time)), "wear_factors": [low, high], "doubted": doubted,
     }  # fmt: skip
     return table
 
@@ -170,8 +175,8 @@ def _times(depths: Sequence[float], duration: float | str | None, penetration: f
         raise InputError("duration or penetration", key="duration" if duration is None else "penetration")
     if duration is not None:
         total = argument(duration, TIME, "duration")
-        if not 0 < total < np.inf:
-            raise InputError("a time above 0", key="duration", value=duration)
+        if not 0 < total <= LONGEST:
+            raise InputError(f"a time above 0 and at most {LONGEST / 3600:g} h", key="duration", value=duration)
     if penetration is not None:
         rate = argument(penetration, SPEED, "penetration")
         if not 0 < rate <= FASTEST:

@@ -20,8 +20,8 @@ def test_drilling_wears_the_casing_above(cli: Command, tmp_path: Path) -> None:
     table = pd.read_csv(out)
     deepest = table.iloc[table["high_groove_m"].idxmax()]
     assert "540000 turns in 75 h, wear factor 5e-10/psi" in said
-    assert f"deepest groove at {deepest['md_m']:.0f} m, {1e3 * deepest['high_groove_m']:.4g} mm" in said
-    assert f"{deepest['low_burst_Pa'] / 1e5:.4g} bar of 473.4 bar" in said
+    assert f"deepest groove at {deepest['md_m']:.0f} m, {1e3 * deepest['high_groove_m']:.3g} mm" in said
+    assert f"{deepest['low_burst_Pa'] / 1e5:.0f} bar of 473.4 bar" in said
     about = json.loads(Path(f"{out}.json").read_text())
     assert (about["turns"], about["wear_factors"]) == (pytest.approx(540_000), [5.0, 5.0])
 
@@ -45,6 +45,12 @@ def test_a_wall_that_is_worn_through_fails_only_where_strict(cli: Command) -> No
     worn = (*CASED, "--hours", "1e5", "--wear-factor", "1000")
     assert "the wall may be worn through" in cli(*worn).out
     assert "strict: notes are errors (worn_through)" in cli(*worn, "--strict", code=1).err
+
+
+def test_a_string_that_is_doubtful_is_named(cli: Command) -> None:
+    """Pushed beyond its helix on segments that cannot bend so."""
+    pushed = (*CASED, "--hours", "1", "--depths", "2000", "--set", "bit.weight_on_bit=370 kN")
+    assert "the string is doubtful at 1 bit depth, the last 2000 m: under_resolved" in cli(*pushed, code=1).out
 
 
 @pytest.mark.parametrize(

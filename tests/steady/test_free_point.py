@@ -75,11 +75,17 @@ def test_friction_round_a_bend_makes_the_formula_too_shallow() -> None:
     assert (row["last_force_N"] - row["first_force_N"]) / 4e5 == pytest.approx(kept, rel=5e-3)
 
 
+def test_without_friction_the_formula_holds_in_a_bent_hole() -> None:
+    """Where the string is taut at the first reading already, and moves across the hole no more."""
+    case = make_case([[0, 0, 0], [300, 0, 0], [800, 50, 40], [1500, 70, 90]], [PIPE], mud={"density": 1200.0})
+    row = found(case, 1400.0, pull=3e5, stretch=0.4, first_hookload=1.2e6, friction=0.0)
+    assert row["free_point_md_m"] == pytest.approx(row["straight_md_m"], rel=1e-2)
+
+
 @pytest.mark.parametrize(("measured", "reason"), [
-    ({"pull": 1e5, "stretch": 50.0}, "times as much as a string has that is stuck at its bit"),
-    ({"pull": 1e5, "stretch": 1e-3}, "less than 30 m of string have"),
-    ({"pull": 1e9, "stretch": 1.0}, "less than 30 m of string have"),
-    ({"torque": 1e4, "turns": 500.0}, "times as much"),
+    ({"pull": 1e5, "stretch": 50.0}, "a string that is stuck at its bit moves less, by a factor of"),
+    ({"pull": 1e5, "stretch": 1e-3}, "30 m of string would move more under that load"),
+    ({"torque": 1e4, "turns": 500.0}, "moves less, by a factor of"),
 ])  # fmt: skip
 def test_readings_of_no_depth_have_a_reason(measured: dict[str, float], reason: str) -> None:
     row = found(vertical(), 4000.0, **measured)
@@ -103,6 +109,12 @@ def test_readings_that_are_none_are_refused(measured: dict[str, Any], told: str)
     with pytest.raises(InputError) as refused:
         free_point(vertical(), 4000.0, **measured)
     assert told in str(refused.value)
+
+
+def test_no_torque_passes_a_swivel() -> None:
+    parts = [pipe(100, 10, name="liner", swivel=True), pipe(None, None, segment_length=20.0)]
+    with pytest.raises(InputError, match="none, since no torque passes the swivel above liner"):
+        free_point(make_case(components=parts), 900.0, torque=1e4, turns=1.0)
 
 
 @pytest.mark.slow(seconds=30)

@@ -73,6 +73,7 @@ def test_a_wall_that_is_worn_through_has_no_burst_left() -> None:
     ({}, "duration is missing: expected duration or penetration"),
     ({"duration": 1.0, "penetration": 1.0}, "penetration is missing: expected duration or penetration"),
     ({"duration": "0 h"}, 'duration = "0 h": expected a time above 0'),
+    ({"duration": 1e12}, "duration = 1000000000000.0: expected a time above 0 and at most 100000 h"),
     ({"duration": float("nan")}, "duration = nan: expected a time above 0"),
     ({"penetration": "20 m/h"}, "bit_depths is missing: expected depths that are drilled"),
     ({"penetration": "-1 m/h"}, 'penetration = "-1 m/h": expected a speed above 0'),
