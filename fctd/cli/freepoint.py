@@ -15,6 +15,7 @@ from fctd.cli.options import (
     Friction,
     Overrides,
     Strict,
+    Units,
     bare_length,
     changes_of,
     finish,
@@ -25,7 +26,7 @@ from fctd.cli.options import (
     screen,
     tell,
 )
-from fctd.cli.steady import DEPTH_HELP, Units, check_table, file_option, in_units, metadata_of_case
+from fctd.cli.steady import DEPTH_HELP, check_table, file_option, in_units, metadata_of_case
 from fctd.model.depths import read_depth
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, in_words, reworded

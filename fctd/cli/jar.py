@@ -19,6 +19,7 @@ from fctd.cli.options import (
     Friction,
     Overrides,
     Strict,
+    Units,
     bare_length,
     changes_of,
     finish,
@@ -32,7 +33,6 @@ from fctd.cli.options import (
 from fctd.cli.steady import (
     DEPTH_HELP,
     StuckAt,
-    Units,
     check_table,
     file_option,
     in_units,

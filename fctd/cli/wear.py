@@ -20,6 +20,7 @@ from fctd.cli.options import (
     Overrides,
     Quiet,
     Strict,
+    Units,
     changes_of,
     finish,
     print_written,
@@ -32,7 +33,6 @@ from fctd.cli.options import (
 from fctd.cli.pictures import PICTURE_HELP, draw_panels
 from fctd.cli.steady import (
     Rpm,
-    Units,
     check_targets,
     file_option,
     in_units,
