@@ -9,6 +9,7 @@ import typer
 from fctd.case.doubts import warnings_of
 from fctd.case.text import printable
 from fctd.case.units import FORCE, LENGTH, TORQUE, Dimension
+from fctd.cli.base_command import Silent
 from fctd.cli.limits import rows_of
 from fctd.cli.options import (
     CaseFile,
@@ -70,6 +71,7 @@ def freepoint_command(
     friction: Friction = None,
     out: Annotated[Path | None, file_option("--out", "A row for stretch and twist, .csv, .parquet or .xlsx.")] = None,
     units: Units = "si",
+    quiet: Silent = False,
     strict: Strict = False,
 ) -> None:
     """Find the free point of stuck pipe by its stretch under a pull, or by its twist under a torque.
@@ -98,8 +100,10 @@ def freepoint_command(
             metadata = metadata_of_case(case, warnings) | {"units": units}
             written += write_table(in_units(units, table), out, metadata)
     finally:
-        _print(table, case.name, units)
-    print_written(written)
+        if not quiet:
+            _print(table, case.name, units)
+    if not quiet:
+        print_written(written)
     finish(bool((table["reason"] == "none").all()), (), strict)
 
 

@@ -13,6 +13,7 @@ from fctd.case.doubts import warnings_of
 from fctd.case.operation_names import split_names
 from fctd.case.text import printable
 from fctd.case.units import FORCE
+from fctd.cli.base_command import Silent
 from fctd.cli.limits import rows_of
 from fctd.cli.options import (
     CaseFile,
@@ -76,6 +77,7 @@ def jar_command(
     friction: Friction = None,
     out: Annotated[Path | None, file_option("--out", "A row for every load, .csv, .parquet or .xlsx.")] = None,
     units: Units = "si",
+    quiet: Silent = False,
     strict: Strict = False,
 ) -> None:
     """Find the hook load that brings a force to a jar of stuck pipe, and the force that a hook load brings there.
@@ -98,8 +100,10 @@ def jar_command(
         if out is not None:
             written += write_table(in_units(units, table), out, metadata_of_case(case, warnings) | {"units": units})
     finally:
-        _print(table, case.name, units)
-    print_written(written)
+        if not quiet:
+            _print(table, case.name, units)
+    if not quiet:
+        print_written(written)
     beyond = {*table.loc[table["share_used"] > 1, "limit"], *(["hoist"] if (table["hoist_share"] > 1).any() else [])}
     finish(bool((table["reason"] == "none").all()), beyond, strict)
 

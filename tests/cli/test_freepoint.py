@@ -31,6 +31,12 @@ def test_field_units_and_a_reading_of_no_depth(cli: Command) -> None:
     assert "no free point: a string that is stuck at its bit moves less, by a factor of 2.37" in said
 
 
+def test_quiet_prints_nothing(cli: Command, tmp_path: Path) -> None:
+    out = tmp_path / "free.csv"
+    assert cli("freepoint", WELL, "--pull", "200 kN", "--stretch", "0.6 m", "--out", out, "--quiet").out == ""
+    assert len(pd.read_csv(out)) == 1
+
+
 def test_another_first_reading(cli: Command) -> None:
     said = cli("freepoint", WELL, "--pull", "200 kN", "--stretch", "0.6 m", "--first-hookload", "1000 kN").out
     assert "0.6 m by 200 kN more than 1000 kN" in said
