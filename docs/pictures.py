@@ -18,6 +18,7 @@ from fctd.monitoring.roadmap import roadmap as fan_of
 from fctd.monitoring.series import read_series
 from fctd.plots.flow import losses_panels
 from fctd.plots.loads import ChartLook
+from fctd.plots.wear import wear_panels
 from fctd.store.parquet import read_frame
 from fctd.sweep.dataset import open_dataset
 from fctd.sweep.run import sweep
@@ -141,6 +142,13 @@ def hydraulics() -> Figure:
     return plots.panels_figure(losses_panels(table, last, "si", ["API RP 13D, concentric"]))
 
 
+def wear() -> Figure:
+    """The wear of the example's casing while its open hole is drilled."""
+    case = fctd.load_case(WELL, {"wellbore.intervals[0].casing": "9 5/8 in 47 N-80"})
+    table = fctd.casing_wear(case, "shoe:td:50", penetration="20 m/h", rpm=120)
+    return plots.panels_figure(wear_panels(case, table, "si", ["20 m/h, 120 rev/min, wear factors 2 to 10e-10/psi"]))
+
+
 def _swept(name: str) -> Uncertainty:
     """What an example sweep says."""
     spec = read_sweep(ROOT / "examples" / f"{name}.toml")
@@ -156,7 +164,7 @@ def _tables(*names: str) -> dict[str, pd.DataFrame]:
 
 PICTURES: dict[str, Callable[[], Figure]] = {
     "overview": overview, "chart": chart, "compare": compare, "limits": limits, "feeding": feeding, "monitor": monitor,
-    "roadmap": roadmap, "run": run, "hydraulics": hydraulics,
+    "roadmap": roadmap, "run": run, "hydraulics": hydraulics, "wear": wear,
     "public_well": public_well, "judged_rows": judged_rows,
     "bands": bands, "stick_slip": stick_slip,
 }  # fmt: skip

@@ -9,6 +9,7 @@
     beside = fctd.compare([chart, fctd.chart(other, "trip_in", "shoe:td:50")])
     rows = fctd.torque_drag(case, operation=["trip_in", "trip_out"], bit_depths=range(1750, 2451, 10))
     left = fctd.limits_of(case, bit_depths="td")
+    found = fctd.free_point(case, pull="200 kN", stretch="0.6 m")
     known = fctd.run_uncertainty(fctd.run_sweep("sweep.toml"))
     lost = fctd.hydraulics_of(case, flow="2000 L/min")
     trips = fctd.surge_pressures(case, speeds=[0.5])
@@ -38,10 +39,13 @@ if TYPE_CHECKING:
     from fctd.steady.chart import Chart, chart
     from fctd.steady.comparison import Comparison, compare
     from fctd.steady.equilibrium import equilibrium, lie_along
+    from fctd.steady.free_point import free_point
+    from fctd.steady.jar import jar_forces
     from fctd.steady.margin_table import limits_of
     from fctd.steady.refine import Refinement, refine
     from fctd.steady.steady_string import Equilibrium
     from fctd.steady.torque_drag import torque_drag
+    from fctd.steady.wear import casing_wear
     from fctd.sweep.swept import Swept, run_sweep, run_uncertainty
     from fctd.sweep.uncertainty import Uncertainty
 
@@ -64,13 +68,16 @@ _HOMES = {
     "Wellbore": "fctd.model.wellbore",
     "build_wellbore": "fctd.model.wellbore",
     "calibrate": "fctd.calibration.calibrate",
+    "casing_wear": "fctd.steady.wear",
     "chart": "fctd.steady.chart",
     "check_case": "fctd.results.checked",
     "compare": "fctd.steady.comparison",
     "equilibrium": "fctd.steady.equilibrium",
     "fastest_trips": "fctd.hydraulics.surge",
     "find_contacts": "fctd.model.wellbore",
+    "free_point": "fctd.steady.free_point",
     "hydraulics_of": "fctd.hydraulics.pressures",
+    "jar_forces": "fctd.steady.jar",
     "lie_along": "fctd.steady.equilibrium",
     "limits_of": "fctd.steady.margin_table",
     "load_case": "fctd.case.load",
@@ -103,13 +110,16 @@ __all__ = [
     "Wellbore",
     "build_wellbore",
     "calibrate",
+    "casing_wear",
     "chart",
     "check_case",
     "compare",
     "equilibrium",
     "fastest_trips",
     "find_contacts",
+    "free_point",
     "hydraulics_of",
+    "jar_forces",
     "lie_along",
     "limits_of",
     "load_case",

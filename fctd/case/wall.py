@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Final, Literal, Self
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Final, Literal, Self
 
-from pydantic import StrictBool, model_validator
+from pydantic import Field, StrictBool, model_validator
 
 from fctd.case import units
 from fctd.case.errors import InputError, Table
+from fctd.case.pipes.filling import casing_filled
+from fctd.case.pipes.grades import YieldStrength
 from fctd.mechanics.law_names import LAWS, NAMES
 
 IntervalKind = Literal["cased", "open"]
@@ -35,28 +37,53 @@ class IntervalSpec(Table):
     without which the static factor is the kinetic one; `rotational_friction` is scaled by the same share. With
     "stribeck" half of their difference is left where the string slides at `decay_speed` [m/s]. `overbalance` [Pa], the
     pressure of the mud beyond that of the rock, makes the wall permeable: a string at rest sticks in mud cake there.
+
+    `casing` is casing of the catalogue, which `fctd pipes` lists: it gives `diameter`, `outer_diameter`,
+    `yield_strength` and the `kind` that you leave out. What wears of it depends on them, no load does.
     """
 
     to_md: units.PositiveLength
+    casing: str | None = Field(default=None, description="the name of casing in quotes, such as '9 5/8 in 47 N-80'")
     diameter: units.Diameter
     friction: units.Friction
     rotational_friction: units.Friction | None = None
     kind: IntervalKind | None = None
     name: str | None = None
+    outer_diameter: units.Diameter | None = None
+    yield_strength: YieldStrength | None = None
     stiffness: units.PositiveStiffness | None = None
     stiffness_per_length: units.PositiveStiffnessPerLength | None = None
     static_friction: units.Friction | None = None
     decay_speed: units.PositiveSpeed | None = None
     overbalance: units.PositiveStress | None = None
 
+    @model_validator(mode="before")
+    @classmethod
+    def _fill_in_casing(cls, raw: Any) -> Any:
+        return casing_filled(raw) if isinstance(raw, Mapping) else raw
+
     @model_validator(mode="after")
     def _check(self) -> Self:
+        if self.outer_diameter is not None:
+            if self.outer_diameter <= self.diameter:
+                inner = f"more than the diameter inside, {self.diameter:g} m"
+                raise InputError(inner, key="outer_diameter", value=f"{self.outer_diameter:g} m")
+            if self.kind == "open":
+                raise InputError('"cased" beside casing or outer_diameter', key="kind", value=self.kind)
+        if (self.outer_diameter is None) != (self.yield_strength is None):
+            missing = "outer_diameter" if self.outer_diameter is None else "yield_strength"
+            raise InputError("outer_diameter and yield_strength together", key=missing)
         if self.static_friction is not None:
             if self.static_friction < self.friction:
                 raise InputError(f"at least the kinetic factor, {self.friction:g}", key="static_friction")
             if self.static_friction > 0 and self.friction == 0:
                 raise InputError("a kinetic factor above 0 beside a static one", key="friction")
         return self
+
+    @property
+    def wall(self) -> float:
+        """The wall of the casing [m], 0 where it is not known."""
+        return 0.0 if self.outer_diameter is None else 0.5 * (self.outer_diameter - self.diameter)
 
     @property
     def friction_around(self) -> float:

@@ -1,5 +1,6 @@
 """``fctd limits CASE``: how far the string is from its limits, per operation and bit depth."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Final, cast
 
@@ -31,6 +32,7 @@ from fctd.cli.steady import (
     Flow,
     Rpm,
     Speed,
+    StuckAt,
     check_table,
     file_option,
     in_units,
@@ -38,11 +40,12 @@ from fctd.cli.steady import (
     read_bit_depths,
     read_drive,
     read_kinds,
+    read_stuck,
     row_bar,
 )
 from fctd.results.table_files import write_table
-from fctd.results.unit_systems import System, reworded, shown
-from fctd.steady.margin_table import USUAL, limits_of
+from fctd.results.unit_systems import System, in_words, reworded, shown
+from fctd.steady.margin_table import AT_STUCK, USUAL, limits_of
 from fctd.steady.margins import FATIGUE, LACKING, MEANINGS, OVERPULL, SET_DOWN, SLIPS, TORQUE
 
 if TYPE_CHECKING:
@@ -55,6 +58,12 @@ SHOWN: Final = {
     SET_DOWN: ("more weight on the bit", "force_at_bit_N", "hookload_N", "hookload_left_N"),
     TORQUE: ("more torque at the bit", "torque_at_bit_N_m", "surface_torque_N_m", "surface_torque_left_N_m"),
     SLIPS: ("weight in the slips", "", "hookload_N", "hookload_left_N"),
+}
+# The same of pipe that is stuck above its bit.
+STUCK: Final = {
+    OVERPULL: ("pull at the stuck point", AT_STUCK[SHOWN[OVERPULL][1]], *SHOWN[OVERPULL][2:]),
+    SET_DOWN: ("push at the stuck point", AT_STUCK[SHOWN[SET_DOWN][1]], *SHOWN[SET_DOWN][2:]),
+    TORQUE: ("torque at the stuck point", AT_STUCK[SHOWN[TORQUE][1]], *SHOWN[TORQUE][2:]),
 }
 
 
@@ -75,6 +84,7 @@ def limits_command(
     speed: Speed = None,
     rpm: Rpm = None,
     flow: Flow = None,
+    stuck_at: StuckAt = None,
     overrides: Overrides = [],  # noqa: B006
     friction: Friction = None,
     out: Annotated[Path | None, file_option("--out", "A row for every margin, .csv, .parquet or .xlsx.")] = None,
@@ -85,7 +95,8 @@ def limits_command(
     """Find how far the string is from its limits: overpull, weight set down, torque, slips, and bending to and fro.
 
     Loads at the bit grow until the first limit is reached, each as a steady string.  How much of a capacity may be used
-    is set in `limits` of the case, and what the rig bears in `rig`.
+    is set in `limits` of the case, and what the rig bears in `rig`.  Of pipe that is stuck above its bit, loads grow at
+    the stuck point.
     """
     check_table(out)
     case = read_case(case_file, changes_of(overrides, friction))
@@ -93,6 +104,7 @@ def limits_command(
     bit_depths = read_bit_depths(depths, case, units)
     kinds = read_kinds(operations, USUAL)
     drive = read_drive(speed, rpm, flow, units)
+    stuck = read_stuck(stuck_at, case, units)
     warnings = warnings_of(case, kinds, **drive)
     tell(case, warnings, strict=strict, units=units)
     with row_bar(quiet) as bar:
@@ -101,11 +113,11 @@ def limits_command(
         def show(done: int, total: int) -> None:
             bar.update(task, description=printable(case.name), completed=done, total=total)
 
-        table = limits_of(case, kinds, bit_depths, **drive, progress=show)
+        table = limits_of(case, kinds, bit_depths, **drive, stuck_at=stuck, progress=show)
     written: list[Path] = []
     try:  # written before anything is printed, as the terminal may be closed
         if out is not None:
-            metadata = metadata_of(case, units, kinds, drive, warnings)
+            metadata = metadata_of(case, units, kinds, drive, warnings) | {"stuck_at_m": stuck}
             metadata["limits"] = {code: MEANINGS[code] for code in table["limit"].unique() if code in MEANINGS}
             written += write_table(in_units(units, table), out, metadata)
     finally:
@@ -126,10 +138,15 @@ def _print(table: "pd.DataFrame", name: str, units: System) -> None:
     """Print a table for each operation and margin, and the reasons of rows without a number."""
     screen.print(printable(name), style="bold", soft_wrap=True)
     metre = shown("bit_depth_m", units)
+    stuck = "stuck_md_m" in table
     for (operation, margin), of in table.groupby(["operation", "margin"], sort=False):
         if margin in SHOWN:
-            screen.print(f"{operation}: {SHOWN[margin][0]}, {shown(SHOWN[margin][2], units).label}")
-            screen.print(_table(of, SHOWN[margin][1:], units))
+            words, *columns = STUCK[margin] if stuck else SHOWN[margin]
+            screen.print(f"{operation}: {words}, {shown(columns[1], units).label}")
+            screen.print(_table(of, columns, units))
+    if stuck:
+        where = in_words(table["stuck_md_m"].iloc[0], "stuck_md_m", units)
+        screen.print(f"stuck at {where}: what is left counts from the free string with its bit below", soft_wrap=True)
     screen.print("hook loads are those of the string alone, without the block", soft_wrap=True)
     for line in _bending(table, units):
         screen.print(line, soft_wrap=True)
@@ -142,14 +159,15 @@ def _print(table: "pd.DataFrame", name: str, units: System) -> None:
         screen.print(f"{at}{what}: {reworded(str(reason), units)}", soft_wrap=True)
 
 
-def _table(of: "pd.DataFrame", columns: tuple[str, str, str], units: System) -> Table:
+def _table(of: "pd.DataFrame", columns: Sequence[str], units: System) -> Table:
     """The rows of a margin, at evenly spread depths where they are many."""
     metre = shown("bit_depth_m", units)
     depths = of["bit_depth_m"].unique()
     most = max(SCREEN_ROWS // of["limit"].nunique(), 1)
     picked = depths[np.unique(np.linspace(len(depths) - 1, 0, min(most, len(depths))).round().astype(int))]
     limits = [row.replace("_", " ") for row in of["limit"]]
-    numbers = [f"bit, {metre.label}", "used, %", "at bit", "at surface", "left"]
+    below = "at stuck point" if "stuck_md_m" in of else "at bit"
+    numbers = [f"bit, {metre.label}", "used, %", below, "at surface", "left"]
     table = Table(
         Column("until", no_wrap=True, min_width=max(map(len, limits))),
         *(Column(name, justify="right", no_wrap=True, min_width=len(name)) for name in numbers),

@@ -25,6 +25,13 @@ from fctd.cli.options import (
 
 # Arguments of ``fctd.calibrate`` and ``fctd.predict``, and their options.
 CALIBRATION = {name: f"--{name}" for name in ("fit", "prior", "starts", "seed", "samples")}
+
+
+def _options(*arguments: str) -> dict[str, str]:
+    """Arguments of a function of the library, and the options of their names."""
+    return {argument: f"--{argument.replace('_', '-')}" for argument in arguments}
+
+
 # The commands in the groups of the help, each in the module of its name, and options of which messages of the library
 # name the argument.
 GROUPS: dict[str, dict[str, dict[str, str]]] = {
@@ -33,8 +40,15 @@ GROUPS: dict[str, dict[str, dict[str, str]]] = {
         "chart": {"bit_depth": "--depths"},
         "compare": {"bit_depth": "--depths"},
         "equilibrium": {},
-        "limits": {"bit_depths": "--depths"},
+        "limits": {"bit_depths": "--depths", "stuck_at": "--stuck-at", "flow": "--flow"},
         "refine": {"bit_depth": "--bit-depth"},
+    },
+    "Stuck pipe and worn casing": {
+        "freepoint": {"bit_depth": "--bit-depth"}
+        | _options("pull", "stretch", "torque", "turns", "first_hookload", "first_torque"),
+        "jar": {"bit_depth": "--bit-depth"} | _options("jar", "stuck_at", "up", "down", "hookload"),
+        "wear": {"bit_depths": "--depths", "duration": "--hours"}
+        | _options("penetration", "rpm", "wear_factor", "operation", "step"),
     },
     "Mud": {
         "hydraulics": {"bit_depths": "--depths", "flow": "--flow", "eccentricity": "--eccentricity"},

@@ -57,6 +57,14 @@ Flow = Annotated[
     ),
 ]
 DEPTH_HELP = "Bit depth, '2450 m', td or shoe; bare in m, with --units field in ft"
+StuckAt = Annotated[
+    str | None,
+    typer.Option(
+        "--stuck-at",
+        metavar="MD",
+        help="Measured depth at which the pipe is stuck, '2700 m', td or shoe; default: the bit.",
+    ),
+]
 ResolveBuckling = Annotated[
     bool | None,
     typer.Option(
@@ -87,6 +95,11 @@ def read_flow(text: str, units: System) -> float:
     if flow > MOST_FLOW:
         raise InputError(f"a flow rate of at most {MOST_FLOW:g} m^3/s", key="--flow", value=text)
     return flow
+
+
+def read_stuck(text: str | None, case: Case, units: System) -> float | None:
+    """The depth at which pipe is stuck [m]; raises InputError, which names ``--stuck-at``."""
+    return None if text is None else read_depth(text, case, "--stuck-at", bare_length(units))
 
 
 def read_kinds(texts: Sequence[str], usual: Sequence[str] = ()) -> list[str]:

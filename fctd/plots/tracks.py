@@ -11,6 +11,7 @@ from fctd.arrays import Array
 from fctd.case.units import conversion
 from fctd.plots.palette import BUCKLED
 from fctd.results.columns import COLUMNS
+from fctd.results.profile import JOINT, edges_of
 from fctd.results.unit_systems import Shown, System, shown
 from fctd.steady.steady_string import Equilibrium
 
@@ -40,7 +41,6 @@ AIR: Final = 0.05  # of the span of an axis, beyond the values
 # Values along at most this share of the strings do not set a scale, where they exceed the others by this factor.
 PEAK, CUT = 0.01, 1.5
 WITH_PEAKS: Final = ("contact_force_N", "bending_moment_N_m")
-JOINT: Final = 9.144  # [m], the 30 ft to which side forces on tool joints and casing are given
 
 
 class Track(NamedTuple):
@@ -52,7 +52,7 @@ class Track(NamedTuple):
 
 def lengths_of(md: Array) -> Array:
     """Length of string (n,) that belongs to contact points at depths (n,): half way to their neighbours."""
-    return np.diff(np.concatenate((md[:1], 0.5 * (md[1:] + md[:-1]), md[-1:])))
+    return np.diff(edges_of(md))
 
 
 def scale_of(values: Array, lengths: Array) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 import numpy as np
 
@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     import pandas as pd
 
 Load = float | Array
+
+
+JOINT: Final = 9.144  # [m], the 30 ft to which side forces on tool joints and casing are given
 
 
 class Loads(NamedTuple):
@@ -44,6 +47,11 @@ def place_in_words(md: float, bit_depth: float, factor: float = 1.0, unit: str =
     """
     over = round(md * factor) - round(bit_depth * factor)
     return f"{min(md, bit_depth) * factor:.0f} {unit}" + (f" + {over} {unit} of stretch" if over > 0 else "")
+
+
+def edges_of(md: Array) -> Array:
+    """Ends (n + 1,) of the string that belongs to contact points at depths (n,): half way to their neighbours."""
+    return np.concatenate((md[:1], 0.5 * (md[1:] + md[:-1]), md[-1:]))
 
 
 def at_contacts(string: String, loads: Loads) -> tuple[Array, Array]:

@@ -33,19 +33,20 @@ MEASURES: Final = (
     Measure("Pa", "MPa", "ksi"),
     Measure("N", "kN", "klbf"),
     Measure("m", "m", "ft"),
+    Measure("m^2", "mm^2", "in^2"),
     Measure("kg/m^3", "kg/m^3", "ppg"),
     Measure("m^3/s", "L/min", "gpm"),
     Measure("m/s", "m/s", "ft/min"),
     Measure("W", "kW", "hp"),
 )
-# Of mud, by the ends of columns: pressures, for which MPa and ksi are too coarse, and jets, which are fast.
-_PRESSURE: Final = Measure("Pa", "bar", "psi")
-OF_MUD: Final = {
-    "drop_Pa": _PRESSURE, "standpipe_Pa": _PRESSURE, "surge_Pa": _PRESSURE,
-    "jet_speed_m_s": Measure("m/s", "m/s", "ft/s"),
-}  # fmt: skip
 # Lengths across the hole, for which metres and feet are too coarse.
 ACROSS: Final = Measure("m", "mm", "in")
+# By the ends of columns: pressures, for which MPa and ksi are too coarse, jets, which are fast, and grooves.
+_PRESSURE: Final = Measure("Pa", "bar", "psi")
+BY_END: Final = {
+    "drop_Pa": _PRESSURE, "standpipe_Pa": _PRESSURE, "surge_Pa": _PRESSURE, "burst_Pa": _PRESSURE,
+    "jet_speed_m_s": Measure("m/s", "m/s", "ft/s"), "groove_m": ACROSS,
+}  # fmt: skip
 
 
 class Shown(NamedTuple):
@@ -59,7 +60,7 @@ def measure_of(column: str) -> Measure | None:
     """Units of a column of an SI table; None for names, counts, angles and plain numbers."""
     if column in COLUMNS and COLUMNS[column].across:
         return ACROSS
-    own = next((measure for end, measure in OF_MUD.items() if column.endswith(end)), None)
+    own = next((measure for end, measure in BY_END.items() if column.endswith(end)), None)
     return own or next((measure for measure in MEASURES if column.endswith(_ending(measure.table))), None)
 
 
@@ -71,7 +72,7 @@ def shown(column: str, system: System) -> Shown:
     if measure is None:
         raise ValueError(f"column {column} has no unit to show")
     unit = measure.field if system == "field" else measure.si
-    return Shown(_factor(measure.table, unit), unit.replace("*", "·").replace("^3", "³"))
+    return Shown(_factor(measure.table, unit), unit.replace("*", "·").replace("^2", "²").replace("^3", "³"))
 
 
 def shown_unit(unit: str, system: System) -> Shown:

@@ -312,6 +312,8 @@ EVERYWHERE: Final = frozenset({
               for key in ("every", "diameter", "length", "segments")),
         )
     ),
+    # Of the wear of casing alone.
+    *(f"wellbore.intervals.{key}" for key in ("casing", "outer_diameter", "yield_strength")),
     # Of flow alone.
     *(f"wellbore.window.{key}" for key in ("tvd", "pore", "fracture")),
     "mud.eccentricity", "rig.surface_length", "rig.surface_bore", "bit.nozzles", "bit.flow_area", "bit.discharge",

@@ -11,11 +11,12 @@ from fctd.case.errors import InputError
 from fctd.case.friction import FrictionChoice
 from fctd.case.load import Case, naming_file, with_friction
 from fctd.case.operation_names import kinds_of
-from fctd.model.depths import depths_of
+from fctd.model.depths import depth_of, depths_of
 from fctd.model.operations import SteadyRates, rates_of_all
 from fctd.results.attrs import attrs_of
 from fctd.steady.equilibrium import Solver
-from fctd.steady.margins import Margin, margins
+from fctd.steady.margins import Loaded, Margin, margins
+from fctd.steady.stuck import stuck_string
 from fctd.steady.torque_drag import Row
 
 if TYPE_CHECKING:
@@ -29,6 +30,8 @@ COLUMNS: Final = {
     "surface_torque_left": "surface_torque_left_N_m", "bending_stress": "bending_stress_Pa",
     "cycles_per_hour": "cycles_per_hour", "reason": "reason",
 }  # fmt: skip
+# Columns of a string that is stuck above its bit.
+AT_STUCK: Final = {"force_at_bit_N": "force_at_stuck_N", "torque_at_bit_N_m": "torque_at_stuck_N_m"}
 # What is looked at where no operation is named: pulling, setting down, turning.
 USUAL: Final = ("trip_out", "trip_in", "rotate_off_bottom")
 MOST_ON_LINE: Final = 13  # depths of a limit that is drawn as a line, which needs no more
@@ -43,18 +46,22 @@ def limits_of(
     speed: float | str | None = None,
     rpm: float | str | None = None,
     flow: float | str | None = None,
+    stuck_at: float | str | None = None,
     progress: Progress | None = None,
 ) -> pd.DataFrame:
     """A row for every margin of every operation and bit depth, SI.
 
     operation : kind or kinds.  bit_depths, ``attrs`` : as of ``torque_drag``.  friction : None for the case's own.
-    speed [m/s], rpm, flow [m³/s] : see ``equilibrium``.
+    speed [m/s], rpm, flow [m³/s] : see ``equilibrium``.  stuck_at : measured depth [m], or a text, at which the string
+    is stuck, in place of its bit; pumps then stand.
 
     Columns: operation, bit_depth_m, and those of ``Margin``: margin (overpull, set_down, torque, slips, fatigue, or
     none where no steady string was found), limit (the first that is reached), part and md_m (where), share_used (of
     that limit, without more load), force_at_bit_N and torque_at_bit_N_m (that are added there), hookload_N and
     surface_torque_N_m at the limit, hookload_left_N and surface_torque_left_N_m until then, bending_stress_Pa (its
-    amplitude) and cycles_per_hour of a string that turns, and reason.  NaN where a number does not apply.
+    amplitude) and cycles_per_hour of a string that turns, and reason.  NaN where a number does not apply.  Of a string
+    that is stuck, stuck_md_m says where, force_at_stuck_N and torque_at_stuck_N_m are what arrives there, and what is
+    left counts from the free string with its bit at that depth.
 
     Raises InputError for unusable input, and where string and hole fit at none of the depths.
     """
@@ -65,12 +72,13 @@ def limits_of(
         depths = depths_of(bit_depths, case, "bit_depths")
         rates = rates_of_all(case, kinds, speed, rpm, flow)
         case = with_friction(case, friction)
+        sticks = None if stuck_at is None else _stuck_at(stuck_at, case, kinds, flow)
         solver = Solver(case)
         rows: list[Row] = []
         unfit: list[InputError] = []
         for done, depth in enumerate(depths):
             try:
-                rows += margin_rows(solver, kinds, rates, depth)
+                rows += margin_rows(solver, kinds, rates, depth, sticks)
             except InputError as error:
                 unfit.append(error)
                 none = Margin("none", "none", reason=f"not_possible: {error}")
@@ -80,6 +88,9 @@ def limits_of(
         if len(unfit) == len(depths):
             raise unfit[0]
     table = pd.DataFrame(rows)
+    if sticks is not None:
+        table = table.rename(columns=AT_STUCK)
+        table.insert(2, "stuck_md_m", sticks)
     table.attrs = attrs_of(case, kinds, {"speed": speed, "rpm": rpm, "flow": flow})
     return table
 
@@ -90,15 +101,31 @@ def of_lines(bit_depths: Sequence[float]) -> list[float]:
     return [bit_depths[k] for k in np.unique(picked).tolist()]
 
 
+def _stuck_at(stuck_at: float | str, case: Case, kinds: Sequence[str], flow: float | str | None) -> float:
+    """The depth at which a string is stuck [m]; raises InputError for kinds that do not load it, and for a flow."""
+    for kind in kinds:
+        if kind not in USUAL:
+            raise InputError(f"{', '.join(USUAL)} of a string that is stuck", key="operation", value=kind)
+    if flow is not None:
+        raise InputError("none beside stuck_at: pumps stand", key="flow", value=flow)
+    return depth_of(stuck_at, case, "stuck_at")
+
+
 def margin_rows(
-    solver: Solver, kinds: Sequence[str], rates: Mapping[str, SteadyRates], depth: float, **options: bool
-) -> list[Row]:
+    solver: Solver, kinds: Sequence[str], rates: Mapping[str, SteadyRates], depth: float, stuck_at: float | None = None,
+    **options: bool,
+) -> list[Row]:  # fmt: skip
     """The rows of ``limits_of`` at a bit depth [m]; options : of ``margins``.
 
-    Raises InputError where string and hole do not fit.
+    stuck_at : depth at which the string is stuck [m].  Raises InputError where string and hole do not fit.
     """
-    laid = solver.lay_out(depth)
-    return [_row(kind, depth, one) for kind in kinds for one in margins(solver, kind, rates[kind], laid, **options)]
+    loaded: Sequence[Loaded]
+    if stuck_at is not None:
+        loaded = [stuck_string(solver, kind, rates[kind], depth, stuck_at) for kind in kinds]
+    else:
+        laid = solver.lay_out(depth)
+        loaded = [Loaded(solver, kind, rates[kind], laid) for kind in kinds]
+    return [_row(of.operation, depth, one) for of in loaded for one in margins(of, **options)]
 
 
 def _row(kind: str, depth: float, margin: Margin) -> Row:

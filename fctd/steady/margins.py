@@ -9,15 +9,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import cache
-from typing import Any, Final, NamedTuple
+from functools import cache, cached_property
+from typing import Any, ClassVar, Final, NamedTuple
 
 import numpy as np
 
 from fctd.case.operations import KINDS
 from fctd.case.string import ComponentSpec
 from fctd.model.fatigue import dogleg_of, endless_amplitude
-from fctd.model.operations import SteadyRates, bit_loads
+from fctd.model.operations import BitLoads, SteadyRates, bit_loads
 from fctd.model.section import Section
 from fctd.results.buckling import HELICAL, MODES, NEITHER, SINUSOIDAL
 from fctd.results.limits import LIMITS, ROW, SHARE, place_of
@@ -103,26 +103,35 @@ def first_limit(point: Equilibrium, only: str | None = None) -> First:
 class Loaded:
     """A string of an operation whose loads at the bit grow.
 
-    solver : of its case; rates : of the operation; laid : the string.
+    solver : of its case; rates : of the operation; laid : the string.  One that is stuck above its bit is loaded at its
+    stuck point in place of the bit (stuck.py).
     """
 
+    stuck: ClassVar[bool] = False
+    at: ClassVar[str] = "on the bit"
     solver: Solver
     operation: str
     rates: SteadyRates
     laid: LaidString
 
-    def __post_init__(self) -> None:
-        self.own = bit_loads(self.solver.case, self.operation)
-        self.free = self.pulled(0.0) if KINDS[self.operation].direction < 0 else self.pressed(0.0, 0.0)
+    @cached_property
+    def own(self) -> BitLoads:
+        """The loads at the bit, to which others are added."""
+        own = bit_loads(self.solver.case, self.operation)
+        return own._replace(weight=max(own.weight, 0.0))
 
-    def pulled(self, overpull: float) -> Equilibrium:
-        """The string that a stuck bit holds with a force [N]."""
-        return self._solve(self.operation, {"overpull": overpull}, {})
+    @cached_property
+    def free(self) -> Equilibrium:
+        """The string without loads that are added."""
+        return self.pulled(0.0) if KINDS[self.operation].direction < 0 else self.pressed(0.0, 0.0)
+
+    def pulled(self, overpull: float, **contact: Any) -> Equilibrium:
+        """The string that a stuck bit holds with a force [N]; contact : other keys of contact."""
+        return self._solve(self.operation, {"overpull": overpull}, contact)
 
     def pressed(self, weight: float, torque: float, **contact: Any) -> Equilibrium:
         """The string with more weight on its bit [N], and more torque at it [N m]; contact : other keys of contact."""
-        own_weight, own_torque = max(self.own.weight, 0.0), self.own.torque
-        loads = {"weight_on_bit": own_weight + weight, "torque": own_torque + torque}
+        loads = {"weight_on_bit": self.own.weight + weight, "torque": self.own.torque + torque}
         return self._solve("drill_rotating" if self.rates.spin else "drill_sliding", loads, contact)
 
     def _solve(self, operation: str, bit: dict[str, float], contact: dict[str, Any]) -> Equilibrium:
@@ -137,16 +146,15 @@ class Loaded:
         return solver.solve_string(operation, self.rates, self.laid)
 
 
-def margins(
-    solver: Solver, operation: str, rates: SteadyRates, laid: LaidString, *, beyond_buckling: bool = True
-) -> Iterator[Margin]:
+def margins(loaded: Loaded, *, beyond_buckling: bool = True) -> Iterator[Margin]:
     """The margins of a string in an operation.
 
     The overpull of one that moves up, the weight that can be set down by one that moves down, the torque and the
     bending to and fro of one that turns, and what slips bear of one that stands still.  beyond_buckling : whether to
     set down more weight than the helix has, which takes a hundred times as long.
     """
-    loaded, kind, rig = Loaded(solver, operation, rates, laid), KINDS[operation], solver.case.rig
+    laid, rates, rig = loaded.laid, loaded.rates, loaded.solver.case.rig
+    kind = KINDS[loaded.operation]
     if not loaded.free.answered:
         yield Margin("none", "none", reason=f"{loaded.free.status}: {loaded.free.message}")
         return
@@ -157,15 +165,16 @@ def margins(
     if kind.direction > 0:
         yield from _set_down(loaded, beyond_buckling)
     if rates.spin > 0:
-        if kind.direction >= 0 and (swivel := _swivel_of(laid)):
+        if kind.direction >= 0 and (swivel := swivel_of(laid)):
             yield Margin(TORQUE, "none", swivel, reason=f"no torque passes the swivel above {swivel}")
         elif kind.direction >= 0:
             yield _turned(loaded, first_limit, _weakest(laid, "torsion"))
             if (turns := rig.largest_torque) is not None:
                 yield _turned(loaded, lambda point, _: First("drive", point.drive_torque / turns, "none", NAN), turns)
-        yield _bent_to_and_fro(loaded.free, rates.spin)
-    if not kind.direction and not kind.on_bottom and rig.slip_length is not None:
-        yield _in_slips(loaded.free, rig.slip_length, solver.case.limits.design_factor)
+        if not loaded.stuck:
+            yield _bent_to_and_fro(loaded.free, rates.spin)
+    if not kind.direction and not kind.on_bottom and rig.slip_length is not None and not loaded.stuck:
+        yield _in_slips(loaded.free, rig.slip_length, loaded.solver.case.limits.design_factor)
 
 
 def _pulled(loaded: Loaded, limit_of: LimitOf, scale: float) -> Margin:
@@ -203,7 +212,7 @@ def _turned(loaded: Loaded, limit_of: LimitOf, scale: float) -> Margin:
     )  # fmt: skip
 
 
-def _swivel_of(laid: LaidString) -> str:
+def swivel_of(laid: LaidString) -> str:
     """The name of the component below a swivel, empty without one."""
     string = laid.string
     return next((part.component.name for part, of in zip(string.parts, string.sections, strict=True) if of.swivel), "")
@@ -289,7 +298,7 @@ def _at_weight(loaded: Loaded, code: str, weight: float, **contact: Any) -> Marg
     part, md = first_limit(point)[2:] if is_steel else ("none", beyond.buckling.to_md)
     # The push on a string that locks up grows without bound.
     hookload = point.hookload if code != LOCK_UP else NAN
-    already = "already so without more weight on the bit"
+    already = f"already so without more weight {loaded.at}"
     return Margin(
         SET_DOWN, code, part, md, force=weight, hookload=hookload, hookload_left=loaded.free.hookload - hookload,
         reason=already if weight == 0 else "none",

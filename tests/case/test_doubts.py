@@ -42,6 +42,9 @@ def hole(*rows: tuple[float, float], friction: float = 0.2, kind: str | None = N
     return {"intervals": [{"to_md": to, "diameter": size, "friction": friction, "kind": kind} for to, size in rows]}
 
 
+CASED = {"to_md": 1000, "casing": "9 5/8 in 47 N-80", "friction": 0.2}
+
+
 @pytest.mark.parametrize(
     ("code", "right", "wrong"),
     [
@@ -53,6 +56,11 @@ def hole(*rows: tuple[float, float], friction: float = 0.2, kind: str | None = N
             "wider_below",
             {"wellbore": hole((500, 0.2), (1000, 0.3))},
             {"wellbore": hole((500, 0.2), (1000, 0.301))},
+        ),
+        (
+            "casing_bore",
+            {"wellbore": {"intervals": [CASED]}},
+            {"wellbore": {"intervals": [CASED | {"diameter": "8.525 in"}]}},
         ),
         (
             "shoe_below_td",

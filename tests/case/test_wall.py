@@ -87,3 +87,40 @@ def test_another_kinetic_factor_scales_the_static_one(tmp_path: Path) -> None:
     for value in (0.4, {"open": 0.4}):
         (interval,) = load_case(file, sticking | {"friction": value}).wellbore.intervals
         assert (interval.friction, interval.static_friction) == pytest.approx((0.4, 0.6))
+
+
+CASED = {"to_md": 1000, "casing": "9 5/8 in 47 N-80", "friction": 0.2}
+
+
+def cased(**more: Any) -> Any:
+    """The interval of a hole that is cased."""
+    interval = {key: value for key, value in (CASED | more).items() if value is not None}
+    return make_case(wellbore={"intervals": [interval]}).wellbore.intervals[0]
+
+
+def test_casing_gives_what_is_left_out() -> None:
+    interval = cased()
+    assert interval.diameter == pytest.approx(8.681 * 0.0254)
+    assert interval.wall == pytest.approx(0.472 * 0.0254)
+    assert interval.yield_strength == pytest.approx(80e3 * 6894.757, rel=1e-6)
+    assert interval.kind == "cased"
+    assert cased(casing="9-5/8 47# casing", yield_strength="N-80").yield_strength == interval.yield_strength
+    assert cased(diameter="8.525 in").wall == pytest.approx(0.55 * 0.0254)
+
+
+@pytest.mark.parametrize(("keys", "message"), [
+    ({"casing": "9 5/8 in 48 N-80"}, r"intervals\[0\]\.casing.*a pipe of the catalogue, .*'9 5/8 in 47 casing'"),
+    ({"casing": "5 in 19.5 S-135 NC50 drill pipe"}, r"intervals\[0\]\.casing.*casing, such as '9 5/8 in 47 N-80'"),
+    ({"casing": "9 5/8 in 47"}, r"intervals\[0\]\.casing.*with its grade"),
+    ({"casing": 9.625}, r"intervals\[0\]\.casing = 9\.625.*in quotes"),
+    ({"kind": "open"}, r'intervals\[0\]\.kind = "open".*"cased" beside casing'),
+    ({"diameter": "9 5/8 in"}, r"intervals\[0\]\.outer_diameter.*more than the diameter inside"),
+    ({"casing": None, "diameter": 0.22, "outer_diameter": 0.2445}, r"intervals\[0\]\.yield_strength is missing"),
+    ({"casing": None, "diameter": 0.22, "yield_strength": "N-80"}, r"intervals\[0\]\.outer_diameter is missing"),
+])  # fmt: skip
+def test_wrong_casing(keys: dict[str, Any], message: str) -> None:
+    interval = {key: value for key, value in (CASED | keys).items() if value is not None}
+    hole = {"stations": [[0, 0, 0], [1000, 0, 0]], "intervals": [interval]}
+    string = {"components": [{"name": "pipe", "outer_diameter": 0.127, "inner_diameter": 0.1}]}
+    with pytest.raises(InputError, match=message):
+        load_case({"name": "x", "wellbore": hole, "string": string})

@@ -97,3 +97,38 @@ def test_a_chart_draws_the_limits(cli: Command, well: Path) -> None:
 def test_limits_of_a_chart_need_a_picture(cli: Command, well: Path) -> None:
     said = cli("chart", well, "--operation", "trip_out", "--depths", "800:900:50", "--limits", code=2)
     assert "--limits = true: expected --plot beside it" in said.err
+
+
+def test_stuck_pipe_is_loaded_at_its_stuck_point(cli: Command, well: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In a straight hole what hangs below is missing there; the surface loads at the limit stay."""
+    monkeypatch.setattr(screen, "_width", 100)
+    out = well.with_suffix(".csv")
+    said = cli("limits", well, "--stuck-at", "250 m", "--out", out)
+    for words in (
+        "trip_out: pull at the stuck point, kN",
+        "at stuck point",
+        "stuck at 250 m: what is left counts from",
+    ):
+        assert words in said.out
+    assert "slips" not in said.out
+    assert "bends the steel" not in said.out
+    stuck = pd.read_csv(out).set_index("limit")
+    cli("limits", well, "--out", out)
+    whole = pd.read_csv(out).set_index("limit")
+    assert stuck.loc["hoist", "hookload_left_N"] == pytest.approx(whole.loc["hoist", "hookload_left_N"], rel=1e-4)
+    # The pipe above the stuck point weighs 250 m of 35 kg/m in mud of 1.2 sg.
+    arrives = 900e3 - stuck.loc["hoist", "force_at_stuck_N"]
+    assert arrives == pytest.approx(250 * 35.0 * 9.80665 * (1 - 1.2 / 7.85), rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (("--stuck-at", "1100 m"), '--stuck-at = "1100 m": expected a depth along the string'),
+        (("--stuck-at", "bottom"), '--stuck-at = "bottom": expected a length'),
+        (("--stuck-at", "250 m", "--operation", "drill_rotating"), '--operation = "drill_rotating": expected trip_out'),
+        (("--stuck-at", "250 m", "--flow", "2000 L/min"), ": expected none beside stuck_at: pumps stand"),
+    ],
+)
+def test_stuck_pipe_that_is_none_is_refused(cli: Command, well: Path, options: tuple[str, ...], told: str) -> None:
+    assert told in cli("limits", well, *options, code=2).err

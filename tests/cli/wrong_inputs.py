@@ -121,8 +121,8 @@ REFUSED: Final[list[tuple[str, Any, str]]] = [
     (
         "wellbore.intervals[0].dia",
         "8.5 in",
-        "one of the keys to_md, diameter, friction, rotational_friction, kind, name, stiffness, stiffness_per_length, "
-        "static_friction, decay_speed, overbalance",
+        "one of the keys to_md, casing, diameter, friction, rotational_friction, kind, name, outer_diameter, "
+        "yield_strength, stiffness, stiffness_per_length, static_friction, decay_speed, overbalance",
     ),
     ("wellbore.geometry", "arc", "'cylinders', 'arcs' or 'sampled'"),
     ("string", None, "a table [string]"),

@@ -22,6 +22,7 @@ from fctd.steady.margins import (
     SLACK_OFF,
     SNAKING,
     TORQUE,
+    Loaded,
     Margin,
     margins,
 )
@@ -37,9 +38,8 @@ MUD = {"density": 1200.0}
 def found(case: Case, operation: str, depth: float, **rates: Any) -> dict[str, Margin]:
     """The margins of a case by their limits."""
     solver = Solver(case)
-    return {
-        of.limit: of for of in margins(solver, operation, steady_rates(case, operation, **rates), solver.lay_out(depth))
-    }
+    loaded = Loaded(solver, operation, steady_rates(case, operation, **rates), solver.lay_out(depth))
+    return {of.limit: of for of in margins(loaded)}
 
 
 def with_pull(case: Case, overpull: float) -> Case:

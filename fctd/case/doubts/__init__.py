@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from fctd.case.doubts.caliper import measured_size
 from fctd.case.doubts.flow import of_flow
-from fctd.case.doubts.hole import hole_size, rough_wall, shoe_below_td, wider_below
+from fctd.case.doubts.hole import casing_bore, hole_size, rough_wall, shoe_below_td, wider_below
 from fctd.case.doubts.rig import no_bit_load, no_block, no_mud, rates, sheaves_and_drive
 from fctd.case.doubts.string import (
     bent_along_gauge,
@@ -42,6 +42,7 @@ def warnings_of(
         *shoe_below_td(case.wellbore, float(stations[-1, 0])),
         *hole_size(case.wellbore),
         *wider_below(case.wellbore),
+        *casing_bore(case.wellbore),
         *rough_wall(case.wellbore, frictions),
         *measured_size(case.wellbore, float(stations[-1, 0])),
         *no_mud(case.mud, float(stations[-1, 0])),

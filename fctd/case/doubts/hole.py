@@ -7,6 +7,7 @@ from fctd.case.doubts.usual import Doubts
 from fctd.case.friction import FrictionSet
 from fctd.case.hole import WellboreSpec
 from fctd.case.input_warnings import InputWarning
+from fctd.case.pipes.filling import casing_named
 from fctd.case.units import LikelyUnit, unit_hint
 
 ROUGH: Final = 0.6  # steel on rock without lubrication; casing has 0.15 to 0.3, open hole 0.2 to 0.5
@@ -14,6 +15,7 @@ NARROWEST, WIDEST = 0.05, 1.5  # [m]: coiled tubing in slim hole, conductor pipe
 UNDERREAMED: Final = 1.5  # an under-reamer opens the hole below a shoe to some 1.3 times its diameter
 BELOW_TD: Final = 30.0  # [m]: the last station is some way above the bit
 FOOT: Final = 0.3048
+OTHER_BORE: Final = 0.01  # share of a bore: a drift is 1.5 to 3 % narrower
 
 
 def shoe_below_td(hole: WellboreSpec, td: float) -> Doubts:
@@ -51,6 +53,21 @@ def wider_below(hole: WellboreSpec) -> Doubts:
                 "wider_below", f"wellbore.intervals[{i}].diameter",
                 f"the hole widens downwards, from {1e3 * above.diameter:g} to {1e3 * here.diameter:g} mm",
                 "list the intervals from the surface down",
+            )  # fmt: skip
+
+
+def casing_bore(hole: WellboreSpec) -> Doubts:
+    """Casing with a diameter inside that is not its bore, such as its drift: its wall is then another one."""
+    for i, interval in enumerate(hole.intervals):
+        if interval.casing is None:
+            continue
+        bore = casing_named(interval.casing).inner
+        if abs(interval.diameter / bore - 1) > OTHER_BORE:
+            yield InputWarning(
+                "casing_bore", f"wellbore.intervals[{i}].diameter",
+                f"{1e3 * interval.diameter:.4g} mm, where the bore of {interval.casing} is {1e3 * bore:.4g} mm: "
+                f"its wall is taken as {1e3 * interval.wall:.3g} mm",
+                "leave the diameter out, or check the casing",
             )  # fmt: skip
 
 

@@ -1,0 +1,137 @@
+"""``fctd freepoint CASE``: where a string is stuck, from its stretch or its twist."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import numpy as np
+import typer
+
+from fctd.case.doubts import warnings_of
+from fctd.case.text import printable
+from fctd.case.units import FORCE, LENGTH, TORQUE, Dimension
+from fctd.cli.base_command import Silent
+from fctd.cli.limits import rows_of
+from fctd.cli.options import (
+    CaseFile,
+    Friction,
+    Overrides,
+    Strict,
+    Units,
+    bare_length,
+    changes_of,
+    finish,
+    print_written,
+    read_case,
+    read_quantity,
+    refuse_sources,
+    screen,
+    tell,
+)
+from fctd.cli.steady import DEPTH_HELP, check_table, file_option, in_units, metadata_of_case
+from fctd.model.depths import read_depth
+from fctd.results.table_files import write_table
+from fctd.results.unit_systems import System, in_words, reworded
+from fctd.steady.free_point import STRETCH, free_point
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+def freepoint_command(
+    case_file: CaseFile,
+    pull: Annotated[
+        str | None,
+        typer.Option("--pull", metavar="F", help="Difference of the hook loads at two marks, '200 kN' or '40 klbf'."),
+    ] = None,
+    stretch: Annotated[
+        str | None,
+        typer.Option("--stretch", metavar="L", help="How far the pipe came up between them, '0.6 m' or '24 in'."),
+    ] = None,
+    first_hookload: Annotated[
+        str | None,
+        typer.Option(
+            "--first-hookload",
+            metavar="F",
+            help="Hook load of the string at the first mark; default: that of the free string picking up.",
+            show_default=False,
+        ),
+    ] = None,
+    torque: Annotated[
+        str | None,
+        typer.Option("--torque", metavar="T", help="By how much the torque grew, '15 kN*m' or '11 kft*lbf'."),
+    ] = None,
+    turns: Annotated[
+        float | None, typer.Option("--turns", metavar="N", help="By how many turns the pipe was wound up.")
+    ] = None,
+    first_torque: Annotated[
+        str, typer.Option("--first-torque", metavar="T", help="Torque from which it grew.")
+    ] = "0 N*m",
+    bit_depth: Annotated[str, typer.Option("--bit-depth", metavar="D", help=f"{DEPTH_HELP}.")] = "td",
+    overrides: Overrides = [],  # noqa: B006 (typer copies it)
+    friction: Friction = None,
+    out: Annotated[Path | None, file_option("--out", "A row for stretch and twist, .csv, .parquet or .xlsx.")] = None,
+    units: Units = "si",
+    quiet: Silent = False,
+    strict: Strict = False,
+) -> None:
+    """Find the free point of stuck pipe by its stretch under a pull, or by its twist under a torque.
+
+    The string of the case is laid out, with friction, down to the depth at which it moves as far as was measured.
+    """
+    check_table(out)
+    case = read_case(case_file, changes_of(overrides, friction))
+    refuse_sources(case, out, "--out")
+
+    def read(text: str | None, dimension: Dimension, key: str) -> float | None:
+        return None if text is None else read_quantity(text, dimension, key, units)
+
+    measured: dict[str, Any] = {
+        "pull": read(pull, FORCE, "--pull"), "stretch": read(stretch, LENGTH, "--stretch"),
+        "first_hookload": read(first_hookload, FORCE, "--first-hookload"), "torque": read(torque, TORQUE, "--torque"),
+        "turns": turns, "first_torque": read_quantity(first_torque, TORQUE, "--first-torque", units),
+    }  # fmt: skip
+    depth = read_depth(bit_depth, case, "--bit-depth", bare_length(units))
+    warnings = warnings_of(case)
+    tell(case, warnings, strict=strict, units=units)
+    table = free_point(case, depth, **measured)
+    written: list[Path] = []
+    try:  # written before anything is printed, as the terminal may be closed
+        if out is not None:
+            metadata = metadata_of_case(case, warnings) | {"units": units}
+            written += write_table(in_units(units, table), out, metadata)
+    finally:
+        if not quiet:
+            _print(table, case.name, units)
+    if not quiet:
+        print_written(written)
+    finish(bool((table["reason"] == "none").all()), (), strict)
+
+
+def _print(table: "pd.DataFrame", name: str, units: System) -> None:
+    screen.print(printable(name), style="bold", soft_wrap=True)
+    for row in rows_of(table):
+        for line in _lines(row, units):
+            screen.print(line, soft_wrap=True)
+    screen.print("hook loads are those of the string alone, without the block", soft_wrap=True)
+
+
+def _lines(row: dict[str, Any], units: System) -> list[str]:
+    """What was measured and what was found, in words."""
+
+    def words(column: str) -> str:
+        return in_words(row[column], column, units)
+
+    if row["by"] == STRETCH:
+        moved, load, first = (words(name) for name in ("stretch_m", "pull_N", "first_hookload_N"))
+        arrived = ("first_force_N", "last_force_N")
+    else:
+        moved, load, first = f"{row['turns']:g} turns", words("torque_N_m"), words("first_torque_N_m")
+        arrived = ("first_arrived_N_m", "last_arrived_N_m")
+    lines = [f"{row['by']}: {moved} by {load} more than {first}, bit at {words('bit_depth_m')}"]
+    if np.isnan(row["free_point_md_m"]):
+        lines.append(f"  no free point: {reworded(row['reason'], units)}")
+    else:
+        lines.append(f"  free point at {words('free_point_md_m')}, {words('per_percent_m')} deeper for 1 % more of it")
+        lines.append(f"  there the load grows from {words(arrived[0])} to {words(arrived[1])}")
+    straight = f"  drillers' formula, bodies in a straight hole without friction: {words('straight_md_m')}"
+    return [*lines, straight]

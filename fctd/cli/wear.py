@@ -1,0 +1,226 @@
+"""``fctd wear CASE``: grooves that the turning string wears into casing, and the burst pressure that is left."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Final
+
+import numpy as np
+import typer
+from rich.box import SIMPLE_HEAD
+from rich.table import Column, Table
+
+from fctd.case.doubts import warnings_of
+from fctd.case.errors import InputError
+from fctd.case.text import counted, printable
+from fctd.case.units import LENGTH, SPEED, TIME, typed
+from fctd.cli.chart import DEPTHS_HELP
+from fctd.cli.limits import rows_of
+from fctd.cli.options import (
+    CaseFile,
+    Friction,
+    Overrides,
+    Quiet,
+    Strict,
+    Units,
+    changes_of,
+    finish,
+    print_written,
+    read_case,
+    read_quantity,
+    refuse_sources,
+    screen,
+    tell,
+)
+from fctd.cli.pictures import PICTURE_HELP, draw_panels
+from fctd.cli.steady import (
+    Rpm,
+    check_targets,
+    file_option,
+    in_units,
+    metadata_of,
+    read_bit_depths,
+    read_drive,
+    row_bar,
+)
+from fctd.results.table_files import write_table
+from fctd.results.unit_systems import System, in_words, reworded, shown
+from fctd.steady.wear import STEP, TURNING, USUAL_FACTORS, casing_wear
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+SCREEN_ROWS: Final = 16  # of a casing
+# Columns on the screen, with headings.
+SHOWN: Final = {
+    "md_m": "\ndepth", "side_force_N": "side\nforce", "low_groove_m": "groove,\nfrom", "high_groove_m": "\nto",
+    "high_worn": "of the\nwall", "burst_Pa": "burst,\nnew", "low_burst_Pa": "burst,\nworn",
+}  # fmt: skip
+# Columns of a range, from the lowest to the highest wear factor.
+GROOVES: Final = ("low_groove_m", "high_groove_m")
+WORN: Final = ("low_worn", "high_worn")
+LEFT: Final = ("high_burst_Pa", "low_burst_Pa")
+# Digits after the point of these columns, in SI and in field units.
+DIGITS: Final = {
+    "md_m": (0, 0), "side_force_N": (2, 3), "low_groove_m": (2, 4), "high_groove_m": (2, 4), "high_worn": (1, 1),
+    "burst_Pa": (0, 0), "low_burst_Pa": (0, 0),
+}  # fmt: skip
+
+
+def wear_command(
+    case_file: CaseFile,
+    depths: Annotated[
+        str,
+        typer.Option("--depths", metavar="D or FROM:TO:STEP", help=f"{DEPTHS_HELP} Or one depth, such as td."),
+    ] = "td",
+    hours: Annotated[
+        str | None,
+        typer.Option("--hours", metavar="T", help="Time in all with the string turning, 100 or '100 h'."),
+    ] = None,
+    penetration: Annotated[
+        str | None,
+        typer.Option(
+            "--penetration",
+            metavar="V",
+            help="Rate of penetration from FROM to TO, '20 m/h', bare in m/h or ft/h; in place of --hours.",
+        ),
+    ] = None,
+    rpm: Rpm = None,
+    wear_factor: Annotated[
+        str,
+        typer.Option("--wear-factor", metavar="X or LOW:HIGH", help="Wear factor in 1e-10/psi, or its range."),
+    ] = f"{USUAL_FACTORS[0]:g}:{USUAL_FACTORS[1]:g}",
+    operation: Annotated[
+        str, typer.Option("--operation", metavar="KIND", help=f"Kind of operation: {', '.join(TURNING)}.")
+    ] = "drill_rotating",
+    step: Annotated[
+        str, typer.Option("--step", metavar="L", help="Length of casing in a row, bare in m, with --units field in ft.")
+    ] = f"{STEP:g} m",
+    overrides: Overrides = [],  # noqa: B006 (typer copies it)
+    friction: Friction = None,
+    out: Annotated[
+        Path | None, file_option("--out", "A row for every step of casing, .csv, .parquet or .xlsx, or its picture.")
+    ] = None,
+    plot: Annotated[
+        Path | None, file_option("--plot", f"Side force, grooves and burst pressure by depth, {PICTURE_HELP}.")
+    ] = None,
+    units: Units = "si",
+    quiet: Quiet = False,
+    strict: Strict = False,
+) -> None:
+    """Find the wear of casing by a string that turns: the depth of its groove, and the burst pressure that is left.
+
+    The casing is a `casing` of an interval of the hole.  Its groove is V = WF·F·s for every metre: wear factor, side
+    force, sliding distance.
+    """
+    table_out, plot = check_targets(out, plot, {})
+    case = read_case(case_file, changes_of(overrides, friction))
+    for key, path in (("--out", out), ("--plot", plot)):
+        refuse_sources(case, path, key)
+    rate = "ft/h" if units == "field" else "m/h"
+    asked: dict[str, Any] = {
+        "bit_depths": read_bit_depths(depths, case, units),
+        "duration": None if hours is None else typed(hours, TIME, "--hours", "h"),
+        "penetration": None if penetration is None else typed(penetration, SPEED, "--penetration", rate),
+        "rpm": read_drive(None, rpm, None)["rpm"], "wear_factor": _read_factors(wear_factor), "operation": operation,
+        "step": read_quantity(step, LENGTH, "--step", units),
+    }  # fmt: skip
+    if operation not in TURNING:
+        raise InputError(" or ".join(TURNING), key="--operation", value=operation)
+    warnings = warnings_of(case, [operation], rpm=asked["rpm"])
+    told = tell(case, warnings, strict=strict, units=units)
+    with row_bar(quiet) as bar:
+        task = bar.add_task(printable(case.name), total=None)
+
+        def show(done: int, total: int) -> None:
+            bar.update(task, completed=done, total=total)
+
+        table = casing_wear(case, **asked, progress=show)
+    lines, written = _facts(table, units), list[Path]()
+    try:  # written before anything is printed, as the terminal may be closed
+        if table_out is not None:
+            metadata = metadata_of(case, units, [operation], {"rpm": asked["rpm"]}, warnings)
+            metadata |= {key: table.attrs[key] for key in ("turns", "time_s", "wear_factors", "doubted")}
+            written += write_table(in_units(units, table), table_out, metadata)
+        if plot is not None:
+            from fctd.plots.wear import wear_panels
+
+            written += draw_panels(
+                plot, wear_panels(case, table, units, [*lines, *(f"warning {text}" for text in told)])
+            )
+    finally:
+        _print(table, case.name, lines, units)
+    print_written(written)
+    finish(not table.attrs["doubted"], ["worn_through"] if (table["high_worn"] >= 1).any() else [], strict)
+
+
+def _read_factors(text: str) -> list[float]:
+    """The wear factors of X or LOW:HIGH [1e-10/psi]."""
+    try:
+        return [float(part) for part in text.split(":")]
+    except ValueError:
+        expected = "a wear factor in 1e-10/psi, or LOW:HIGH, such as 2:10"
+        raise InputError(expected, key="--wear-factor", value=text) from None
+
+
+def _facts(table: "pd.DataFrame", units: System) -> list[str]:
+    """The schedule and the deepest groove of each casing, as lines."""
+    turns, hours, (low, high) = table.attrs["turns"], table.attrs["time_s"] / 3600, table.attrs["wear_factors"]
+    factors = f"wear factor {low:g}" + ("" if low == high else f" to {high:g}") + "e-10/psi"
+    lines = [f"{turns:.0f} turns in {hours:.4g} h, {factors}"]
+    for name, of in table.groupby("casing", sort=False):
+        row = rows_of(of)[int(np.argmax(of["high_groove_m"].to_numpy()))]
+        if row["high_groove_m"] == 0:
+            lines.append(f"{name}: no wear")
+            continue
+        depth, groove, worn = (_span(row, *names, units) for names in (GROOVES, WORN, LEFT))
+        lines.append(
+            f"{name}: deepest groove at {in_words(row['md_m'], 'md_m', units)}, {depth}, {groove} of the wall; "
+            f"burst {worn} of {in_words(row['burst_Pa'], 'burst_Pa', units)}"
+            + ("; the wall may be worn through" if row["high_worn"] >= 1 else "")
+        )
+    if doubted := table.attrs["doubted"]:
+        last = max(doubted)
+        place = in_words(last, "bit_depth_m", units)
+        words = reworded(doubted[last], units)
+        lines.append(f"the string is doubtful at {counted(len(doubted), 'bit depth')}, the last {place}: {words}")
+    return lines
+
+
+def _span(row: dict[str, Any], first: str, last: str, units: System) -> str:
+    """Two numbers of a row as a range with one unit, one number where they are equal."""
+    factor, unit = _unit(first, units)
+    values = [row[name] * factor for name in (first, last)]
+    numbers = [f"{value:.0f}" if value >= 100 else f"{value:.3g}" for value in values]
+    return f"{numbers[0] if numbers[0] == numbers[1] else ' to '.join(numbers)} {unit}"
+
+
+def _unit(column: str, units: System) -> tuple[float, str]:
+    """Factor and label of a column; shares in per cent."""
+    return (100.0, "%") if column in WORN else shown(column, units)
+
+
+def _print(table: "pd.DataFrame", name: str, lines: list[str], units: System) -> None:
+    screen.print(printable(name), style="bold", soft_wrap=True)
+    for casing, of in table.groupby("casing", sort=False):
+        screen.print(printable(str(casing)), soft_wrap=True)
+        screen.print(_table(of, units))
+    for line in lines:
+        screen.print(printable(line), soft_wrap=True)
+    screen.print(
+        "side forces are those on 30 ft of string; burst is 0.875·2Yt/D of the wall t that is left, which a groove "
+        "weakens all around",
+        soft_wrap=True,
+    )
+
+
+def _table(of: "pd.DataFrame", units: System) -> Table:
+    """The rows of a casing, at evenly spread depths where they are many, with that of the deepest groove."""
+    unit = {name: _unit(name, units) for name in SHOWN}
+    table = Table(
+        *(Column(f"{words}\n{unit[name][1]}", justify="right", no_wrap=True) for name, words in SHOWN.items()),
+        box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
+    )  # fmt: skip
+    rows = rows_of(of)
+    picked = np.linspace(0, len(rows) - 1, min(SCREEN_ROWS, len(rows))).round().astype(int)
+    for k in np.unique(np.append(picked, np.argmax(of["high_groove_m"].to_numpy()))):
+        table.add_row(*(f"{rows[k][name] * unit[name][0]:.{DIGITS[name][units == 'field']}f}" for name in SHOWN))
+    return table
