@@ -1,6 +1,7 @@
 """What all pictures share: colours, markers, the sheet with its heading, and the files."""
 
 import io
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from textwrap import wrap
@@ -70,9 +71,13 @@ def save(figure: Figure, path: Path) -> list[Path]:
 
 
 def drawn(figure: Figure, suffix: str, **options: Any) -> bytes:
-    """A figure in the format of a suffix; options : of ``savefig``."""
+    """A figure in the format of a suffix; options : of ``savefig``.
+
+    A character that the font lacks is a box, without a warning of the package: a name of another script.
+    """
     content = io.BytesIO()
-    with mpl.rc_context(RC):
+    with mpl.rc_context(RC), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Glyph .* missing from font")
         figure.savefig(content, format=suffix.removeprefix("."), metadata=_UNDATED.get(suffix), **options)
     return content.getvalue()
 

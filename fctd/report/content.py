@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from fctd.case.text import printable
 from fctd.model.summary import segments_in_words, summarise
 from fctd.plots.loads import ChartLook, Load
 from fctd.report import results, well
@@ -50,4 +51,4 @@ def report_of(
     if found.circulations:
         sections.append(results.mud(found, units))
     sections += [results.notes(found, units), results.made_with(case), results.along(found.points, units)]
-    return Report(case.name, cover.company, cover.by, cover.date, cover.logo, units, tuple(sections))
+    return Report(printable(case.name), cover.company, cover.by, cover.date, cover.logo, units, tuple(sections))

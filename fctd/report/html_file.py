@@ -22,7 +22,7 @@ def to_html(report: Report) -> bytes:
     environment.tests["picture"] = lambda part: isinstance(part, Picture)
     environment.globals["embedded"] = _embedded
     environment.globals["picture_of"] = lambda part: _embedded(part.drawn(".svg"), ".svg")
-    return environment.get_template("report.html").render(report=report).encode()
+    return environment.get_template("html_file.html").render(report=report).encode()
 
 
 def _embedded(content: bytes, suffix: str) -> str:

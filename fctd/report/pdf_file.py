@@ -35,6 +35,7 @@ TITLE = ParagraphStyle("title", BODY, fontName=BOLD, fontSize=9, leading=12, spa
 # Height that a table needs at the bottom of a page, so that no head stands there with few rows [pt]; least share of its
 # size that a picture shrinks to for the rest of a page.
 FEW_ROWS, SHRUNK = 1.6 * INCH, 0.75
+LONGEST: Final = 150  # characters of the title; the table below it has all of them
 
 
 def to_pdf(report: Report) -> bytes:
@@ -79,7 +80,7 @@ def _paragraph(text: str, style: ParagraphStyle) -> Paragraph:
 
 def _story(report: Report, width: float, height: float) -> Iterator[Flowable]:
     """The flowables; a ``CondPageBreak`` begins each group of them that stays together."""
-    yield _paragraph(report.title, COVER)
+    yield _paragraph(_shorten(report.title, LONGEST), COVER)
     said = ["Torque and drag", report.company, f"by {report.by}" if report.by else "", report.date]
     yield _paragraph(", ".join(filter(None, said)), BODY)
     for section in report.sections:
@@ -89,9 +90,10 @@ def _story(report: Report, width: float, height: float) -> Iterator[Flowable]:
                 yield from [CondPageBreak(FEW_ROWS), *first] if first else []
                 yield _Figure(part, width, height)
             elif isinstance(part, Text):
-                yield from [CondPageBreak(FEW_ROWS), *first, _paragraph(part.text, BODY)]
+                needs = FEW_ROWS if first else 0.5 * INCH
+                yield from [CondPageBreak(needs), *first, _paragraph(part.text, BODY)]
             else:
-                drawn = _drawn(part, width)
+                drawn = _drawn(part, width, height)
                 needs = min(drawn.wrap(width, height)[1] + 0.5 * INCH, FEW_ROWS)
                 yield CondPageBreak(needs + 0.5 * INCH * bool(first))
                 yield from [*first, *([_paragraph(part.title, TITLE)] if part.title else []), drawn]
@@ -196,18 +198,26 @@ def _frame_page(canvas: Canvas, report: Report, width: float, height: float) -> 
     canvas.drawString(MARGIN, 0.6 * FOOT, _cut(f"FCTD, torque and drag, {report.date}", FONT, 0.6 * width))
 
 
+def _shorten(text: str, most: int) -> str:
+    """A text of at most so many characters, with an ellipsis where it was longer."""
+    return text if len(text) <= most else f"{text[: most - 1]}…"
+
+
 def _cut(text: str, font: str, room: float) -> str:
     """A text that fits a line, with an ellipsis where it was longer."""
-    shown = _shown(text)
-    if pdfmetrics.stringWidth(shown, font, SIZE) <= room:
+    shown = _shown(text[: int(room)])  # no character is narrower than a point
+    if shown == text and pdfmetrics.stringWidth(shown, font, SIZE) <= room:
         return shown
     while shown and pdfmetrics.stringWidth(f"{shown}…", font, SIZE) > room:
         shown = shown[:-1]
     return f"{shown}…"
 
 
-def _drawn(table: Table, room: float) -> Drawn:
-    """A table as reportlab draws it: heads on each page, texts that wrap, numbers to the right."""
+def _drawn(table: Table, room: float, height: float) -> Drawn:
+    """A table as reportlab draws it: heads on each page, texts that wrap, numbers to the right.
+
+    room, height : of a page [pt]; a row that is higher breaks over pages.
+    """
     size, widths = _sizes(table, room)
     cell = ParagraphStyle("cell", BODY, fontSize=size, leading=1.2 * size)
     heads = [ParagraphStyle("head", cell, fontName=BOLD, alignment=2 if numeric else 0) for numeric in table.numeric]
@@ -229,7 +239,10 @@ def _drawn(table: Table, room: float) -> Drawn:
     ]  # fmt: skip
     if table.heads:
         look += [("LINEBELOW", (0, 0), (-1, 0), 0.8, colors.black), ("VALIGN", (0, 0), (-1, 0), "BOTTOM")]
-    return Drawn(rows, widths, style=look, repeatRows=int(bool(table.heads)), hAlign="LEFT", splitInRow=1)
+    drawn = Drawn(rows, widths, style=look, repeatRows=int(bool(table.heads)), hAlign="LEFT")
+    drawn.wrap(room, height)
+    drawn.splitInRow = int(max(drawn._rowHeights) > 0.8 * height)
+    return drawn
 
 
 def _sizes(table: Table, room: float) -> tuple[float, list[float]]:

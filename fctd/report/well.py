@@ -18,7 +18,7 @@ from fctd.model.section import section_of
 from fctd.model.summary import Summary
 from fctd.report.tables import NONE, Cell, Section, Table, Text, facts, number, short, text
 from fctd.results.case_facts import Row, caliper_facts, fitting_facts, flow_curves, load_facts, path_facts
-from fctd.results.unit_systems import System, reworded
+from fctd.results.unit_systems import System
 
 
 class Measure(NamedTuple):
@@ -281,7 +281,7 @@ def assumptions(
 ) -> Section:  # fmt: skip
     """What the numbers rest on: the model, rates with their origin, probable mistakes of the input.
 
-    drive : rates of the command; segments : how the string is cut, in words; warnings : their texts.
+    drive : rates of the command; segments : how the string is cut, in words; warnings : in sentences, in the units.
     """
     hole_of, contact = case.wellbore, case.contact
     stiffness = (
@@ -309,7 +309,7 @@ def assumptions(
         Table("Model", ("assumption", "value", "from"), tuple(rows)),
         _rates(case, rates, drive, units),
     ]
-    found = tuple((text(reworded(warning, units)),) for warning in warnings)
+    found = tuple((text(warning),) for warning in warnings)
     parts.append(Table("Probable mistakes of the input", ("warning",), found) if found else Text("No warnings."))
     return Section("Assumptions", tuple(parts))
 

@@ -19,7 +19,10 @@ def test_a_rig_on_land_and_one_at_sea() -> None:
 @pytest.mark.parametrize(
     ("datum", "told"),
     [
-        ({"elevation": 30.0, "air_gap": 30.0, "water_depth": 80.0}, "datum.air_gap = 30.0: expected elevation or air_gap"),
+        (
+            {"elevation": 30.0, "air_gap": 30.0, "water_depth": 80.0},
+            "datum.air_gap = 30.0: expected elevation or air_gap",
+        ),
         ({"elevation": 30.0, "water_depth": 80.0}, "datum.air_gap is missing: .* in place of elevation"),
         ({"air_gap": 30.0}, "datum.water_depth is missing"),
         ({"air_gap": -1.0, "water_depth": 80.0}, "datum.air_gap = -1.0"),
