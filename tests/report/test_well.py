@@ -17,8 +17,8 @@ from fctd.model.capacity import body_of
 from fctd.model.connection import make_up_torque
 from fctd.model.operations import rates_of_all
 from fctd.model.summary import summarise
-from fctd.report.well import _datum, assumptions, fluids, friction, string
 from fctd.report.tables import Cell, Report, Table, Text
+from fctd.report.well import _datum, assumptions, fluids, friction, string
 from fctd.results.unit_systems import System
 from tests.report.conftest import WELL
 
