@@ -49,6 +49,7 @@ from fctd.cli.steady import (
 from fctd.model.new_case import Quantities
 from fctd.model.operations import rates_of_all
 from fctd.results.notes import meanings_of
+from fctd.results.status import SteadyStatus
 from fctd.results.unit_systems import System
 from fctd.steady.margin_table import USUAL
 from fctd.store.whole_file import whole_file
@@ -166,8 +167,10 @@ def report_command(
             written.append(path)
             bar.advance(task)
     meanings = meanings_of(found.chart["notes"])
-    if not found.acceptable:
-        messages.print("some rows of the chart have no answer that can be relied on: see the section Notes")
+    for status, count in found.chart["status"].value_counts().items():
+        if not SteadyStatus(status).acceptable:
+            rows_of = f"{count} of {len(found.chart)} rows"
+            messages.print(f"{rows_of} of the chart are {status}: the section Notes says why", soft_wrap=True)
     if not quiet:
         screen.print(f"{printable(case.name)}: {counted(len(made.tables), 'table')}", soft_wrap=True)
     print_written(written)

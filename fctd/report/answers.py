@@ -49,8 +49,8 @@ class Answers:
 
     case : with the first set of factors, which all but the chart have; rates : of the operations; chart : of
     ``torque_drag``; margins, lines : of ``limits_of``, at the deepest possible depth, and of the usual kinds at some
-    depths up to buckling, None where they are not asked for; points : strings at the deepest possible depth; flow
-    [m³/s] and circulations : of the mud that is pumped, by depth; dry : why there are none.
+    depths up to buckling, None where there are none or they are not asked for; points : strings at the deepest possible
+    depth; flow [m³/s] and circulations : of the mud that is pumped, by depth; dry : why there are none.
     """
 
     case: Case
@@ -90,7 +90,7 @@ def answer(case: Case, asked: Asked, progress: Progress = lambda what, done, tot
             margins = _margins(solver, rates, [(kind, depths[-1]) for kind in kinds], show("margins"))
             spread = np.unique(np.linspace(0, len(depths) - 1, min(LIMIT_DEPTHS, len(depths))).round().astype(int))
             at = [(kind, depths[k]) for kind in kinds if kind in USUAL for k in spread]
-            lines = _margins(solver, rates, at, show("limits"), beyond_buckling=False)
+            lines = _margins(solver, rates, at, show("limits"), beyond_buckling=False) if at else None
         points = tuple(solver.solve(kind, rates[kind], depths[-1]) for kind in kinds)
         flow = max([*(rate.flow for rate in rates.values()), *(own.flow for own in case.operations)], default=0.0)
         found, dry = _pumped(one, flow, depths, show("hydraulics"))

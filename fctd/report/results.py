@@ -104,8 +104,7 @@ def _buckled(chart: pd.DataFrame) -> tuple[str, ...]:
 
 def margins(found: Answers, units: System) -> Section:
     """How far the string is from its limits, at the bottom and over depth."""
-    assert found.margins is not None  # the caller has asked for both
-    assert found.lines is not None
+    assert found.margins is not None  # the caller has asked for them
     table = found.margins
     parts: list[Part] = [
         Text(
@@ -120,7 +119,7 @@ def margins(found: Answers, units: System) -> Section:
     reasons = table[(table["reason"] != "none")]
     if len(reasons):
         parts.append(frame_table("What else is to be known", reasons, ("operation", "limit", "reason"), units))
-    if len(found.lines):
+    if found.lines is not None:
         parts.append(frame_table("Limits over bit depth", _with_loads(found.lines), LINES, units, MARGIN_WORDS))
     return Section("Margins", tuple(parts))
 
