@@ -105,7 +105,7 @@ def test_rows_without_an_answer_are_exit_code_1_and_notes_only_where_strict(
     loads = settings("bit.weight_on_bit=120 kN", "rig.block_weight=500 kN")
     said = cli("report", case_file, "--operation", "drill_sliding", "--depths", "900", *loads, *out, code=1)
     assert "1 of 1 rows of the chart are under_resolved: the section Notes says why" in said.err
-    noted = (*SHORT, *out, "--set", "rig.hoist_capacity=10 kN")
+    noted = (*SHORT, *out, "--set", "rig.hoist_capacity=100 kN", "--set", "mud.density=1200")
     cli("report", case_file, *noted)
     assert "strict: notes are errors (hoist)" in cli("report", case_file, *noted, "--strict", code=1).err
 
