@@ -21,6 +21,7 @@ from fctd.cli.options import (
     Overrides,
     Quiet,
     Strict,
+    Units,
     changes_of,
     check_target,
     finish,
@@ -39,7 +40,6 @@ from fctd.cli.steady import (
     ResolveBuckling,
     Rpm,
     Speed,
-    Units,
     file_option,
     read_bit_depths,
     read_drive,
@@ -168,7 +168,7 @@ def report_command(
             bar.advance(task)
     meanings = meanings_of(found.chart["notes"])
     for status, count in found.chart["status"].value_counts().items():
-        if not SteadyStatus(status).acceptable:
+        if not SteadyStatus(str(status)).acceptable:
             rows_of = f"{count} of {len(found.chart)} rows"
             messages.print(f"{rows_of} of the chart are {status}: the section Notes says why", soft_wrap=True)
     if not quiet:
