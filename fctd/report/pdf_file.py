@@ -144,17 +144,22 @@ class _Document(BaseDocTemplate):
     """A document in which what follows a picture that does not fit fills the page before it."""
 
     def handle_flowable(self, flowables: list[Flowable]) -> None:
-        """Draw the first of the flowables, or a group that takes its place."""
-        first = flowables[0]
-        if isinstance(first, _Figure) and not first.fits(self.frame._y - self.frame._y1p):
-            starts = [k for k, one in enumerate(flowables) if isinstance(one, CondPageBreak | _Figure)]
-            group = next((k for k in starts if isinstance(flowables[k], CondPageBreak)), None)
-            if group is not None:
-                end = next((k for k in starts if k > group), len(flowables))
-                moved = flowables[group:end]
-                del flowables[group:end]
-                flowables[:0] = moved
+        """Draw the first of the flowables, or a group for which the page has room in its place."""
+        if isinstance(flowables[0], _Figure):
+            self._fill_page(flowables, self.frame._y - self.frame._y1p)
         super().handle_flowable(flowables)
+
+    def _fill_page(self, flowables: list[Flowable], room: float) -> None:
+        """Put the next group before a picture that has no room on the page [pt], where the group has."""
+        if flowables[0].fits(room):
+            return
+        starts = [k for k, one in enumerate(flowables) if isinstance(one, CondPageBreak | _Figure)]
+        group = next((k for k in starts if isinstance(flowables[k], CondPageBreak)), None)
+        if group is not None and flowables[group].height <= room:
+            end = next((k for k in starts if k > group), len(flowables))
+            moved = flowables[group:end]
+            del flowables[group:end]
+            flowables[:0] = moved
 
 
 class _Numbered(Canvas):

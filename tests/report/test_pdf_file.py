@@ -53,6 +53,7 @@ def test_every_number_is_that_of_its_table(
     assert expected - found == Counter()
 
 
+@pytest.mark.slow
 def test_names_stand_as_they_are(files: Callable[[System, str], bytes]) -> None:
     """But for characters that the font lacks."""
     content = files("si", ".pdf")
