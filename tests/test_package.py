@@ -93,7 +93,7 @@ def test_without_a_cache_folder_code_is_kept_for_one_run(name: str, copy: Path, 
 def test_the_engine_needs_none_of_the_suite() -> None:
     """Importing the engine loads nothing of the other packages or of what only they need."""
     others = {
-        "references", "validation", "reports", "benchmarks", "matplotlib", "plotly", "xlsxwriter", "jinja2",
+        "references", "validation", "reports", "benchmarks", "matplotlib", "plotly", "xlsxwriter", "jinja2", "reportlab",
         "pybullet", "fcl", "coal", "mujoco", "rtree", "trimesh", "skfem", "pytest",
     }  # fmt: skip
     program = f"import sys; from fctd import *; print(sorted({others} & sys.modules.keys()))"
