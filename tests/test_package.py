@@ -93,8 +93,8 @@ def test_without_a_cache_folder_code_is_kept_for_one_run(name: str, copy: Path, 
 def test_the_engine_needs_none_of_the_suite() -> None:
     """Importing the engine loads nothing of the other packages or of what only they need."""
     others = {
-        "references", "validation", "reports", "benchmarks", "matplotlib", "plotly", "xlsxwriter", "jinja2", "reportlab",
-        "pybullet", "fcl", "coal", "mujoco", "rtree", "trimesh", "skfem", "pytest",
+        "references", "validation", "reports", "benchmarks", "matplotlib", "plotly", "xlsxwriter", "jinja2",
+        "reportlab", "pybullet", "fcl", "coal", "mujoco", "rtree", "trimesh", "skfem", "pytest",
     }  # fmt: skip
     program = f"import sys; from fctd import *; print(sorted({others} & sys.modules.keys()))"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
