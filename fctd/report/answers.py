@@ -6,8 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final
 
-import numpy as np
-
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionSet
 from fctd.case.load import Case, naming_file, with_friction
@@ -15,7 +13,7 @@ from fctd.hydraulics.pressures import Circulation, Eccentricity, check_flows, ci
 from fctd.model.operations import SteadyRates, rates_of_all
 from fctd.results.status import SteadyStatus
 from fctd.steady.equilibrium import Solver, lie_along
-from fctd.steady.margin_table import USUAL, margin_rows
+from fctd.steady.margin_table import USUAL, margin_rows, of_lines
 from fctd.steady.steady_string import Equilibrium
 from fctd.steady.torque_drag import torque_drag
 
@@ -88,8 +86,7 @@ def answer(case: Case, asked: Asked, progress: Progress = lambda what, done, tot
         margins, lines = None, None
         if asked.limits:
             margins = _margins(solver, rates, [(kind, depths[-1]) for kind in kinds], show("margins"))
-            spread = np.unique(np.linspace(0, len(depths) - 1, min(LIMIT_DEPTHS, len(depths))).round().astype(int))
-            at = [(kind, depths[k]) for kind in kinds if kind in USUAL for k in spread]
+            at = [(kind, depth) for kind in kinds if kind in USUAL for depth in of_lines(depths, LIMIT_DEPTHS)]
             lines = _margins(solver, rates, at, show("limits"), beyond_buckling=False) if at else None
         points = tuple(solver.solve(kind, rates[kind], depths[-1]) for kind in kinds)
         flow = max([*(rate.flow for rate in rates.values()), *(own.flow for own in case.operations)], default=0.0)

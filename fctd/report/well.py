@@ -101,11 +101,13 @@ def _datum(case: Case, units: System) -> Table | Text:
 def hole(case: Case, units: System) -> Section:
     """Intervals, caliper, window of densities."""
     depth, size = DEPTH.label(units), SIZE.label(units)
-    heads = ("interval", "kind", f"from ({depth})", f"to ({depth})", f"diameter ({size})")
+    named = any(one.casing is not None for one in case.wellbore.intervals)
+    heads = ("interval", "kind", f"from ({depth})", f"to ({depth})", f"diameter ({size})", *(["casing"] * named))
     rows, start = [], 0.0
     for k, one in enumerate(case.wellbore.intervals, start=1):
         ends = DEPTH.cell(start, units), DEPTH.cell(one.to_md, units)
-        rows.append((text(one.name or k), text(one.kind or NONE), *ends, SIZE.cell(one.diameter, units)))
+        of_pipe = [text(one.casing or NONE)] * named
+        rows.append((text(one.name or k), text(one.kind or NONE), *ends, SIZE.cell(one.diameter, units), *of_pipe))
         start = one.to_md
     parts = [Table("Intervals", heads, tuple(rows))]
     if case.wellbore.calipers is not None:

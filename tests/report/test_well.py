@@ -18,7 +18,7 @@ from fctd.model.connection import make_up_torque
 from fctd.model.operations import rates_of_all
 from fctd.model.summary import summarise
 from fctd.report.tables import Cell, Report, Table, Text
-from fctd.report.well import _datum, assumptions, fluids, friction, string
+from fctd.report.well import _datum, assumptions, fluids, friction, hole, string
 from fctd.results.unit_systems import System
 from tests.report.conftest import WELL
 
@@ -35,6 +35,11 @@ def test_the_datum_at_sea_on_land_and_unknown(made: Callable[[System], Report]) 
     unknown = _datum(load_case(WELL, {"datum": None}), "si")
     assert isinstance(unknown, Text)
     assert "does not give its elevation" in unknown.text
+
+
+def test_casing_of_the_catalogue_is_named() -> None:
+    case = load_case(WELL, {"wellbore.intervals[0].casing": "9 5/8 in 47 L-80", "wellbore.intervals[0].diameter": None})
+    assert [row[-2:] for row in texts(hole(case, "field").parts[0])] == [["8.681", "9 5/8 in 47 L-80"], ["8.500", "–"]]
 
 
 def test_capacities_are_those_of_the_catalogue(made: Callable[[System], Report]) -> None:
