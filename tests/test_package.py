@@ -94,7 +94,7 @@ def test_the_engine_needs_none_of_the_suite() -> None:
     """Importing the engine loads nothing of the other packages or of what only they need."""
     others = {
         "references", "validation", "reports", "benchmarks", "matplotlib", "plotly", "xlsxwriter", "jinja2",
-        "pybullet", "fcl", "coal", "mujoco", "rtree", "trimesh", "skfem", "pytest",
+        "reportlab", "pybullet", "fcl", "coal", "mujoco", "rtree", "trimesh", "skfem", "pytest",
     }  # fmt: skip
     program = f"import sys; from fctd import *; print(sorted({others} & sys.modules.keys()))"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)

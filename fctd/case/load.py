@@ -12,6 +12,7 @@ from typing import Annotated, Any, Final, Self
 
 from pydantic import Field, PrivateAttr, field_validator, model_validator
 
+from fctd.case.datum import DatumSpec
 from fctd.case.doubts import warnings_of
 from fctd.case.drilling import BitSpec
 from fctd.case.errors import MISSING, InputError, Table, naming, show
@@ -57,6 +58,7 @@ class Case(Table):
     """A case: hole, string, rig and operations. `file` is the case file that it was read from, or None."""
 
     name: str = Field(description="a name in quotes")
+    datum: DatumSpec = DatumSpec()
     wellbore: WellboreSpec = Field(description="a table [wellbore]")
     string: StringSpec = Field(description="a table [string]")
     mud: MudSpec = MudSpec()
@@ -114,6 +116,10 @@ class Case(Table):
             if density >= lightest:
                 of = f"string.components[{densities.index(lightest)}].density"
                 raise InputError(f"a density below the string's, {lightest:g} kg/m^3 ({of})", key=key)
+        bed, end = self.datum.sea_bed, self.wellbore.intervals[-1].to_md
+        if bed is not None and bed >= end:
+            expected = f"a sea bed above the end of the hole, {end:g} m, not {bed:g} m below the rotary table"
+            raise InputError(expected, key="datum.water_depth", value=f"{self.datum.water_depth:g} m")
         check_downwards(self.temperature, "temperature")
         check_downwards(self.wellbore.window, "wellbore.window")
         if self.mud.float and self.bit.end not in (None, "float"):

@@ -15,7 +15,7 @@ from fctd.case.load import Case, naming_file
 from fctd.case.text import counted, printable
 from fctd.case.units import DENSITY, LENGTH, SPEED, Dimension
 from fctd.cli.chart import DEPTHS_HELP
-from fctd.cli.check import Row, facts_table, flow_curves
+from fctd.cli.check import facts_table
 from fctd.cli.limits import rows_of
 from fctd.cli.options import (
     CaseFile,
@@ -36,6 +36,7 @@ from fctd.cli.pictures import PICTURE_HELP, draw_panels
 from fctd.cli.steady import check_targets, file_option, in_units, metadata_of_case, read_bit_depths, read_flow, row_bar
 from fctd.hydraulics.cuttings import Cuttings
 from fctd.hydraulics.pressures import SHARE, Circulation, Eccentricity, circulations
+from fctd.results.case_facts import Row, flow_curves
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, in_words, reworded, shown
 from fctd.steady.equilibrium import lie_along

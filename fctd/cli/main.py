@@ -66,7 +66,11 @@ GROUPS: dict[str, dict[str, dict[str, str]]] = {
         "monitor": {"step": "--step", "readings": "--false-alarm-in", "fit": "--fit"},
     },
     "Many samples": {"sweep": {}, "uncertainty": {"bit_depth": "--bit-depth"}},
-    "Look": {"view": {"bit_depth": "--depths", "exaggeration": "--sideways"}, "app": {}},
+    "Look": {
+        "report": {"bit_depths": "--depths"},
+        "view": {"bit_depth": "--depths", "exaggeration": "--sideways"},
+        "app": {},
+    },
     "Upkeep": {"compile": {}},
 }
 COMMANDS = {name: options for commands in GROUPS.values() for name, options in commands.items()}

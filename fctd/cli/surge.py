@@ -15,7 +15,7 @@ from fctd.case.load import Case
 from fctd.case.text import printable
 from fctd.case.units import SPEED
 from fctd.cli.chart import DEPTHS_HELP
-from fctd.cli.check import facts_table, flow_curves
+from fctd.cli.check import facts_table
 from fctd.cli.hydraulics import Beside, number, read_eccentricity
 from fctd.cli.limits import rows_of
 from fctd.cli.options import (
@@ -35,6 +35,7 @@ from fctd.cli.options import (
 from fctd.cli.pictures import PICTURE_HELP, draw_panels
 from fctd.cli.steady import check_targets, file_option, in_units, metadata_of_case, read_bit_depths, row_bar
 from fctd.hydraulics.surge import ENDS, FASTEST, TRIPS, fastest_trips, surge_pressures
+from fctd.results.case_facts import flow_curves
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, reworded, shown
 

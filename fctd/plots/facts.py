@@ -45,7 +45,7 @@ def facts_of(
         speed, rpm = abs(rates[kind].speed), rates[kind].spin / rad_per_s(1.0)
         parts = [_in(speed, _PENETRATION if KINDS[kind].on_bottom else _SPEED, units, 3)] if speed else []
         parts += [f"{rpm:.3g} rev/min"] if rpm else []
-        parts += [_in(rates[kind].flow, _FLOW, units, 3)] if rates[kind].flow else []
+        parts += [_in(rates[kind].flow, _FLOW, units)] if rates[kind].flow else []
         facts += [f"{KINDS[kind].label} {' and '.join(parts)}"]
     return facts
 

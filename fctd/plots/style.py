@@ -1,5 +1,7 @@
 """What all pictures share: colours, markers, the sheet with its heading, and the files."""
 
+import io
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from textwrap import wrap
@@ -63,9 +65,21 @@ LINE_STYLES: list[Any] = [line_style(dash) for dash in DASHES]
 
 def save(figure: Figure, path: Path) -> list[Path]:
     """Write a figure in the format of its suffix; returns the file.  Raises InputError where it cannot be written."""
-    with mpl.rc_context(RC), whole_file(path) as scratch:
-        figure.savefig(scratch, metadata=_UNDATED.get(path.suffix.lower()))
+    with whole_file(path) as scratch:
+        scratch.write_bytes(drawn(figure, path.suffix.lower()))
     return [path]
+
+
+def drawn(figure: Figure, suffix: str, **options: Any) -> bytes:
+    """A figure in the format of a suffix; options : of ``savefig``.
+
+    A character that the font lacks is a box, without a warning of the package: a name of another script.
+    """
+    content = io.BytesIO()
+    with mpl.rc_context(RC), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Glyph .* missing from font")
+        figure.savefig(content, format=suffix.removeprefix("."), metadata=_UNDATED.get(suffix), **options)
+    return content.getvalue()
 
 
 def _wrapped_title(title: str, width: float) -> list[str]:

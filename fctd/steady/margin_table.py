@@ -95,9 +95,9 @@ def limits_of(
     return table
 
 
-def of_lines(bit_depths: Sequence[float]) -> list[float]:
+def of_lines(bit_depths: Sequence[float], most: int = MOST_ON_LINE) -> list[float]:
     """Those of bit depths at which limits are computed that are drawn as lines: evenly spread, with both ends."""
-    picked = np.linspace(0, len(bit_depths) - 1, min(MOST_ON_LINE, len(bit_depths))).round().astype(int)
+    picked = np.linspace(0, len(bit_depths) - 1, min(most, len(bit_depths))).round().astype(int)
     return [bit_depths[k] for k in np.unique(picked).tolist()]
 
 

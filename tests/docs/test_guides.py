@@ -43,8 +43,8 @@ PROGRAMS = {"fctd": main.app, "python -m references": references.app}
 SHORT_WINDOW = "--start 5 --duration 1.5"
 # Friction and weight on bit with which the string of the guide locks up after half a minute.
 LOCKED_UP = '--friction 0.45 --set bit.weight_on_bit="120 kN"'
-# Guides whose engines and meshes run for seconds each.
-SLOW = {"references.md", "sweep.md"}
+# Guides whose engines and meshes, or searches for limits, run for seconds each.
+SLOW = {"references.md", "report.md", "sweep.md"}
 # What a Python block prints.
 PRINTED = {
     "README.md": ["converged", "contact_angle_deg"],

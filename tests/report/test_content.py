@@ -1,0 +1,26 @@
+"""Which sections a report has."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from fctd.report.answers import Answers
+from fctd.report.content import Cover, report_of
+from fctd.report.tables import Report
+from fctd.results.unit_systems import System
+
+ALWAYS = ["Well", "Hole", "String", "Fluids", "Friction", "Rig and limits", "Assumptions", "Torque and drag"]
+
+
+def test_all_sections_stand_in_their_order(made: Callable[[System], Report]) -> None:
+    titles = [section.title for section in made("si").sections]
+    assert titles == [*ALWAYS, "Margins", "Profiles", "Hydraulics", "Notes", "Versions", "Profiles in numbers"]
+
+
+def test_sections_without_answers_are_left_out(answers: Answers) -> None:
+    found = replace(answers, margins=None, lines=None, circulations=())
+    titles = [section.title for section in report_of(found, Cover(), "si").sections]
+    assert titles == [*ALWAYS, "Profiles", "Notes", "Versions", "Profiles in numbers"]
+
+
+def test_the_title_keeps_one_line(made: Callable[[System], Report]) -> None:
+    assert made("si").title == 'A & B <b>"well"</b> 水 \\x1b[31m'
