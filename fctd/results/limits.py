@@ -14,7 +14,7 @@ import numpy as np
 
 from fctd.arrays import Array
 from fctd.case.limits import LimitsSpec
-from fctd.mechanics.jit import entry, inlined
+from fctd.mechanics.jit import entry, inlined, kernel
 from fctd.model.drillstring import String
 from fctd.model.section import Section
 from fctd.results.hanging_body import ASSUMED, MOMENT, TAKEN, USUAL, beside
@@ -210,26 +210,43 @@ UPPER: Final = 0.5
 WORST = PLACE + len(Place._fields)
 
 
-def _comparison(limits: tuple[Limit, ...]) -> Any:
-    """A function that updates the largest shares of limits by those of a place, compiled into its caller."""
-    if not limits:
-        return inlined(lambda at, section, row, worst: None)
-    others, k = _comparison(limits[:-1]), len(limits) - 1
-    load_of, capacity_of = inlined(limits[-1].load), inlined(limits[-1].capacity)
+@kernel
+def _keep(worst, k, share, row, at):
+    """Write the largest share of limit k so far, and its place."""
+    worst[k, SHARE], worst[k, ROW] = share, row
+    for i in range(len(at)):
+        worst[k, PLACE + i] = at[i]
+
+
+def _comparison(first: int, end: int) -> Any:
+    """A function that updates the largest shares of limits from ``first`` to ``end`` by those of a place.
+
+    It is compiled into its caller, in halves: one limit after the other would be compiled as often as there are limits
+    behind it.
+    """
+    if end - first > 1:
+        middle = (first + end) // 2
+        upper, lower = _comparison(first, middle), _comparison(middle, end)
+
+        @inlined
+        def compare_both(at, section, row, worst):
+            upper(at, section, row, worst)
+            lower(at, section, row, worst)
+
+        return compare_both
+    load_of, capacity_of = inlined(LIMITS[first].load), inlined(LIMITS[first].capacity)
 
     @inlined
-    def compare(at, section, row, worst):
-        others(at, section, row, worst)
+    def compare_one(at, section, row, worst):
         load, capacity = load_of(at, section), capacity_of(at, section)
         # Multiplied, since most places are not the worst, and a division takes longer.
-        if load > worst[k, SHARE] * FARTHER * capacity:
-            worst[k, SHARE], worst[k, ROW] = load / capacity, row
-            worst[k, PLACE:] = at
+        if load > worst[first, SHARE] * FARTHER * capacity:
+            _keep(worst, first, load / capacity, row, at)
 
-    return compare
+    return compare_one
 
 
-compare = _comparison(LIMITS)
+compare = _comparison(0, len(LIMITS))
 
 
 @inlined
@@ -261,7 +278,7 @@ def find_shares(
         tension[0], torque[0], hanging[0, MOMENT], 0.0, 0.0, hookload, hanging[0, TAKEN], hanging[0, ASSUMED],
         excess[0],
     )  # fmt: skip
-    compare(top, _section(sections, component[0]), 0, worst)
+    compare(top, _section(sections, component[0]), 0.0, worst)  # one type of row, or all is compiled anew
     for j in range(len(hole)):
         if j and component[j] != component[j - 1]:  # the upper end of a weaker part bears most
             upper = Place(tension[j], torque[j], hanging[j + 1, MOMENT], 0.0, 0.0, 0.0, 0.0, 0.0, excess[j])
@@ -273,7 +290,7 @@ def find_shares(
             distance - clearance if in_hole else 0.0, clearance, 0.0, hanging[j + 1, TAKEN], hanging[j + 1, ASSUMED],
             excess[j + 1],
         )  # fmt: skip
-        compare(here, _section(sections, component[j]), j + 1, worst)
+        compare(here, _section(sections, component[j]), j + 1.0, worst)
     beyond = False
     for share in worst[:, SHARE]:  # numba's own ``any`` imports SciPy's linear algebra
         beyond |= share > 1
