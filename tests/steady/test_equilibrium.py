@@ -319,13 +319,14 @@ def test_string_and_hole_have_to_fit() -> None:
 
 
 def test_arrays_for_deeper_strings_are_no_larger_than_the_buffer() -> None:
-    """They have room for half as many segments again."""
+    """The first fit the string; those for a deeper one have room for half as many segments again."""
     case = make_case([[0, 0, 0], [800, 0, 0]], [pipe(None, None, segment_length=0.1)])
     solver = Solver(case)
-    laid = solver.lay_out(700.0)
-    assert laid.string.segments == 7000
-    solver.problem("trip_in", steady_rates(case, "trip_in"), laid)
-    assert solver.work.segments == state.MAX_SEGMENTS
+    for depth, room in ((690.0, 6900), (700.0, state.MAX_SEGMENTS)):
+        laid = solver.lay_out(depth)
+        assert laid.string.segments == round(10 * depth)
+        solver.problem("trip_in", steady_rates(case, "trip_in"), laid)
+        assert solver.work.segments == room
 
 
 def test_a_wall_of_another_power_presses_by_its_law() -> None:
