@@ -7,7 +7,6 @@ hands them over; the other engine computes inertia, contact and friction.  Top d
 from typing import Protocol
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from fctd.arrays import Array
@@ -16,6 +15,7 @@ from fctd.case.errors import InputError
 from fctd.mechanics import state
 from fctd.mechanics.dynamics import load, padded_columns, update_axes
 from fctd.mechanics.energy import Energy, energy_of
+from fctd.mechanics.jit import entry
 from fctd.mechanics.rotations import rotation_columns
 from fctd.mechanics.topdrive import Motion, move_top_drive
 from fctd.model.wellbore import LONGEST_CYLINDER
@@ -88,7 +88,7 @@ def tube_of(run: Run, options: FreeBodyOptions) -> Tube | None:
     return tube
 
 
-@njit(error_model="numpy", cache=True)
+@entry
 def _wrenches(S, top, n, laws, motion, pipe, dt, out):  # type: ignore[no-untyped-def]
     """Loads at the present poses; out (n, 6) force and moment about the centre of mass; returns feed and spin rate."""
     update_axes(S, padded_columns(n))
@@ -104,7 +104,7 @@ def _wrenches(S, top, n, laws, motion, pipe, dt, out):  # type: ignore[no-untype
     return feed, rate
 
 
-@njit(error_model="numpy", cache=True)
+@entry
 def place_bodies(S, poses):  # type: ignore[no-untyped-def]
     """Update the bodies from poses (n, 13)."""
     for j in range(1, len(poses) + 1):
@@ -122,13 +122,13 @@ def place_bodies(S, poses):  # type: ignore[no-untyped-def]
         S[state.WZ + j] = zx * p[10] + zy * p[11] + zz * p[12]
 
 
-@njit(error_model="numpy", cache=True)
+@entry
 def move_top(S, top, pipe, feed, rate, dt):  # type: ignore[no-untyped-def]
     """``move_top_drive`` for Python."""
     move_top_drive(S, top, pipe, feed, rate, dt)
 
 
-@njit(error_model="numpy", cache=True)
+@entry
 def _sum_contacts(S, body, contacts, before, poses, dt, slid):  # type: ignore[no-untyped-def]
     """Update sums and losses from contacts (c, 7) of the step from poses ``before`` to ``poses``.
 
