@@ -22,6 +22,7 @@ from fctd.cli.options import (
     finish,
     print_written,
     read_case,
+    read_load,
     read_quantity,
     refuse_sources,
     screen,
@@ -83,12 +84,13 @@ def freepoint_command(
     refuse_sources(case, out, "--out")
 
     def read(text: str | None, dimension: Dimension, key: str) -> float | None:
-        return None if text is None else read_quantity(text, dimension, key, units)
+        return None if text is None else read_load(text, dimension, key)
 
     measured: dict[str, Any] = {
-        "pull": read(pull, FORCE, "--pull"), "stretch": read(stretch, LENGTH, "--stretch"),
+        "pull": read(pull, FORCE, "--pull"),
+        "stretch": None if stretch is None else read_quantity(stretch, LENGTH, "--stretch", units),
         "first_hookload": read(first_hookload, FORCE, "--first-hookload"), "torque": read(torque, TORQUE, "--torque"),
-        "turns": turns, "first_torque": read_quantity(first_torque, TORQUE, "--first-torque", units),
+        "turns": turns, "first_torque": read_load(first_torque, TORQUE, "--first-torque"),
     }  # fmt: skip
     depth = read_depth(bit_depth, case, "--bit-depth", bare_length(units))
     warnings = warnings_of(case)

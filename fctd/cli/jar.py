@@ -26,7 +26,7 @@ from fctd.cli.options import (
     finish,
     print_written,
     read_case,
-    read_quantity,
+    read_load,
     refuse_sources,
     screen,
     tell,
@@ -88,7 +88,7 @@ def jar_command(
     case = read_case(case_file, changes_of(overrides, friction))
     refuse_sources(case, out, "--out")
     pulls, pushes, hung = (
-        _read(texts, f"--{key}", units) for key, texts in (("up", up), ("down", down), ("hookload", hookload))
+        _read(texts, f"--{key}") for key, texts in (("up", up), ("down", down), ("hookload", hookload))
     )
     bit = read_depth(bit_depth, case, "--bit-depth", bare_length(units))
     warnings = warnings_of(case)
@@ -116,9 +116,9 @@ def _is_number(text: str) -> bool:
     return True
 
 
-def _read(texts: Sequence[str], key: str, units: System) -> list[float]:
+def _read(texts: Sequence[str], key: str) -> list[float]:
     """The forces of an option [N]."""
-    return [read_quantity(text, FORCE, key, units) for given in texts for text in split_names(given)]
+    return [read_load(text, FORCE, key) for given in texts for text in split_names(given)]
 
 
 def _print(table: "pd.DataFrame", name: str, units: System) -> None:

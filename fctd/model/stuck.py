@@ -17,7 +17,7 @@ def above_stuck_point(case: Case, bit_depth: float, md: float) -> Case:
     """
     check_bit_depth(bit_depth, *case.depths, "bit_depth", f"{bit_depth:g} m")
     if not case.string.top_md < md <= bit_depth:
-        expected = f"a depth along the string, from {case.string.top_md:g} m to its bit at {bit_depth:g} m"
+        expected = f"a depth below the string's top at {case.string.top_md:g} m, down to its bit at {bit_depth:g} m"
         raise InputError(expected, key="stuck_at", value=f"{md:g} m")
     below, kept = bit_depth - md, []
     for component in case.string.components:

@@ -89,7 +89,10 @@ def answer(case: Case, asked: Asked, progress: Progress = lambda what, done, tot
             at = [(kind, depth) for kind in kinds if kind in USUAL for depth in of_lines(depths, LIMIT_DEPTHS)]
             lines = _margins(solver, rates, at, show("limits"), beyond_buckling=False) if at else None
         points = tuple(solver.solve(kind, rates[kind], depths[-1]) for kind in kinds)
-        flow = max([*(rate.flow for rate in rates.values()), *(own.flow for own in case.operations)], default=0.0)
+        flows = [rate.flow for rate in rates.values()]
+        if drive.get("flow") is None:  # else all of the report is of that flow
+            flows += [operation.flow for operation in case.operations]
+        flow = max(flows, default=0.0)
         found, dry = _pumped(one, flow, depths, show("hydraulics"))
     return Answers(one, asked, rates, chart, margins, lines, points, flow, found, dry)
 

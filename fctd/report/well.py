@@ -290,12 +290,13 @@ def assumptions(
         f"{hole_of.stiffness:.3g} N/m at a contact" if hole_of.stiffness is not None
         else f"{hole_of.stiffness_per_length:.3g} N/m for each metre"
     )  # fmt: skip
+    lies = "0, concentric" if case.mud.eccentricity == 0 else str(case.mud.eccentricity)
     chosen: list[tuple[str, str, Any, str]] = [
         ("friction law", contact.friction_law, contact, "friction_law"),
         ("shape of the hole", hole_of.geometry, hole_of, "geometry"),
         ("stiffness of the wall", stiffness, hole_of, "stiffness" if hole_of.stiffness else "stiffness_per_length"),
         ("where the string buckles", case.solver.buckling, case.solver, "buckling"),
-        ("where pipe lies in the annulus", str(case.mud.eccentricity), case.mud, "eccentricity"),
+        ("eccentricity of the pipe in the annulus", lies, case.mud, "eccentricity"),
     ]
     rows = [
         (text(what), text(value.replace("_", " ")), text("case" if key in of.model_fields_set else "default"))

@@ -24,7 +24,7 @@ from fctd.case.units import FORCE, LENGTH, TORQUE, Dimension, argument, bare
 from fctd.model.depths import depth_of
 from fctd.model.operations import SteadyRates, steady_rates
 from fctd.steady.equilibrium import Solver
-from fctd.steady.margins import swivel_of
+from fctd.steady.margins import swivel_of, weakest
 from fctd.steady.steady_string import Equilibrium
 from fctd.steady.stuck import StuckString, ends_of, stuck_string
 
@@ -172,6 +172,10 @@ def _held(solver: Solver, kind: str, depth: float) -> Held:
 
 def _by_stretch(held: Held, pull: float, stretch: float, first: float | None) -> Row:
     start = held.whole.hookload if first is None else first
+    bears = weakest(held.whole._shape.laid, "tension")
+    if start + pull > bears:
+        expected = f"less than the string bears, {bears / 1e3:.0f} kN, with the {start / 1e3:.0f} kN before the pull"
+        raise InputError(expected, key="pull", value=f"{pull / 1e3:g} kN")
 
     def marks(string: StuckString) -> list[tuple[float, Equilibrium]]:
         found = (string.at_hookload(load) for load in (start, start + pull))
@@ -190,6 +194,11 @@ def _by_stretch(held: Held, pull: float, stretch: float, first: float | None) ->
 
 
 def _by_twist(held: Held, torque: float, turns: float, first: float) -> Row:
+    bears = weakest(held.whole._shape.laid, "torsion")
+    if first + torque > bears:
+        expected = f"less than the string bears, {bears / 1e3:.1f} kN*m, with the {first / 1e3:.1f} kN*m before"
+        raise InputError(expected, key="torque", value=f"{torque / 1e3:g} kN*m")
+
     def wound(string: StuckString, at: float) -> tuple[float, float]:
         """Turns of the upper end and torque at the lower one of a surface torque [N m]."""
         unloaded = string.pressed(0.0, 0.0)

@@ -107,7 +107,7 @@ def _stuck_at(stuck_at: float | str, case: Case, kinds: Sequence[str], flow: flo
         if kind not in USUAL:
             raise InputError(f"{', '.join(USUAL)} of a string that is stuck", key="operation", value=kind)
     if flow is not None:
-        raise InputError("none beside stuck_at: pumps stand", key="flow", value=flow)
+        raise InputError("none beside stuck_at: the pumps stand", key="flow")
     return depth_of(stuck_at, case, "stuck_at")
 
 

@@ -159,7 +159,7 @@ def margins(loaded: Loaded, *, beyond_buckling: bool = True) -> Iterator[Margin]
         yield Margin("none", "none", reason=f"{loaded.free.status}: {loaded.free.message}")
         return
     if kind.direction < 0:
-        yield _pulled(loaded, first_limit, _weakest(laid, "tension"))
+        yield _pulled(loaded, first_limit, weakest(laid, "tension"))
         if (lifts := rig.hoist_capacity) is not None:
             yield _pulled(loaded, lambda point, _: First("hoist", point.weight_indicator / lifts, "none", NAN), lifts)
     if kind.direction > 0:
@@ -168,7 +168,7 @@ def margins(loaded: Loaded, *, beyond_buckling: bool = True) -> Iterator[Margin]
         if kind.direction >= 0 and (swivel := swivel_of(laid)):
             yield Margin(TORQUE, "none", swivel, reason=f"no torque passes the swivel above {swivel}")
         elif kind.direction >= 0:
-            yield _turned(loaded, first_limit, _weakest(laid, "torsion"))
+            yield _turned(loaded, first_limit, weakest(laid, "torsion"))
             if (turns := rig.largest_torque) is not None:
                 yield _turned(loaded, lambda point, _: First("drive", point.drive_torque / turns, "none", NAN), turns)
         if not loaded.stuck:
@@ -345,7 +345,7 @@ def _in_slips(point: Equilibrium, length: float, design_factor: float) -> Margin
     )  # fmt: skip
 
 
-def _weakest(laid: LaidString, load: str) -> float:
+def weakest(laid: LaidString, load: str) -> float:
     """The least capacity of the string's sections, of tension [N] or torsion [N m]."""
     found = []
     for of in laid.string.sections:

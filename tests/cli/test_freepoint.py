@@ -48,6 +48,7 @@ def test_another_first_reading(cli: Command) -> None:
         ([], "--pull is missing: expected pull and stretch, or torque and turns"),
         (["--pull", "100 kN"], "--stretch is missing: expected pull and stretch together"),
         (["--pull", "100 m", "--stretch", "1 m"], '--pull = "100 m": expected a force'),
+        (["--pull", "100", "--stretch", "1 m"], '--pull = "100": expected a force with its unit'),
         (["--pull", "0 kN", "--stretch", "1 m"], "--pull = 0.0: expected a force above 0"),
         (["--torque", "1 kN*m", "--turns", "-2"], "--turns = -2.0: expected a number of turns above 0"),
         (["--pull", "1 kN", "--stretch", "1 m", "--bit-depth", "4 km"], "--bit-depth"),

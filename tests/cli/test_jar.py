@@ -39,8 +39,9 @@ def test_a_share_above_one_fails_only_where_strict(cli: Command) -> None:
             ["--jar", "hydraulic jar", "--up", "1 kN"],
             '--jar = "hydraulic jar": expected a depth, or one of the components drill collars',
         ),
-        (["--jar", "2800 m", "--up", "1 kN", "--bit-depth", "2900 m"], '--stuck-at = "2950 m": expected a depth along'),
+        (["--jar", "2800 m", "--up", "1 kN", "--bit-depth", "2900 m"], '--stuck-at = "2950 m": expected a depth below'),
         (["--jar", "2800 m", "--up", "ten"], '--up = "ten": expected a force'),
+        (["--jar", "2800 m", "--up", "400"], '--up = "400": expected a force with its unit'),
     ],
 )
 def test_wrong_input_is_told_in_a_line(cli: Command, options: list[str], told: str) -> None:

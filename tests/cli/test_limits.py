@@ -124,10 +124,10 @@ def test_stuck_pipe_is_loaded_at_its_stuck_point(cli: Command, well: Path, monke
 @pytest.mark.parametrize(
     ("options", "told"),
     [
-        (("--stuck-at", "1100 m"), '--stuck-at = "1100 m": expected a depth along the string'),
+        (("--stuck-at", "1100 m"), '--stuck-at = "1100 m": expected a depth below'),
         (("--stuck-at", "bottom"), '--stuck-at = "bottom": expected a length'),
         (("--stuck-at", "250 m", "--operation", "drill_rotating"), '--operation = "drill_rotating": expected trip_out'),
-        (("--stuck-at", "250 m", "--flow", "2000 L/min"), ": expected none beside stuck_at: pumps stand"),
+        (("--stuck-at", "250 m", "--flow", "2000 L/min"), ": expected none beside stuck_at: the pumps stand"),
     ],
 )
 def test_stuck_pipe_that_is_none_is_refused(cli: Command, well: Path, options: tuple[str, ...], told: str) -> None:

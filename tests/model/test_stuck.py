@@ -38,7 +38,7 @@ def test_loads_of_the_bit_stay_below() -> None:
 
 
 @pytest.mark.parametrize(("bit", "md", "message"), [
-    (900.0, 901.0, r'stuck_at = "901 m": expected a depth along the string, from 0 m to its bit at 900 m'),
+    (900.0, 901.0, r'stuck_at = "901 m": expected a depth below the string.s top at 0 m, down to its bit at 900 m'),
     (900.0, 0.0, 'stuck_at = "0 m"'),
     (1100.0, 500.0, 'bit_depth = "1100 m"'),
     (900.0, float("nan"), 'stuck_at = "nan m"'),

@@ -38,6 +38,13 @@ def test_strings_and_mud_are_those_of_the_deepest_bit(well: Case, answers: Answe
     pd.testing.assert_frame_equal(found, table, check_names=False)
 
 
+def test_a_flow_that_is_asked_for_is_that_of_the_whole_report() -> None:
+    """Also where the case's own operation pumps more."""
+    asked = Asked(["trip_out"], [DEPTHS[-1]], drive={"flow": 0.01}, limits=False)
+    found = answer(load_case(WELL, {"operations[0].flow": "1500 L/min"}), asked)
+    assert found.flow == found.rates["trip_out"].flow == found.circulations[0].flow == 0.01
+
+
 def test_depths_that_do_not_fit_are_left_out_but_in_the_chart() -> None:
     """The casing ends above a hole that the collars do not enter."""
     parts = {"string.components[0].length": "150 m", "wellbore.intervals[1].diameter": "6.5 in"}

@@ -101,6 +101,8 @@ def test_readings_of_no_depth_have_a_reason(measured: dict[str, float], reason: 
     ({"pull": -1e5, "stretch": 1.0}, "pull = -100000.0: expected a force above 0"),
     ({"pull": 1e5, "stretch": float("nan")}, "stretch = nan: expected a length above 0"),
     ({"pull": "1 m", "stretch": 1.0}, 'pull = "1 m": expected a force'),
+    ({"pull": "4 MN", "stretch": 1.0}, 'pull = "4000 kN": expected less than the string bears, 3168 kN'),
+    ({"torque": 2e5, "turns": 9.0}, 'torque = "200 kN*m": expected less than the string bears, 100.5 kN*m'),
     ({"torque": 1e4, "turns": "two"}, 'turns = "two": expected a number of turns'),
     ({"torque": 1e4, "turns": 1.0, "first_torque": -1.0}, "first_torque = -1.0: expected a torque of at least 0"),
     ({"torque": 1e4, "turns": 1.0, "first_hookload": 1e5}, "first_hookload = 100000.0: expected pull and stretch"),
