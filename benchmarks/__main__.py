@@ -8,11 +8,14 @@ import typer
 
 from benchmarks import history, measure, tables
 from benchmarks.gate import gate
+from benchmarks.subjects import SEGMENTS
 from fctd.case.errors import InputError
 from fctd.cli.main import run
 from fctd.cli.options import FAILED, messages, screen
+from fctd.steady.problem import Workspace
 
 PROCESSES = 6  # processes measured for a record
+MOST_MEMORY = 200e3  # of the arrays of a string [B]
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -30,7 +33,14 @@ def report(line: str) -> None:
 
 @app.command("gate")
 def gate_command(folder: History = history.HISTORY) -> None:
-    """Exit with code 1 and name the kernel if one is slower than in the last release by 15 % beyond noise."""
+    """Exit with code 1 and name the kernel if one is slower than in the last release by 15 % beyond noise.
+
+    Also where the arrays of a string need more memory than is allowed.
+    """
+    needed = Workspace(SEGMENTS).nbytes
+    screen.print(f"arrays of a string of {SEGMENTS} segments: {needed / 1e3:.0f} kB, at most {MOST_MEMORY / 1e3:.0f}")
+    if needed > MOST_MEMORY:
+        raise typer.Exit(FAILED)
     last = history.last_release(folder)
     if last is None:
         screen.print("no release is recorded: nothing to compare with")

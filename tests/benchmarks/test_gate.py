@@ -86,7 +86,12 @@ def invoke(*arguments: str) -> tuple[int, str]:
 
 
 def test_the_command_fails_and_names_the_kernel(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    assert invoke("gate", "--history", str(tmp_path)) == (0, "no release is recorded: nothing to compare with\n")
+    code, text = invoke("gate", "--history", str(tmp_path))
+    assert (code, text.splitlines()[-1]) == (0, "no release is recorded: nothing to compare with")
+    with monkeypatch.context() as patched:
+        patched.setattr(commands, "MOST_MEMORY", 100e3)
+        code, text = invoke("gate", "--history", str(tmp_path))
+        assert (code, text) == (1, "arrays of a string of 60 segments: 150 kB, at most 100\n")
     history.write(record_here(), tmp_path)
 
     def with_costs(now: measure.Costs) -> tuple[int, str]:
