@@ -79,7 +79,7 @@ def test_a_push_that_does_not_arrive_has_a_reason() -> None:
     ({"jar": 850.0, "up": [-1e5]}, "up = -100000.0: expected a force of at least 0"),
     ({"jar": 850.0, "up": [float("nan")]}, "up = nan: expected a force"),
     ({"jar": 850.0, "up": ["1 m"]}, 'up = "1 m": expected a force'),
-    ({"jar": 850.0, "up": [1e5], "stuck_at": 970.0}, 'stuck_at = "970 m": expected a depth along the string'),
+    ({"jar": 850.0, "up": [1e5], "stuck_at": 970.0}, 'stuck_at = "970 m": expected a depth below'),
 ])  # fmt: skip
 def test_what_cannot_be_asked_is_refused(asked: dict[str, Any], told: str) -> None:
     given = {"stuck_at": 900.0, "bit_depth": 950.0} | asked
