@@ -129,6 +129,7 @@ def test_pipe_of_the_same_body_is_proposed(folder: Path) -> None:
         ({**PIPE, "od": ""}, "outer_diameter", "has no od"),
         ({**PIPE, "id": (0, "in")}, "inner_diameter", "id is 0"),
         ({**PIPE, "id": (5, "in")}, "inner_diameter", "id is 127 mm, od 127 mm"),
+        ({**PIPE, "od": (5, "mm")}, "outer_diameter", "od is 5 mm, thinner than any pipe: see its uom"),
         ({**PIPE, "wtPerLen": ""}, "linear_mass", "has no wtPerLen"),
         ({**PIPE, "wtPerLen": (19.5, "kg/m")}, "linear_mass", "wtPerLen is 19.5 kg/m, its body alone has 26.7"),
         ({**PIPE, "odMx": ""}, "contact_diameter", "has no odMx, and no od of a connection"),

@@ -24,6 +24,7 @@ from fctd.model.new_case import Blank, Block
 _JOINTED: Final = {DRILL_PIPE: "tool joints", HEAVY: "tool joints", CASING: "couplings", TUBING: "couplings"}
 _UNKNOWN: Final = ("", "unknown", "other")
 _LONGEST_JOINT: Final = 20.0  # [m], as of the key ``joint.length``
+_THINNEST: Final = 0.025  # outer diameter [m] below that of any string: od in another unit than its uom says
 _LONGEST_NAME: Final = 80  # characters
 _NAMED: Final = 3  # pipes that a remark names
 
@@ -140,6 +141,10 @@ class _Component:
         outer, inner = part.outer or part.gauge if part.kind == BIT else part.outer, part.inner
         if not outer:
             self._blank("outer_diameter", "the diameter of its body", self._missing("od", part.outer))
+        elif outer < _THINNEST:
+            thin = f"od is {self._write('diameter', outer)}, thinner than any pipe: see its uom"
+            self._blank("outer_diameter", "the diameter of its body", thin)
+            outer = None
         elif part.gauge and outer > part.gauge + SAME_DIAMETER:
             gauge = self._write("diameter", part.gauge)
             self._blank("outer_diameter", "that of its body", f"od is {self._write('diameter', outer)}, diaBit {gauge}")
