@@ -184,7 +184,10 @@ def spent(case: Case, **tables: dict[str, object]) -> Case:
 
 
 @pytest.mark.parametrize("times_onset", [1.25, 2.0])
-@pytest.mark.parametrize("operation", ["drill_sliding", "drill_rotating", "trip_in"])
+@pytest.mark.parametrize(
+    "operation",
+    ["drill_sliding", pytest.param("drill_rotating", marks=pytest.mark.slow(seconds=20)), "trip_in"],
+)
 def test_homogenised_waves_have_the_loads_of_resolved_ones(times_onset: float, operation: str) -> None:
     """What they drag: the push beyond the weight on bit."""
     case = level_case(times_onset, 400.0, 3.0, friction=0.2)
