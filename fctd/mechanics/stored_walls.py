@@ -104,7 +104,7 @@ def store_cylinder(S, j, C, i, x, y, z):
     px, py, pz, hole, stiffness, friction, _, around = cylinder_wall(C, i, x, y, z)
     store_wall(S, j, px, py, pz, hole, stiffness, friction, around)
     alone = distance_along(C, i, x, y, z) <= C[i, ALONE_TO]
-    if not alone and root(px * px + py * py + pz * pz) - hole + S[RADIUS + j] > 0:
+    if not alone:
         lean_wall(S, j, *rise_in_overlap(C, i, x, y, z, S[RADIUS + j]))
     return alone
 
