@@ -55,13 +55,21 @@ def minimum_curvature(stations: Array) -> Courses:
     half = 0.5 * np.maximum(angle, 1e-12)
     steps = (0.5 * length * (np.tan(half) / half))[:, None] * (t[1:] + t[:-1])
     start = np.vstack([np.zeros(3), np.cumsum(steps, axis=0)])[:-1]
-    across = t[1:] - np.sum(t[1:] * t[:-1], axis=1, keepdims=True) * t[:-1]
+    across = _across(t[1:], t[:-1])
     size = np.linalg.norm(across, axis=1, keepdims=True)
     # Any normal serves a straight course; this one is never zero, as no float has a cosine of exactly zero.
     anything = np.cross(t[:-1], [1.0, 0.0, 0.0])
     anything /= np.linalg.norm(anything, axis=1, keepdims=True)
-    normal = np.where(size > 1e-14, across / np.maximum(size, 1e-300), anything)
+    # Once more, since of tangents that hardly differ little is left but rounding, some of it along the hole.
+    normal = _across(np.where(size > 1e-14, across / np.maximum(size, 1e-300), anything), t[:-1])
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
     return Courses(stations[:-1, 0], start, t[:-1], normal, angle / length, length)
+
+
+def _across(vectors: Array, axes: Array) -> Array:
+    """The part of each vector (n, 3) across its axis (n, 3)."""
+    across: Array = vectors - np.sum(vectors * axes, axis=1, keepdims=True) * axes
+    return across
 
 
 def along_courses(courses: Courses, md: Array) -> tuple[Array, Array]:
