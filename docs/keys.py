@@ -139,7 +139,9 @@ def _default(field: FieldInfo) -> str:
     if field.default_factory is not None:
         beside = _Asked()
         value = field.get_default(call_default_factory=True, validated_data=beside)
-        return f"that of `{beside.last}`" if value is None else f"{_shown(field, value)} without `{beside.last}`"
+        if beside.last:
+            return f"that of `{beside.last}`" if value is None else f"{_shown(field, value)} without `{beside.last}`"
+        return "–" if value is None else _shown(field, value)
     if field.default is PydanticUndefined:
         return "required"
     if field.default is None or field.default == ():

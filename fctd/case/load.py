@@ -67,7 +67,7 @@ class Case(Table):
     limits: LimitsSpec = LimitsSpec()
     bit: BitSpec = BitSpec()
     contact: ContactSpec = ContactSpec()
-    solver: SolverSpec = SolverSpec()
+    solver: SolverSpec = Field(default_factory=SolverSpec)
     record: RecordSpec = RecordSpec()
     operations: tuple[Annotated[Operation, Field(discriminator="kind")], ...] = ()
     file: FileName | None = None

@@ -1,5 +1,6 @@
 """The tables of a case file for how it is computed: step, dampings, buckling, and what is recorded."""
 
+import os
 from typing import Any, Literal
 
 from pydantic import Field, field_validator
@@ -9,6 +10,15 @@ from fctd.case.errors import InputError, Table
 
 # Values of `buckling` with which a buckled string is laid out in segments that can bend as it does.
 RESOLVING = ("resolve", "feed")
+# The environment's default of `perturbed`, which processes and commands that a program starts inherit.
+PERTURBED = "FCTD_PERTURBED"
+
+
+def _seed_of_environment() -> int | None:
+    text = os.environ.get(PERTURBED, "")
+    if text and not text.isdecimal():
+        raise InputError("a whole number, the seed of the noise, in the environment", key=PERTURBED, value=text)
+    return int(text) if text else None
 
 
 class SolverSpec(Table):
@@ -25,6 +35,10 @@ class SolverSpec(Table):
     in segments that can. "feed" does so too, and feeds a string that slides down from rest. `resolve_work` is the work
     that a row may take for it, iterations times segments: the default is some twenty seconds. Kilometres of helix that
     slides with friction take three to ten times as much.
+
+    With `perturbed` stations and segments have noise of the size of rounding, 1e-13 of each, drawn by this seed. Where
+    loads differ between seeds, the string has several balances. The environment variable FCTD_PERTURBED sets the
+    default.
     """
 
     step: float | Literal["auto", "largest"] = Field(
@@ -35,6 +49,7 @@ class SolverSpec(Table):
     loss_factor: units.LossFactor = 0.0
     buckling: Literal["detect", "resolve", "feed"] = "detect"
     resolve_work: units.Work = 8e6
+    perturbed: units.Seed | None = Field(default_factory=_seed_of_environment)
 
     @field_validator("step", mode="before", json_schema_input_type=float | str)
     @classmethod

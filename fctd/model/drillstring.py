@@ -14,6 +14,7 @@ from fctd.mechanics import state
 from fctd.model.default_layout import DefaultLayout
 from fctd.model.fluids import Fluids, fluids_of
 from fctd.model.joints import Kind, Part, Pieces, cut_joints, joints_in, repeat_of, sections_of, segments_in
+from fctd.model.perturbed import perturb_lengths
 from fctd.model.section import Section, buoyed
 from fctd.model.string_rows import find_contacts, find_stiffness
 
@@ -266,10 +267,11 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
     if deepest is not None:
         _check_feed(case, top.origin, deepest)
     check_segments(len(lengths))
+    length, seed = np.array(lengths[::-1]), case.solver.perturbed
     return String(
         top_md=case.string.top_md,
         bit_depth=bit_depth,
-        length=np.array(lengths[::-1]),
+        length=length if seed is None else perturb_lengths(length, seed),
         component=np.array(owner[::-1], dtype=np.int64),
         sections=sections_of(parts, case.mud.density),
         parts=tuple(parts),

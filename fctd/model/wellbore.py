@@ -20,6 +20,7 @@ from fctd.mechanics.sampled import AROUND_CELLS
 from fctd.mechanics.state import ARCS, CYLINDERS, SAMPLED
 from fctd.model import survey
 from fctd.model.frames import hole_frame
+from fctd.model.perturbed import perturb_stations
 from fctd.model.pieces import (
     AROUND,
     FRICTION,
@@ -294,11 +295,13 @@ def build_wellbore(case: Case) -> Wellbore:
     joins.
     """
     with naming_file(case):
-        return _build(case.wellbore, case.string.components)
+        return _build(case.wellbore, case.string.components, case.solver.perturbed)
 
 
-def _build(hole: WellboreSpec, components: Sequence[ComponentSpec]) -> Wellbore:
+def _build(hole: WellboreSpec, components: Sequence[ComponentSpec], seed: int | None) -> Wellbore:
     stations, intervals = hole.trajectory, _intervals(hole)
+    if seed is not None:
+        stations = perturb_stations(stations, seed)
     if hole.tortuosity is not None:
         _courses(hole, stations)  # names a station that no arc reaches
         stations = winding(stations, hole.tortuosity)

@@ -327,7 +327,7 @@ EVERYWHERE: Final = frozenset({
     "mud.density", "rig.hoist_capacity", "rig.largest_torque", "rig.slip_length", "rig.block_weight",
     "rig.guide_friction", "rig.sheave_efficiency", "rig.torque_offset",
     "rig.torque_per_rpm", "contact.damping", "solver.step", "solver.shape_damping", "solver.buckling",
-    "solver.resolve_work", "record.interval", "record.profile_at",
+    "solver.resolve_work", "solver.perturbed", "record.interval", "record.profile_at",
     *(f"operations.{key}" for key in ("ramp_time", "from_md", "to_md", "rpm", "at_md", "duration")),
 })  # fmt: skip
 # Stands for keys that are in neither table.

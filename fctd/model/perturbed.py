@@ -1,0 +1,32 @@
+"""Noise of the size of rounding, by which a case shows whether an answer hangs on rounding (``solver.perturbed``).
+
+A compressed string may have several balances, and another processor's rounding leads to another one.  So does this
+noise, which is far below any tolerance of a survey or a pipe.
+"""
+
+import numpy as np
+
+from fctd.arrays import Array
+
+SHARE = 1e-13  # standard deviation, relative
+TURN = 1e-9  # largest turn of the whole survey about the vertical [rad]: some micrometres at the end of a well
+# What each draw is of: the same seed gives independent noise.
+STATIONS, SEGMENTS = range(2)
+
+
+def perturb_stations(stations: Array, seed: int) -> Array:
+    """Stations (n, 3) of measured depth [m], inclination and azimuth [rad] with noise, and turned about the vertical.
+
+    A vertical station stays vertical, and the ends of the hole stay where they are.
+    """
+    draw = np.random.default_rng([seed, STATIONS])
+    noisy = stations * (1 + SHARE * draw.standard_normal(stations.shape))
+    noisy[[0, -1], 0] = stations[[0, -1], 0]
+    noisy[:, 2] += TURN * draw.uniform(-1, 1)
+    return noisy
+
+
+def perturb_lengths(length: Array, seed: int) -> Array:
+    """Lengths (n,) [m] of segments with noise, each by itself, and so their masses, weights, arms and stiffnesses."""
+    draw = np.random.default_rng([seed, SEGMENTS])
+    return length * (1 + SHARE * draw.standard_normal(length.shape))
