@@ -146,7 +146,9 @@ def paths(segment: float, step: float) -> Rows:
             yield {
                 "path": name, "times_onset": ratio,
                 "shape": "helix" if turns is not None else "snaking" if wave is not None else "other",
+                "wave_m": turns.pitch if turns is not None else wave.half_wave if wave is not None else np.nan,
                 "wall_force_over_weight": part["contact_force_N"].mean() / (segment * BUCKLING.weight),
+                "least_wall_force_over_weight": part["contact_force_N"].min() / (segment * BUCKLING.weight),
                 "off_wall_percent": 100 * (part["contact_force_N"] <= 0).mean(),
             }  # fmt: skip
 
@@ -258,7 +260,7 @@ def run(context: Context) -> Outcome:
         ("snaking", lambda: snaking(FINE)),
         ("helix", lambda: helices(segment, wound)),
         ("energies", lambda: energies(segment, compared)),
-        ("paths", lambda: paths(segment, 4 * STEP if context.quick else STEP)),
+        ("paths", lambda: paths(SEGMENT, STEP)),
         ("pushed", lambda: pushed(segment)),
         ("hanging", lambda: hanging(segment, WEIGHTS[:3] if context.quick else WEIGHTS)),
         ("convergence", convergence),
@@ -286,7 +288,7 @@ def run(context: Context) -> Outcome:
             "measured in the half between them.",
             "Friction acts at the pipe's axis here, as in the closed forms: its moment at the pipe's surface turns a "
             "helix about the hole's axis without end.",
-            f"Mitchell's equation holds up to {wall_limits.limits()['snaking']:.3g} times the onset. Beyond it, "
+            f"Mitchell's equation holds up to {mitchell.wall_contact_limit():.3g} times the onset. Beyond it, "
             "snaking leaves the wall at its turning points; the full run compares it with a Cosserat rod of PyElastica "
             "there.",
             half_waves.note(tables["half_waves"]),

@@ -1,9 +1,9 @@
-"""Checks of snaking at the half wave taken, and of where a pipe comes off the wall, on tables with known verdicts."""
+"""Checks of snaking at the half wave taken, on tables with known verdicts."""
 
 import pandas as pd
 import pytest
 
-from validation.parts import half_waves, wall_limits
+from validation.parts import half_waves
 
 
 def waves(**changed: list[object]) -> pd.DataFrame:
@@ -50,24 +50,3 @@ def test_shapes_are_kept_as_the_equation_keeps_them() -> None:
 
 def test_note_names_both_bands() -> None:
     assert "0.97 to 1.05 (0.82 to 1.25) at 1.25 times the onset" in half_waves.note(waves())
-
-
-def test_coming_off_the_wall_is_between_two_loads(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(wall_limits, "limits", lambda: {"snaking": 1.77, "helix": 1.37})
-    loading = {
-        "path": "loading",
-        "times_onset": [1.7, 1.8, 1.9],
-        "shape": "snaking",
-        "off_wall_percent": [0.0, 8.0, 9.0],
-    }
-    back = {
-        "path": "unloading from a helix", "times_onset": [1.5, 1.4, 1.3], "shape": ["helix", "helix", "snaking"],
-        "off_wall_percent": 0.0,
-    }  # fmt: skip
-    paths = pd.concat([pd.DataFrame(loading), pd.DataFrame(back)])
-    snaking, helix, force = wall_limits.checks(
-        {"paths": paths, "snaking": pd.DataFrame({"wall_force_off_percent": [0.2, -0.9]})}
-    )
-    assert (snaking.value, snaking.verdict) == (1.75, "met")
-    assert helix.value == pytest.approx(1.35)
-    assert force.value == 0.9
