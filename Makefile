@@ -1,4 +1,5 @@
-# make reproduce   run the studies of the paper's claims and write the report; QUICK=1 shortens them
+# make reproduce   run the studies of the paper's claims and write the report; QUICK=1 shortens them; PERTURBED=SEED and
+#                  TARGET=NAME run them with other rounding beside the plain results (python -m validation --help)
 # make test        the fast tests, in two processes, then those of pages in a browser, which skip without Chromium
 #                  (BROWSER=0 leaves them out)
 # make bench       time the benchmarks on this machine, keep the times in .benchmarks for --benchmark-compare, and compare
@@ -17,7 +18,7 @@
 BIN := .venv/bin
 # Touched after a full installation, so that set-up runs once for each state of these two files.
 STAMP := .venv/installed
-FLAGS := $(if $(filter-out 0,$(QUICK)),--quick)
+FLAGS := $(if $(filter-out 0,$(QUICK)),--quick) $(if $(PERTURBED),--perturbed $(PERTURBED)) $(if $(TARGET),--target $(TARGET))
 # The first of these that starts; a command may exist and fail to start.
 PYTHON ?= $(shell for p in python3.11 python3.12 python3.13 python3.14 python3; do $$p -c '' 2>/dev/null && { echo $$p; break; }; done)
 

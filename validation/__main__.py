@@ -7,11 +7,13 @@ from grimp.exceptions import SourceSyntaxError
 from rich.console import Console
 
 from fctd.case.errors import InputError
+from fctd.case.solver import PERTURBED
 from fctd.case.text import degrade_output, printable_lines
 from fctd.cli.interrupts import as_interrupts
 from validation.claims import judgement, ledger
-from validation.harness import fingerprint, runner, side_by_side, study
+from validation.harness import fingerprint, runner, side_by_side, study, targets, variation
 from validation.harness.registry import RIVALS, STUDIES
+from validation.harness.variation import Variation
 
 CLAIMS = "claims"  # No study: it judges by what the studies have stored.
 
@@ -27,6 +29,13 @@ def main(
     reproduce: Annotated[bool, typer.Option("--reproduce", help="Run what `make reproduce` runs.")] = False,
     quick: Annotated[bool, typer.Option("--quick", help="Shorten each study; the checks stay.")] = False,
     force: Annotated[bool, typer.Option("--force", help="Repeat also studies that are up to date.")] = False,
+    perturbed: Annotated[
+        int | None, typer.Option(metavar="SEED", min=0, envvar=PERTURBED, help="Noise of the size of rounding.")
+    ] = None,
+    draws: Annotated[int, typer.Option(metavar="M", min=1, help="With SEED and the M - 1 seeds after it.")] = 1,
+    target: Annotated[
+        str | None, typer.Option(metavar="NAME", help=f"As compiled for {', '.join(targets.NAMES)}.")
+    ] = None,
 ) -> None:
     """Run studies; each stores its tables and its verdict in validation/results/NAME/.
 
@@ -35,6 +44,9 @@ def main(
     the studies that are not stored. --all and --reproduce run studies that time nothing side by side on all processors,
     and the others alone afterwards. At the end of --all and --reproduce, and by the name claims, the paper's claims are
     judged by the stored results.
+
+    --perturbed and --target show what hangs on rounding. Their results lie apart, in validation/results/.perturbed/,
+    and replace no plain one; their times are not judged.
 
     Exit code 0: each check as recorded in expected.toml or better, each verdict as recorded in claims.toml. 1: worse
     than recorded, another verdict, or a study failed. 2: bad usage. 130: interrupted; finished studies are kept.
@@ -52,11 +64,20 @@ def main(
         if not chosen and not claims:
             raise runner.UsageError("nothing to run: name a study, or use --all, --rivals, --reproduce or --list")
         expected = runner.read_expected(runner.EXPECTED)
-        runner.check_results(study.RESULTS)
+        asked = variations(perturbed, draws, target)
+        if target is not None and (why := targets.lacking(target)):
+            typer.echo(f"{target}: skipped: {why}")
+            return
+        runner.check_results(asked[0].folder(study.RESULTS))
     except (runner.UsageError, SourceSyntaxError) as error:
         typer.echo(printable_lines(f"error: {error}"), err=True)
         raise typer.Exit(2) from error
-    console, code = Console(), 0
+    if len(asked) > 1 or not asked[0].is_here:
+        flags = {"--all": every, "--rivals": rivals, "--reproduce": reproduce, "--quick": quick, "--force": force}
+        raise typer.Exit(variation.in_processes(asked, [*names, *(flag for flag, given in flags.items() if given)]))
+    console, code, results = Console(), 0, asked[0].folder(study.RESULTS)
+    if asked[0].label:
+        typer.echo(f"{asked[0].label}:")
     try:
         if chosen:
             code = runner.run_all(
@@ -66,16 +87,28 @@ def main(
                 processes=1 if names else side_by_side.workers(),
                 data=study.data_folder(),
                 expected=expected,
-                results=study.RESULTS,
+                results=results,
                 sources=sources,
                 console=console,
+                variation=asked[0].label,
             )
     except InputError as error:  # of the results folder: what a study fails at is its own result
         typer.echo(printable_lines(f"error: {error}"), err=True)
         raise typer.Exit(2) from error
     if claims and code != runner.INTERRUPTED:
-        code = max(code, judgement.run(study.RESULTS, console, ledger.CLAIMS))
+        code = max(code, judgement.run(results, console, ledger.CLAIMS))
     raise typer.Exit(code)
+
+
+def variations(perturbed: int | None, draws: int, target: str | None) -> list[Variation]:
+    """What is asked for: a plain run, or one for each seed."""
+    if target is not None and target not in targets.NAMES:
+        raise runner.UsageError(f"target = {target!r}: expected one of {', '.join(targets.NAMES)}")
+    if perturbed is None:
+        if draws > 1:
+            raise runner.UsageError("--draws: expected --perturbed SEED, the seed of the first draw")
+        return [Variation(None, target)]
+    return [Variation(seed, target) for seed in range(perturbed, perturbed + draws)]
 
 
 def choose(names: list[str], every: bool, reproduce: bool, rivals: bool) -> list[str]:

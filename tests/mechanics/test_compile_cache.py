@@ -15,10 +15,12 @@ from pathlib import Path
 from types import SimpleNamespace
 from unittest.mock import Mock
 
+import numba
 import pytest
 from numba.core import event
 from numba.core.cpu import CPUContext
 from numba.core.errors import TypingError
+from numba.core.registry import cpu_target
 
 from fctd.mechanics import compile_cache, jit
 from fctd.mechanics.compile_cache import CompileCacheWarning, Store, open_store
@@ -279,4 +281,18 @@ def test_without_any_folder_code_is_kept_in_memory(tmp_path: Path, monkeypatch: 
     store = open_store()
     with pytest.warns(CompileCacheWarning, match="there is no cache folder"):
         assert hits(store, twice, 3.0) == 0
+    assert hits(store, twice, 3.0) == 0
+
+
+def test_code_for_another_processor_is_another_file(store: Store, file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The name of a processor alone says nothing of the instructions that are switched off."""
+    codegen = cpu_target.target_context.codegen()
+    found = codegen._tm_features
+    monkeypatch.setattr(codegen, "_tm_features", f"{found},-fma")
+    assert hits(store, twice, 3.0) == 0
+    assert hits(store, twice, 3.0) == 1
+    monkeypatch.setattr(codegen, "_tm_features", found)
+    assert hits(store, twice, 3.0) == 1
+    assert len(list(file.parent.iterdir())) == 2
+    monkeypatch.setattr(numba.config, "CPU_NAME", "x86-64-v2")
     assert hits(store, twice, 3.0) == 0

@@ -22,13 +22,17 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 from pydantic import TypeAdapter
 
+from fctd.case.solver import PERTURBED
 from references import contact, engines
 from references.registry import RIVAL_PACKAGES, label, version_of
 from references.timing.stopwatch import cpu_name
+from validation.harness import targets
 from validation.harness.files import ABSENT, digest, digest_of
 from validation.harness.study import ROOT
 
 LENGTH = "quick or full"
+# Inputs by which a variation of a run differs from the plain one.
+VARIED = tuple(f"environment {name}" for name in (PERTURBED, *targets.VARIABLES))
 # What studies are made of.
 PACKAGES = ("fctd", "references", "validation")
 # An entry of a registry, "module:class".
@@ -77,10 +81,12 @@ def read(folder: Path) -> Inputs | None:
 def surroundings(quick: bool, root: Path = ROOT) -> dict[str, str]:
     """Inputs of numbers and times other than code and files.
 
-    The processor counts for every study: compiled code is made for it, and most studies report times.
+    The processor counts for every study: compiled code is made for it, and most studies report times.  So does what the
+    environment says of noise and of the processor to compile for.
     """
     found = {LENGTH: "quick" if quick else "full", "processor": cpu_name(), "cores": str(os.cpu_count())}
     found["python"] = platform.python_version()
+    found |= {name: value for name in VARIED if (value := os.environ.get(name.split()[-1]))}
     project = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     asked = (*project["dependencies"], *project["optional-dependencies"]["suite"])
     return found | {f"package {name}": installed for name, installed in sorted(_packages(asked).items())}

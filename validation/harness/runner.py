@@ -105,12 +105,13 @@ def read_expected(path: Path) -> Expected:
 
 @dataclass(frozen=True)
 class Run:
-    """What holds for all studies of a run; force : repeat also what is up to date."""
+    """What holds for all studies of a run; force : repeat also what is up to date; variation : see ``Record``."""
 
     results: Path
     sources: Sources
     origin: Provenance
     force: bool
+    variation: str
 
 
 @dataclass(frozen=True)
@@ -142,13 +143,14 @@ def run_all(
     results: Path,
     sources: Sources,
     console: Console,
+    variation: str = "",
 ) -> int:
     """Run and store each study named, unless its result is up to date; return the exit code.
 
     force : repeat those as well.  processes : in which studies run side by side that time nothing; the others run alone
-    afterwards.  The code is 0, 1 for worse than recorded, 130 when interrupted.
+    afterwards.  variation : see ``Record``.  The code is 0, 1 for worse than recorded, 130 when interrupted.
     """
-    rules = Run(results, sources, store.provenance(), force)
+    rules = Run(results, sources, store.provenance(), force, variation)
     around = fingerprint.surroundings(quick, sources.root)
     finished: list[StudyRun] = []
     text, bar = TextColumn("{task.description}", markup=False), BarColumn(bar_width=24)
@@ -207,6 +209,7 @@ def run_one(
         date=datetime.now(UTC).isoformat(timespec="seconds"),
         wall_s=0.0,
         provenance=rules.origin,
+        variation=rules.variation,
     )
     why, results = "", rules.results
     try:

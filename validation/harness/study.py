@@ -43,7 +43,8 @@ class Check:
     """A number from a study and its bound; the verdict follows from the two.
 
     ``bound`` is one number for ``at_most`` and ``at_least``, and a pair (low, high) for ``within``.
-    ``source`` says where the bound comes from: a closed form, a publication, a target of this project.
+    ``source`` says where the bound comes from: a closed form, a publication, a target of this project.  ``timed`` :
+    whether the number is a time of this machine, or follows from one, so that it differs from run to run.
     """
 
     name: str
@@ -52,6 +53,7 @@ class Check:
     kind: Kind
     unit: str
     source: str
+    timed: bool = False
 
     def __post_init__(self) -> None:
         if isinstance(self.bound, tuple) != (self.kind == "within"):

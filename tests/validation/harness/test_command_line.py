@@ -6,10 +6,12 @@ import pytest
 from grimp.exceptions import SourceSyntaxError
 from typer.testing import CliRunner
 
+from fctd.case.solver import PERTURBED, SolverSpec
 from validation.__main__ import app
 from validation.claims import ledger
-from validation.harness import fingerprint, runner, store, study
+from validation.harness import fingerprint, runner, store, study, targets, variation
 from validation.harness.study import Check, Outcome
+from validation.harness.variation import FOLDER
 
 CLAIM = """
 [[claim]]
@@ -141,3 +143,60 @@ def test_worse_than_recorded(invoke, register):
     assert invoke("missing").exit_code == 1
     runner.EXPECTED.write_text('[missing]\n"error" = "missed: known"')
     assert invoke("missing").exit_code == 0
+
+
+def noisy(context):
+    """A study whose number is the seed of the noise."""
+    return Outcome({}, [Check("seed", SolverSpec().perturbed or 0, 0, "at_most", "", "test")])
+
+
+def test_a_run_with_noise_leaves_the_plain_result(invoke, register, monkeypatch):
+    register("overlap", noisy)
+    assert invoke("overlap").exit_code == 0
+    monkeypatch.setenv(PERTURBED, "3")
+    answer = invoke("overlap", "--quick")
+    assert answer.exit_code == 1
+    assert answer.output.startswith("noise-3:\n")
+    assert "worse than recorded      seed: 3 (at most 0)" in answer.output
+    plain, found = store.read(study.RESULTS / "overlap"), store.read(study.RESULTS / FOLDER / "noise-3" / "overlap")
+    assert (plain.checks[0].check.value, plain.quick, plain.variation) == (0, False, "")
+    assert (found.checks[0].check.value, found.quick, found.variation) == (3, True, "noise-3")
+
+
+def test_times_of_a_run_with_noise_are_not_judged(invoke, register, monkeypatch):
+    checks = [Check("time", 2.0, 1.0, "at_most", "s", "test", timed=True)]
+    register("overlap", lambda context: Outcome({}, list(checks)))
+    assert invoke("overlap").exit_code == 1
+    monkeypatch.setenv(PERTURBED, "3")
+    assert invoke("overlap").exit_code == 0
+    checks.append(Check("load", 2.0, 1.0, "at_most", "kN", "test"))
+    assert invoke("overlap", "--force").exit_code == 1
+
+
+def test_draws_and_targets_run_in_processes_of_their_own(invoke, monkeypatch):
+    begun = []
+    monkeypatch.setattr(variation, "in_processes", lambda *given: begun.append(given) or 1)
+    monkeypatch.setattr(targets, "lacking", lambda name: "this processor lacks avx512f" if name == "x86-64-v4" else "")
+    assert invoke("overlap", "claims", "--quick", "--perturbed", "3", "--draws", "2").exit_code == 1
+    assert invoke("--all", "--target", "no-fma").exit_code == 1
+    labels = [[each.label for each in asked] for asked, _ in begun]
+    assert labels == [["noise-3", "noise-4"], ["no-fma"]]
+    assert [arguments for _, arguments in begun] == [["overlap", "claims", "--quick"], ["--all"]]
+    answer = invoke("overlap", "--target", "x86-64-v4")
+    assert (answer.exit_code, len(begun)) == (0, 2)
+    assert answer.output == "x86-64-v4: skipped: this processor lacks avx512f\n"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--target", "x86-65"], "target = 'x86-65': expected one of x86-64-v2, x86-64-v3, x86-64-v4, no-fma"),
+        (["--draws", "2"], "--draws: expected --perturbed SEED"),
+        (["--perturbed", "-1"], "FCTD_PERTURBED"),
+    ],
+)
+def test_a_variation_that_there_is_not(arguments, said, invoke):
+    answer = invoke("overlap", *arguments)
+    assert answer.exit_code == 2
+    assert said in answer.output
+    assert not study.RESULTS.exists()

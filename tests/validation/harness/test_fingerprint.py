@@ -331,3 +331,11 @@ def test_the_packages_are_those_of_engine_and_suite():
     names = {name.removeprefix("package ") for name in fingerprint.surroundings(quick=True)}
     assert names >= {"numpy", "numba", "llvmlite", "scipy", "pandas", "mujoco", "grimp", "pyelastica", "python-fcl"}
     assert not names & {"ruff", "mypy", "hypothesis", "pytest", "import-linter"}
+
+
+@pytest.mark.parametrize("name", ["FCTD_PERTURBED", "NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES", "OPENBLAS_CORETYPE"])
+def test_noise_and_other_code_by_the_environment_are_inputs(name, monkeypatch):
+    monkeypatch.delenv(name, raising=False)
+    plain = fingerprint.surroundings(quick=True)
+    monkeypatch.setenv(name, "3")
+    assert dict(fingerprint.surroundings(quick=True).items() - plain.items()) == {f"environment {name}": "3"}

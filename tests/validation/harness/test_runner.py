@@ -35,6 +35,7 @@ def test_met_check_and_its_table_are_stored(register, run, tmp_path):
         "kind": "at_most",
         "unit": "mm",
         "source": "closed form",
+        "timed": False,
         "verdict": "met",
         "recorded": None,
     }
