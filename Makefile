@@ -11,6 +11,7 @@
 # make rivals      install the packages of rivals.lock (some 0.6 GB) in an environment of their own, .venv-rivals, which
 #                  sees those of the suite too; .venv-rivals/bin/python -m validation --rivals compares with them
 # make next-numba  try the newest numba in an environment of its own, .venv-next: the compiled code and its cache
+# make lowest      test with the lowest versions that pyproject.toml allows, in an environment of their own, .venv-lowest
 # make clean       remove results, report and caches; the environment in .venv stays
 #
 # Needs Python 3.11 to 3.14 (tested on 3.11) and make; `make -C CHECKOUT ...` works from any folder.
@@ -22,7 +23,7 @@ FLAGS := $(if $(filter-out 0,$(QUICK)),--quick) $(if $(PERTURBED),--perturbed $(
 # The first of these that starts; a command may exist and fail to start.
 PYTHON ?= $(shell for p in python3.11 python3.12 python3.13 python3.14 python3; do $$p -c '' 2>/dev/null && { echo $$p; break; }; done)
 
-.PHONY: reproduce test bench docs lint bullet rivals next-numba clean
+.PHONY: reproduce test bench docs lint bullet rivals next-numba lowest clean
 
 reproduce: $(STAMP)
 	@status=0; $(BIN)/python -m validation --reproduce $(FLAGS) || status=$$?; \
@@ -82,6 +83,16 @@ next-numba: $(STAMP)
 	.venv-next/bin/python -c 'import numba; print("numba", numba.__version__)'
 	.venv-next/bin/python -m pytest -q -m 'slow or not slow' tests/mechanics tests/steady tests/test_package.py
 
+# Python 3.11, as later ones have no wheels of these versions. Pins and users' extras are read from pyproject.toml.
+lowest: $(STAMP)
+	rm -rf .venv-lowest && $(PYTHON) -m venv .venv-lowest
+	$(BIN)/python .ci/lowest.py > .venv-lowest/pins
+	.venv-lowest/bin/python -m pip install --quiet --disable-pip-version-check --only-binary=:all: -r .venv-lowest/pins
+	.venv-lowest/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
+	.venv-lowest/bin/python -m pip check --disable-pip-version-check
+	.venv-lowest/bin/python -m pytest -q tests/case tests/store tests/results tests/model tests/hydraulics \
+	tests/mechanics tests/steady tests/monitoring tests/plots tests/report
+
 clean:
-	rm -rf .venv-next validation/results reports/out docs/out build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis .benchmarks
+	rm -rf .venv-next .venv-lowest validation/results reports/out docs/out build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis .benchmarks
 	find . -name __pycache__ -not -path './.venv/*' -prune -exec rm -rf {} +

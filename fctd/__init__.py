@@ -24,6 +24,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    __version__: str
     from fctd.calibration.calibrate import calibrate, predict
     from fctd.calibration.result import Calibration
     from fctd.case.errors import InputError
@@ -143,9 +144,12 @@ _PACKAGES = ("plots", "view")
 def __getattr__(name: str) -> Any:
     if name in _PACKAGES:
         return import_module(f"fctd.{name}")
-    if name not in _HOMES:
+    if name == "__version__":
+        found: Any = import_module("importlib.metadata").version("fctd")
+    elif name in _HOMES:
+        found = getattr(import_module(_HOMES[name]), name)
+    else:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    found = getattr(import_module(_HOMES[name]), name)
     globals()[name] = found
     return found
 

@@ -1,4 +1,4 @@
-"""Bit depths as people write them, and those that are taken where none is asked for."""
+"""Bit depths in the user's notation, and the default depths."""
 
 from collections.abc import Sequence
 

@@ -353,10 +353,11 @@ def end_of(problem: Problem, path: Climb) -> str:
         tried = f" at {_percent(LOW_FRICTION)} of the friction" if problem.has_friction else ""
         return f"the continuation found no steady shape{tried}{' without weight on bit' * (problem.weight_on_bit > 0)}"
     loads = "weight on bit" if path.of_weight else "friction"
+    last = "the row reached `solver.resolve_work` at" if path.is_cut else "the continuation found a steady shape at"
     ends = (
         (f"slack-off is spent {'at' if path.spent_at > path.least else 'below'}", path.spent_at),
         ("the string is locked up at", path.locked_at),
-        ("the work of a row ends at" if path.is_cut else "the continuation found a steady shape at", path.ends_at),
+        (last, path.ends_at),
     )
     parts = ", ".join(f"{what} {_percent(share)}" for what, share in ends if np.isfinite(share))
     if not parts:

@@ -158,5 +158,5 @@ def lie_along(case: Case, bit_depth: float) -> tuple[Array, Array]:
     laid = Solver(case).lay_out(bit_depth)
     share = lie_of(laid)
     if share is None:
-        raise InputError("a depth at which a steady string is found, whose lie is asked for", key="eccentricity")
+        raise InputError("a bit depth at which the solver finds a steady string", key="eccentricity")
     return 0.5 * (laid.string.above_bit[:-1] + laid.string.above_bit[1:]), share

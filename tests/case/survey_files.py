@@ -113,8 +113,8 @@ WRONG: list[tuple[str, Keys, str | bytes, str]] = [
         "decimal commas between commas",
         {},
         "MD (ft),Inc,Azi\n0,0,0\n500,0,9,5,45,1",
-        'row 3 = "500, 0, 9, 5, 45, 1": expected at most 3 cells, as many as headers (what separates columns is no '
-        "decimal comma)",
+        'row 3 = "500, 0, 9, 5, 45, 1": expected at most 3 cells, as many as headers (the column separator cannot '
+        "be a decimal comma)",
     ),
     (
         "commas and dots for decimals",

@@ -56,7 +56,7 @@ class Layout:
             if not any(cells) or is_comment(row) or cells in self.repeated:
                 continue
             if self.separator and "".join(row[count:]).strip():
-                expected = f"at most {count} cells, as many as headers (what separates columns is no decimal comma)"
+                expected = f"at most {count} cells, as many as headers (the column separator cannot be a decimal comma)"
                 raise InputError(expected, key=f"row {number}", value=", ".join(row))
             numbers.append(number)
             found.append(cells)
