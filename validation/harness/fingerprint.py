@@ -7,7 +7,6 @@ input: it changes verdicts, not numbers.
 
 import ast
 import json
-import os
 import platform
 import re
 import tomllib
@@ -22,6 +21,7 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 from pydantic import TypeAdapter
 
+from fctd.store.limits import cores
 from references import contact, engines
 from references.registry import RIVAL_PACKAGES, label, version_of
 from references.timing.stopwatch import cpu_name
@@ -79,7 +79,7 @@ def surroundings(quick: bool, root: Path = ROOT) -> dict[str, str]:
 
     The processor counts for every study: compiled code is made for it, and most studies report times.
     """
-    found = {LENGTH: "quick" if quick else "full", "processor": cpu_name(), "cores": str(os.cpu_count())}
+    found = {LENGTH: "quick" if quick else "full", "processor": cpu_name(), "cores": str(cores())}
     found["python"] = platform.python_version()
     project = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     asked = (*project["dependencies"], *project["optional-dependencies"]["suite"])

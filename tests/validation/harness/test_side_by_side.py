@@ -15,12 +15,14 @@ import pandas as pd
 import pytest
 from rich.console import Console
 
+from fctd.store import limits
+from references.timing.stopwatch import machine
 from reports import chapters
 from reports.figures import leading
 from tests.validation.conftest import outcome
 from validation.claims.ledger import CLAIMS
 from validation.harness import runner, side_by_side, store
-from validation.harness.fingerprint import Sources
+from validation.harness.fingerprint import Sources, surroundings
 from validation.harness.registry import STUDIES
 from validation.studies import engines_agree
 
@@ -55,6 +57,14 @@ def test_what_times_nothing_runs_side_by_side_and_the_rest_alone_afterwards(regi
     assert found["clock"][0] > max(found["first"][1], found["second"][1])
     assert found["clock"][2] == os.getpid()
     assert len({process for _, _, process in found.values()}) == 3
+
+
+def test_processors_are_those_that_this_process_may_use(monkeypatch):
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {1, 2, 3}, raising=False)
+    monkeypatch.setattr(os, "cpu_count", lambda: 99)
+    monkeypatch.setattr(limits, "CPU_QUOTA", Path("none"))
+    assert side_by_side.workers() == store.provenance().cores == 3
+    assert surroundings(quick=True)["cores"] == machine()["cores"] == "3"
 
 
 def test_a_failure_beside_others_is_a_result(register, run, tmp_path, capfd):
