@@ -1,7 +1,7 @@
 """Memory of a run, a contact method and an engine; the times in these records are those of the whole process.
 
 ``arrays_MB`` is the exact sum of the run's buffers.  ``peak_MB`` is the largest resident memory of a process that does
-nothing else, and ``growth_MB`` its increase by building, after all imports.
+nothing else, nan on systems without /proc, and ``growth_MB`` its increase by building, after all imports.
 """
 
 import json
@@ -17,7 +17,6 @@ from references import contact, engines
 from references.registry import absent
 from references.timing.footprint import footprint
 
-PEAK = "import resource; peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024\n"
 RUN = """
 import json
 from benchmarks.strings import chain
@@ -56,7 +55,7 @@ growth = resident() - before
 def process(program: str, answer: str) -> dict[str, float]:
     """Run a program in a new Python process; returns the value of the expression ``answer`` at its end."""
     done = subprocess.run(
-        [sys.executable, "-c", f"{program}{PEAK}print(json.dumps({answer}))"],
+        [sys.executable, "-c", f"{program}from references.timing.footprint import peak\nprint(json.dumps({answer}))"],
         check=True, capture_output=True, text=True, cwd=CASES.parents[1],
     )  # fmt: skip
     found: dict[str, float] = json.loads(done.stdout.splitlines()[-1])
@@ -67,7 +66,7 @@ def process(program: str, answer: str) -> dict[str, float]:
 def bench_run_memory(benchmark: BenchmarkFixture, segments: int) -> None:
     """FCTD's run of the curved chain."""
     describe(benchmark, "memory", segments=segments)
-    answer = "{'arrays_MB': sum(a.nbytes for a in arrays) / 1e6, 'peak_MB': peak}"
+    answer = "{'arrays_MB': sum(a.nbytes for a in arrays) / 1e6, 'peak_MB': peak()}"
     benchmark.extra_info |= benchmark.pedantic(process, args=(RUN.format(segments=segments), answer), rounds=1)
 
 
@@ -75,7 +74,7 @@ def bench_run_memory(benchmark: BenchmarkFixture, segments: int) -> None:
 def bench_many_strings(benchmark: BenchmarkFixture, count: int) -> None:
     """Strings of 60 segments in one process, each with arrays of its own, that stay after they are solved."""
     describe(benchmark, "memory", strings=count)
-    answer = "{'arrays_MB': sum(solver.work.nbytes for solver in solvers) / 1e6, 'peak_MB': peak}"
+    answer = "{'arrays_MB': sum(solver.work.nbytes for solver in solvers) / 1e6, 'peak_MB': peak()}"
     benchmark.extra_info |= benchmark.pedantic(process, args=(MANY.format(count=count), answer), rounds=1)
 
 

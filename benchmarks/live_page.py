@@ -21,6 +21,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Final
 
+from fctd.store.limits import cores
 from fctd.view.still import browser_path, open_browser
 
 CASES: Final = Path(__file__).parents[1] / "validation" / "cases"
@@ -206,7 +207,7 @@ def painted(server: PageServer, moves: int) -> None:
 def say(what: str, took: list[float], more: str = "") -> None:
     """Print median and spread of times."""
     middle, last = statistics.median(took), sorted(took)[int(0.9 * (len(took) - 1))]
-    load = f"load {os.getloadavg()[0]:.1f} on {os.cpu_count()} processors"
+    load = f"load {os.getloadavg()[0]:.1f} on {cores()} processors"
     print(f"{what}: median {1e3 * middle:.0f} ms, 9 of 10 below {1e3 * last:.0f} ms; {more + ', ' * bool(more)}{load}")
 
 

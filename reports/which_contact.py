@@ -15,6 +15,7 @@ from references import contact, engines, packages
 from reports import words
 from reports.chapters import Strict
 from validation.harness import store
+from validation.harness.registry import RIVALS
 from validation.harness.store import Record
 
 FILE = Path(__file__).with_name("which_contact.toml")
@@ -96,10 +97,16 @@ class Results:
                 continue  # its numbers are said to be missing
 
     def filled(self, text: str, sources: Iterable[Source]) -> str:
-        """A text with its numbers; where one has not been measured, which studies would measure it."""
+        """A text with its numbers; where one has not been measured, the command that measures it."""
         found = [(source[0], self._quantity(source)) for source in sources]
         if missing := dict.fromkeys(study for study, quantity in found if quantity is None):
-            return f"not measured yet: {', '.join(missing)}"
+            # Numbers of rivals come from an environment of their own: make rivals.
+            places = {study: ".venv-rivals/bin/" if study in RIVALS else "" for study in missing}
+            asked = [
+                f"`{place}python -m validation {' '.join(study for study, its in places.items() if its == place)}`"
+                for place in dict.fromkeys(places.values())
+            ]
+            return f"not measured yet: run {' and '.join(asked)}"
         return text.format(*(quantity for _, quantity in found))
 
     def _quantity(self, source: Source) -> str | None:
@@ -112,11 +119,13 @@ class Results:
             check = checks.get(source[1])
             return None if check is None else words.quantity(check.value, check.unit)
         _, table, key, column, unit, *where = source
-        rows = self.tables[study].get(table, pd.DataFrame(columns=["name"]))
-        rows = rows[rows.iloc[:, 0] == key]
-        for name, value in where[0].items() if where else ():
+        others = where[0] if where else {}
+        rows = self.tables[study].get(table)
+        if rows is None or not {column, *others} <= set(rows.columns):
+            return None
+        for name, value in {rows.columns[0]: key, **others}.items():
             rows = rows[rows[name] == value]
-        found = rows[column].dropna() if column in rows else pd.Series(dtype=float)
+        found = rows[column].dropna()
         return words.quantity(float(found.iloc[0]), unit) if len(found) else None
 
     def gate(self, engine: str) -> str:
@@ -154,7 +163,7 @@ def fronts(folder: Path) -> Table:
     results = Results(folder)
     columns = list(MEASURED)
     found = [of["fronts"] for of in results.tables.values() if "fronts" in of]
-    if rivals := results.tables.get("rival_contact"):
+    if {"cost", "errors"} <= set(rivals := results.tables.get("rival_contact", {})):
         found.append(_of_rivals(rivals["cost"], rivals["errors"]))
     rows = pd.concat(found, ignore_index=True).reindex(columns=columns) if found else pd.DataFrame(columns=columns)
     return Table(tuple(MEASURED.values()), list(zip(*(words.column(rows[name]) for name in columns), strict=True)), [])

@@ -127,13 +127,17 @@ class Runs:
 
     def _watch(self) -> None:
         while not self._ended.wait(1.0):
-            with self._lock:
-                runs = list(self._runs.values())
-            now = time.monotonic()
-            for run in runs:
-                if now - run.closed > CLOSED_FOR or now - run.seen > SILENT_FOR:
-                    run.stop()
-                    run.seen, run.closed = now, float("inf")
+            self.look()
+
+    def look(self) -> None:
+        """Stop the runs whose pages were closed or are silent."""
+        with self._lock:
+            runs = list(self._runs.values())
+        now = time.monotonic()
+        for run in runs:
+            if now - run.closed > CLOSED_FOR or now - run.seen > SILENT_FOR:
+                run.stop()
+                run.seen, run.closed = now, float("inf")
 
 
 def command() -> list[str]:

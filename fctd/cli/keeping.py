@@ -56,7 +56,7 @@ TimeLimit = Annotated[
 MemoryLimit = Annotated[
     str | None,
     typer.Option(
-        "--memory-limit", metavar="SIZE", help="Stop when the memory exceeds this size, '4 GB', and keep the run.",
+        "--memory-limit", metavar="SIZE", help="Stop when the run has taken this much memory, '4 GB', and keep it.",
         show_default=False,
     ),
 ]  # fmt: skip

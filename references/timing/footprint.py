@@ -9,13 +9,14 @@ from typing import Any
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case
+from fctd.store.limits import resident_memory
 from references.contact import build
 
 
 def footprint(name: str, case: Case, **options: Any) -> tuple[float, float]:
     """Growth of resident memory [MB] and time [s] of building a method for a case, without imports.
 
-    Memory is nan on systems without /proc.  Raises InputError as ``build`` does.
+    Raises InputError as ``build`` does.
     """
     build(name, case, **options)  # raises errors here, not in the other process
     request = json.dumps({"name": name, "case": case.model_dump(mode="json"), "options": options})
@@ -29,10 +30,18 @@ def footprint(name: str, case: Case, **options: Any) -> tuple[float, float]:
 
 def resident() -> float:
     """Resident memory of this process [MB]."""
+    return resident_memory() / 2**20
+
+
+def peak() -> float:
+    """The largest resident memory of this process since its program began [MB]; nan on systems without /proc.
+
+    ``ru_maxrss`` would count that of the process which started it.
+    """
     status = Path("/proc/self/status")
     if not status.exists():
         return float("nan")
-    (line,) = (line for line in status.read_text().splitlines() if line.startswith("VmRSS"))
+    (line,) = (line for line in status.read_text().splitlines() if line.startswith("VmHWM"))
     return int(line.split()[1]) / 1024
 
 

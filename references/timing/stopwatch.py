@@ -4,7 +4,6 @@ On a shared machine times drift by factors within seconds.  All actions are ther
 alternating order, and a ratio is the median of the ratios of the rounds.
 """
 
-import os
 import platform
 import time
 from collections.abc import Callable, Iterable, Mapping
@@ -13,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from fctd.store.limits import cores
 from fctd.store.origin import versions
 from references.contact import METHODS, method_class
 from references.engines import ENGINES, engine_class
@@ -88,7 +88,7 @@ def machine(more: Iterable[str] = ()) -> dict[str, str]:
     suite = [method_class(name).distribution for name in METHODS]
     suite += [engine_class(name).distribution for name in ENGINES]
     timed = {name: version_of(name) or "not installed" for name in (*suite, *more)}
-    return {"processor": cpu_name(), "cores": str(os.cpu_count()), **versions(), **timed}
+    return {"processor": cpu_name(), "cores": str(cores()), **versions(), **timed}
 
 
 def machine_table(more: Iterable[str] = ()) -> pd.DataFrame:

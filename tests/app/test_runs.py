@@ -2,10 +2,9 @@
 
 import signal
 import sys
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from types import SimpleNamespace
 
 import pytest
 
@@ -15,6 +14,7 @@ from fctd.app.sessions import Session, Sessions
 from fctd.case.errors import InputError
 from fctd.results.tables import open_result
 from tests.app.made import SURVEY, TEXT
+from tests.commands import until
 
 # A run that waits for its end, without the seconds of importing the engine.
 WAITING = """
@@ -22,7 +22,7 @@ import signal, sys, time
 signal.signal(signal.SIGTERM, signal.default_int_handler)  # as fctd.cli.interrupts does
 try:
     print("begun", flush=True)
-    time.sleep(60)
+    time.sleep(3600)
 except KeyboardInterrupt:
     print("interrupted"); sys.exit(130)
 """
@@ -34,13 +34,6 @@ def runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Runs]:
     found = Runs()
     yield found
     found.close()
-
-
-def until(wanted: Callable[[], Any], seconds: float = 30.0) -> None:
-    end = time.monotonic() + seconds
-    while not wanted():
-        assert time.monotonic() < end
-        time.sleep(0.05)
 
 
 def begin(runs: Runs, session: Session) -> None:
@@ -72,14 +65,20 @@ def test_two_at_a_time_and_one_a_page(runs: Runs, tmp_path: Path) -> None:
 def test_the_run_of_a_closed_page_ends_and_that_of_a_page_that_asks_again_does_not(
     runs: Runs, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(module, "CLOSED_FOR", 0.5)
+    now, stopped = [0.0], list[module.Run]()
+    monkeypatch.setattr(module, "time", SimpleNamespace(monotonic=lambda: now[0]))
+    stop = module.Run.stop
+    monkeypatch.setattr(module.Run, "stop", lambda run: stopped.append(run) or stop(run))
     session = Sessions(tmp_path).new()
     begin(runs, session)
     runs.closed(session)
     assert runs.state(session)["running"]  # loaded again
-    time.sleep(2.0)
-    assert runs.state(session)["running"]
+    now[0] = 2 * module.CLOSED_FOR
+    runs.look()
+    assert not stopped
     runs.closed(session)
+    now[0] += 2 * module.CLOSED_FOR
+    runs.look()
     until(lambda: "interrupted" in (session.folder / "run" / "log").read_text())
 
 
@@ -113,7 +112,7 @@ def test_a_run_streams_and_is_stopped_with_its_records_kept(tmp_path: Path) -> N
     session, found = Sessions(tmp_path).new(), Runs()
     try:
         found.start(session, text, "survey.csv", SURVEY)
-        until(lambda: found.state(session)["kept"] not in ("", "0", "0.0") or not found.state(session)["running"], 120)
+        until(lambda: found.state(session)["kept"] not in ("", "0", "0.0") or not found.state(session)["running"])
         state = found.state(session)
         assert 0 < state["share"] < 1, state
         other = Runs([session.folder])  # a server that was killed and started again

@@ -22,6 +22,7 @@ from fctd.app.sessions import Session
 from fctd.case.errors import InputError
 from fctd.model.first_runs import to_paste
 from tests.app.made import NAME, SURVEY, TEXT, InProcess, source
+from tests.commands import HANG
 
 
 class Answer(NamedTuple):
@@ -56,7 +57,7 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[AppServer]:
 
 def ask(server: AppServer, path: str, body: bytes | None = None, **headers: str) -> Answer:
     """An answer; path : with the prefix."""
-    connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=30)
+    connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=HANG)
     given = {name.replace("_", "-"): value for name, value in headers.items()}
     try:
         connection.request("GET" if body is None else "POST", path, body, given)
@@ -150,7 +151,7 @@ def test_no_path_leads_elsewhere(path: str, server: AppServer) -> None:
 
 
 def test_too_large_a_request_is_refused(server: AppServer) -> None:
-    connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=30)
+    connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=HANG)
     connection.putrequest("POST", f"{server.home.prefix}_dash-update-component")
     connection.putheader("Content-Length", str(MOST_RECEIVED + 1))
     connection.endheaders()  # refused before it is sent
@@ -357,7 +358,7 @@ def test_connections_that_send_nothing_stop_nobody(server: AppServer) -> None:
     """Of a program of this machine: the headers of 200 requests never end."""
     with ExitStack() as stack:
         for _ in range(200):
-            idle = stack.enter_context(socket.create_connection(("127.0.0.1", server.port), timeout=10))
+            idle = stack.enter_context(socket.create_connection(("127.0.0.1", server.port), timeout=HANG))
             idle.sendall(b"GET / HTTP/1.1\r\nHost: ")
         assert ask(server, f"{server.home.prefix}_dash-dependencies").status == 200
 

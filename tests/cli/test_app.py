@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from tests.app.made import SURVEY, TEXT
-from tests.commands import Command
+from tests.commands import HANG, Command
 
 
 @pytest.fixture
@@ -29,12 +29,12 @@ def test_a_case_is_shown_until_ctrl_c(here: Path) -> None:
         assert process.stdout is not None
         match = re.fullmatch(r"The page: (http://127\.0\.0\.1:\d+/\S{32}/s/\S{12}/)\n", process.stdout.readline())
         assert match is not None
-        with urllib.request.urlopen(match[1], timeout=30) as answer:
+        with urllib.request.urlopen(match[1], timeout=HANG) as answer:
             assert answer.status == 200
         assert match[1].split("/")[3] not in Path(f"/proc/{process.pid}/cmdline").read_text()
     finally:
         process.send_signal(signal.SIGINT)
-        _, said = process.communicate(timeout=60)
+        _, said = process.communicate(timeout=HANG)
     assert process.returncode == 0, said
     assert "Traceback" not in said
     left = {path.relative_to(here / "state" / "fctd" / "app").parts[0] for path in here.glob("state/fctd/app/*")}

@@ -15,7 +15,7 @@ import pytest
 from fctd import open_result
 from fctd.cli import chart, refine, simulate
 from fctd.cli.interrupts import as_interrupts, deferred
-from tests.commands import Command
+from tests.commands import HANG, Command
 
 ROOT = Path(__file__).parents[2]
 SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
@@ -118,7 +118,7 @@ def test_results_are_written_after_the_terminal_has_closed(small_file: Path, tmp
         "    def report(*v):\n"
         "        progress(*v)\n"
         "        os.write(1, b'going') if v[0] < 1.5 else None\n"
-        "        time.sleep(60) if v[0] > 1.5 else None\n"
+        "        time.sleep(3600) if v[0] > 1.5 else None\n"
         "    return real(*a, progress=report, **k)\n"
         "cli.simulate = simulate\nmain.main()\n"
     )
@@ -133,7 +133,7 @@ def test_results_are_written_after_the_terminal_has_closed(small_file: Path, tmp
     while b"going" not in seen:
         seen += os.read(leader, 4096)
     os.close(leader)  # the system sends SIGHUP
-    started.wait(50)
+    started.wait(HANG)
     assert open_result(tmp_path / "out").status == "interrupted"
 
 
@@ -175,7 +175,7 @@ def test_a_run_in_the_background_of_a_script_keeps_what_it_has(small_file: Path,
     out, going = tmp_path / "out", tmp_path / ".out-run" / "progress.json"
     run = f"'{sys.executable}' -m fctd simulate {small_file} --out {out} --set operations[0].duration=1e5 --quiet"
     script = f"{run} & until [ -e {going} ]; do sleep 0.1; done; kill -INT $!; wait $!"
-    done = subprocess.run(["sh", "-c", script], cwd=ROOT, capture_output=True, text=True, timeout=60)
+    done = subprocess.run(["sh", "-c", script], cwd=ROOT, capture_output=True, text=True, timeout=HANG)
     assert done.returncode == 130, done.stderr
     assert open_result(out).status == "interrupted"
 

@@ -4,6 +4,7 @@ import json
 import re
 import shlex
 from collections.abc import Callable
+from itertools import count
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -150,13 +151,15 @@ def test_the_earlier_result_stays_until_the_run_has_ended(
 def test_a_limit_keeps_the_result_and_the_run(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    sizes = count(10**9, 10**6)  # the process grows with every look
+    monkeypatch.setattr(limits, "resident_memory", lambda: next(sizes))
     assert run(monkeypatch, *RUN[:4], "--quiet", "--memory-limit", "1 MB") == 1
-    assert "memory are in use, the limit is 1 MB" in capsys.readouterr().err
+    assert "the run has taken 1 MB of memory, the limit is 1 MB" in capsys.readouterr().err
     assert not run_path(Path("out")).exists()  # it was still settling
     assert not Path("out").exists()
     # Once the first record has been kept, the memory is beyond any limit.
     monkeypatch.setattr(
-        limits, "largest_memory", lambda: 1e9 if (run_path(Path("out")) / "progress.json").exists() else 0
+        limits, "resident_memory", lambda: 1e9 if (run_path(Path("out")) / "progress.json").exists() else 0
     )
     assert run(monkeypatch, *RUN, "--memory-limit", "1 MB") == 1
     result = open_result("out")

@@ -7,7 +7,6 @@ import resource
 import shutil
 import signal
 import threading
-import time
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -169,9 +168,7 @@ def test_one_that_takes_too_long_is_not_waited_for(
     held: Store, store: Store, file: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(compile_cache, "LONGEST_WAIT", 0.05)
-    began = time.monotonic()
     assert hits(store, twice, 3.0) == 0
-    assert time.monotonic() - began < 30  # compiling takes a second
     assert locks(file.parent) == [f".{file.name}"]  # it is still the other's
     held.unlock(file.name)
     assert locks(file.parent) == []

@@ -37,9 +37,22 @@ def test_numbers_are_those_of_stored_results(tmp_path: Path) -> None:
     assert [line.partition(":")[0] for line in found.origins] == ["contact_fronts"]
 
 
-def test_what_has_not_been_measured_is_said_with_its_study(tmp_path: Path) -> None:
-    rows = which_contact.table(tmp_path).rows
-    assert all(row[3].startswith("not measured yet: ") for row in rows)
+EMPTY = pd.DataFrame({"other": [1.0]})
+
+
+@pytest.mark.parametrize("tables", [None, {}, {"fronts": EMPTY, "cost": EMPTY, "loads": EMPTY}, {"cost": EMPTY}])
+def test_what_has_not_been_measured_is_said_with_its_command(
+    tables: dict[str, pd.DataFrame] | None, tmp_path: Path
+) -> None:
+    """Also where a study has been run, and left a table or a column out."""
+    if tables is not None:
+        for study in which_contact.STUDIES:
+            store.write(replace(BLANK, study=study, tables=tuple(tables)), tables, tmp_path)
+    costs = {row[3] for row in which_contact.table(tmp_path).rows}
+    assert all(cost.startswith("not measured yet: run `") for cost in costs)
+    assert "not measured yet: run `python -m validation contact_fronts`" in costs
+    assert "not measured yet: run `.venv-rivals/bin/python -m validation rival_contact`" in costs
+    assert all(set(row[1:]) == {"–"} for row in which_contact.fronts(tmp_path).rows)
 
 
 @pytest.fixture

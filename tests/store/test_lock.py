@@ -15,7 +15,7 @@ from fctd.store.lock import FolderLock, HeldError, holder_of
 pytest.importorskip("fcntl")
 HOLD = (
     "import sys, time; from pathlib import Path; from fctd.store.lock import FolderLock\n"
-    "lock = FolderLock.take(Path(sys.argv[1])); print('held', flush=True); time.sleep(60)\n"
+    "lock = FolderLock.take(Path(sys.argv[1])); print('held', flush=True); time.sleep(3600)\n"
 )
 
 

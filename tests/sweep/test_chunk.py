@@ -1,27 +1,30 @@
 """Chunks: rows of samples, rows in place of failures, and the end of a process whose sample does not come back."""
 
 import multiprocessing
+import os
 import threading
 import time
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
 from fctd.case.load import Case
 from fctd.sweep import chunk, work
-from fctd.sweep.chunk import FAILED, LEAVE, TIMED_OUT, SampleRunner, Watch, from_stream
+from fctd.sweep.chunk import FAILED, TIMED_OUT, SampleRunner, Watch, from_stream
 from fctd.sweep.design import Sample
 from fctd.sweep.run import prepare
 from fctd.sweep.spec import read_sweep
 from fctd.sweep.work import Row, Task, Tick
+from tests.commands import HANG, exit_code
 from validation.parts.small_sweep import sweep_file
 
 
 @pytest.fixture
 def runner(tmp_path: Path) -> SampleRunner:
-    return prepare(read_sweep(sweep_file(tmp_path, 'method = "random"\nsamples = 4\ntime_limit = 30\n')))[0]
+    return prepare(read_sweep(sweep_file(tmp_path, 'method = "random"\nsamples = 4\ntime_limit = 300\n')))[0]
 
 
 def sample(number: int, friction: float) -> Sample:
@@ -54,7 +57,7 @@ def test_a_sample_without_an_answer_is_a_row(raised: str, status: str, runner: S
     def fail(case: Case, task: Task, tick: Tick) -> list[Row]:
         if raised == "defect":
             raise ZeroDivisionError("by nothing")
-        end = time.monotonic() + 60
+        end = time.monotonic() + HANG
         while time.monotonic() < end:
             tick()
         return []
@@ -70,13 +73,11 @@ def hang(sender: Any, holding: bool) -> None:
     """A sample that does not come back; holding : with Python's lock, as a defect of compiled code may."""
     import ctypes
 
-    def too_long(sample: int) -> None:
-        sender.send(sample)
-
-    with Watch(0.3, 1.0, too_long).watching() as watch:
+    # A sleep of the C library, with or without the lock.
+    sleep = (ctypes.PyDLL if holding else ctypes.CDLL)(None).sleep
+    with Watch(0.3, 1.0 if holding else HANG, sender.send).watching() as watch:
         watch.begin(7)
-        # A sleep of the C library, with or without the lock.
-        (ctypes.PyDLL if holding else ctypes.CDLL)(None).sleep(20)
+        sleep(3600)
 
 
 @pytest.mark.parametrize("holding", [False, True])
@@ -85,28 +86,49 @@ def test_a_process_ends_over_a_sample_that_does_not_come_back(holding: bool) -> 
     receiver, sender = context.Pipe(duplex=False)
     process = context.Process(target=hang, args=(sender, holding))
     process.start()
-    process.join(timeout=15)
-    assert process.exitcode == 1
+    assert exit_code(process) == 1
     assert receiver.poll() is not holding
     if not holding:
         assert receiver.recv() == 7
 
 
-def come_back_late() -> None:
-    """A sample that comes back just after the news of it has left, and another one that is short."""
-    told = threading.Event()
-    with Watch(0.8, 20.0, lambda sample: told.set()).watching() as watch:
+class Clock:
+    """A clock that stands until the test moves it; the news of a sample leaves once ``left`` is set."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.now, self.ended = 0.0, list[int]()  # exit codes
+        self.left, self._looked = threading.Event(), threading.Event()
+        paused = SimpleNamespace(monotonic=self._look, sleep=lambda _: self.left.wait(HANG))
+        monkeypatch.setattr(chunk, "time", paused)
+        monkeypatch.setattr(chunk, "os", SimpleNamespace(_exit=self.ended.append, devnull=os.devnull))
+
+    def _look(self) -> float:
+        if threading.current_thread() is not threading.main_thread():
+            self._looked.set()
+        return self.now
+
+    def looks(self) -> None:
+        """Wait until the watch has looked at it again."""
+        self._looked.clear()
+        assert self._looked.wait(HANG)
+
+
+def test_a_process_goes_on_where_the_sample_comes_back_meanwhile(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Just after the news of it has left."""
+    clock, told = Clock(monkeypatch), threading.Event()
+    with Watch(0.8, HANG, lambda _: told.set()).watching() as watch:
         watch.begin(7)
-        told.wait()
+        clock.now = 1.0
+        assert told.wait(HANG)
         watch.begin(8)
-        time.sleep(0.3 + LEAVE / 2)
-
-
-def test_a_process_goes_on_where_the_sample_comes_back_meanwhile() -> None:
-    process = multiprocessing.get_context("spawn").Process(target=come_back_late)
-    process.start()
-    process.join(timeout=15)
-    assert process.exitcode == 0
+        clock.left.set()
+        clock.looks()
+        assert clock.ended == []
+        told.clear()
+        clock.now = 2.0  # the next does not come back
+        assert told.wait(HANG)
+        clock.looks()
+        assert clock.ended[0] == 1
 
 
 @pytest.mark.parametrize(("limit", "expected"), [(0.1, (2.0, 3.0)), (20.0, (40.0, 60.0))])
@@ -126,10 +148,11 @@ def test_a_process_may_take_twice_the_limit_of_a_sample_and_at_least_two_seconds
     assert given == [expected]
 
 
-def test_a_watch_leaves_samples_alone_that_end_in_time() -> None:
-    told: list[int] = []
-    with Watch(0.4, 5.0, told.append).watching() as watch:
+def test_a_watch_leaves_samples_alone_that_end_in_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock, told = Clock(monkeypatch), list[int]()
+    with Watch(0.4, HANG, told.append).watching() as watch:
         for number in range(8):
             watch.begin(number)
-            time.sleep(0.1)
+            clock.now += 0.3
+            clock.looks()
     assert told == []

@@ -44,7 +44,7 @@ def test_a_sweep_has_the_rows_of_its_samples_and_a_second_call_computes_nothing(
 def test_hanging_and_crashing_samples_are_rows_and_the_others_have_answers(tmp_path: Path) -> None:
     import dask
 
-    spec = read_sweep(sweep_file(tmp_path, 'method = "sobol"\nsamples = 12\ntime_limit = "1 s"\n'))
+    spec = read_sweep(sweep_file(tmp_path, 'method = "sobol"\nsamples = 12\ntime_limit = "5 s"\n'))
     with dask.config.set({"distributed.worker.preload": [str(failing(tmp_path, hang=(3,), crash=(8,)))]}):
         found = sweep(spec, tmp_path / "out", ONE)
     table = open_dataset(tmp_path / "out").rows().set_index("sample")

@@ -23,6 +23,7 @@ from packaging.utils import canonicalize_name
 from pydantic import TypeAdapter
 
 from fctd.case.solver import PERTURBED
+from fctd.store.limits import cores
 from references import contact, engines
 from references.registry import RIVAL_PACKAGES, label, version_of
 from references.timing.stopwatch import cpu_name
@@ -84,7 +85,7 @@ def surroundings(quick: bool, root: Path = ROOT) -> dict[str, str]:
     The processor counts for every study: compiled code is made for it, and most studies report times.  So does what the
     environment says of noise and of the processor to compile for.
     """
-    found = {LENGTH: "quick" if quick else "full", "processor": cpu_name(), "cores": str(os.cpu_count())}
+    found = {LENGTH: "quick" if quick else "full", "processor": cpu_name(), "cores": str(cores())}
     found["python"] = platform.python_version()
     found |= {name: value for name in VARIED if (value := os.environ.get(name.split()[-1]))}
     project = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))["project"]

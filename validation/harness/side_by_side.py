@@ -11,6 +11,7 @@ from multiprocessing import active_children, get_all_start_methods, get_context
 from pathlib import Path
 from typing import Any
 
+from fctd.store.limits import cores
 from validation.harness import files
 from validation.harness.study import A, T
 
@@ -20,8 +21,8 @@ _CALLED: list[Callable[[Any], Any]] = []
 
 
 def workers() -> int:
-    """As many processes as there are processors; 1 where a process cannot be copied, as on Windows."""
-    return (os.cpu_count() or 1) if "fork" in get_all_start_methods() else 1
+    """As many processes as this one may use processors; 1 where a process cannot be copied, as on Windows."""
+    return cores() if "fork" in get_all_start_methods() else 1
 
 
 def each(function: Callable[[A], T], arguments: Sequence[A], processes: int) -> Iterator[T]:

@@ -2,7 +2,6 @@
 
 import json
 import math
-import os
 import subprocess
 from collections import Counter
 from collections.abc import Mapping
@@ -14,6 +13,7 @@ import pandas as pd
 from pyarrow import parquet
 from pydantic import TypeAdapter
 
+from fctd.store.limits import cores
 from fctd.store.origin import versions
 from fctd.store.parquet import read_frame
 from fctd.store.whole_file import whole_file
@@ -106,7 +106,7 @@ def provenance() -> Provenance:
     commit = found.pop("commit", "unknown")  # outside a repository
     if commit != "unknown" and subprocess.run(["git", "-C", str(ROOT), "diff", "--quiet", "HEAD"]).returncode:
         commit += " with changes"
-    return Provenance(commit, found, cpu_name(), os.cpu_count() or 1)
+    return Provenance(commit, found, cpu_name(), cores())
 
 
 def write(record: Record, tables: dict[str, pd.DataFrame], results: Path, inputs: Inputs | None = None) -> Path:

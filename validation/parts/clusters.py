@@ -11,6 +11,7 @@ from pathlib import Path
 from fctd.sweep.cluster import ClusterChoice, connected
 from validation.harness.study import ROOT
 
+LONGEST = 300.0  # [s]: what takes longer hangs
 # A worker that preloads this hangs or dies in samples of given numbers.
 _FAILING = """
 import os, time, ctypes
@@ -18,7 +19,7 @@ from fctd.sweep import chunk
 def failing(own):
     def rows_of(self, sample):
         if sample.number in HANG:
-            ctypes.CDLL(None).sleep(600)
+            ctypes.CDLL(None).sleep(3600)
         if sample.number in CRASH:
             os._exit(1)
         time.sleep(PAUSE)
@@ -54,7 +55,7 @@ class Cluster:
 
     def add_workers(self, count: int, threads: int = 1, preload: Path | None = None) -> None:
         """Start workers, once the scheduler has written its file."""
-        end = time.monotonic() + 60
+        end = time.monotonic() + LONGEST
         while not self.file.exists() and time.monotonic() < end:
             time.sleep(0.1)
         options: list[object] = ["--nthreads", threads, "--host", "127.0.0.1", "--no-dashboard"]
@@ -65,7 +66,7 @@ class Cluster:
     def wait_for_workers(self, count: int) -> None:
         """Return once so many workers have joined; without TLS."""
         with connected(ClusterChoice(scheduler_file=self.file)) as client:
-            client.wait_for_workers(count, timeout=60)
+            client.wait_for_workers(count, timeout=LONGEST)
 
     def kill(self, role: str) -> None:
         """Kill the scheduler, or a worker process, which its nanny starts again."""
@@ -85,7 +86,7 @@ class Cluster:
             for process in processes:
                 process.terminate()
             for process in processes:
-                process.wait(timeout=30)
+                process.wait(timeout=LONGEST)
 
     def _dask(self, role: str, *options: object) -> "subprocess.Popen[bytes]":
         """A scheduler or a worker, without its messages."""

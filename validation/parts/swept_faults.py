@@ -20,14 +20,13 @@ import pandas as pd
 from fctd.cli.sweep import sweep_command  # noqa: F401 (the command that the processes run)
 from fctd.sweep.dataset import open_dataset
 from validation.harness.study import ROOT
-from validation.parts.clusters import cluster, failing
+from validation.parts.clusters import LONGEST, cluster, failing
 from validation.parts.small_sweep import sweep_file
 
 KINDS = ("worker", "client", "scheduler", "disk", "worker of a scheduler", "hang", "crash", "interrupt")
 # Pause before each sample [s]: two workers take six seconds, the first part is written after two, and a fault comes
 # at most two seconds later, before the sweep ends.
 SAMPLES, PAUSE, LATER = 60, 0.2, 2.0
-LONGEST = 300.0  # of a sweep [s]
 # No file may grow beyond this, of a process whose disk is full [B]: sweep.json has 4.8 kB, a part at least 7.4 kB.
 DISK = 7_000
 HEAD = f'method = "sobol"\nsamples = {SAMPLES}\ntime_limit = "3 s"\n'
@@ -164,7 +163,7 @@ def _stayed(pids: list[int]) -> str:
     """What stays of the workers of a client that died, which end, too."""
     import psutil
 
-    end = time.monotonic() + 60
+    end = time.monotonic() + LONGEST
     while any(psutil.pid_exists(pid) for pid in pids) and time.monotonic() < end:
         time.sleep(0.1)
     left = [pid for pid in pids if psutil.pid_exists(pid)]

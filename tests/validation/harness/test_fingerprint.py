@@ -285,7 +285,7 @@ def test_a_kept_result_is_judged_by_what_is_expected_now(lab):
 @pytest.mark.slow
 def test_a_run_that_was_killed_goes_on_where_it_was(lab):
     write(lab, "toylab/second.py", PROJECT["toylab/question.py"].replace('"question"', '"second"'))
-    waiting = (lab / "toylab" / "second.py").read_text().replace("here =", "__import__('time').sleep(60); here =")
+    waiting = (lab / "toylab" / "second.py").read_text().replace("here =", "__import__('time').sleep(3600); here =")
     write(lab, "toylab/second.py", waiting)
     script = """
         import pathlib, sys
@@ -305,7 +305,7 @@ def test_a_run_that_was_killed_goes_on_where_it_was(lab):
             assert process.poll() is None
             time.sleep(0.01)
         process.send_signal(signal.SIGKILL)
-    write(lab, "toylab/second.py", waiting.replace("sleep(60)", "sleep(0)"))
+    write(lab, "toylab/second.py", waiting.replace("sleep(3600)", "sleep(0)"))
     registry.STUDIES["second"] = "toylab.second"
     code, printed = run(lab, "question", "second")
     assert code == 0
