@@ -91,7 +91,7 @@ lowest: $(STAMP)
 	.venv-lowest/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
 	.venv-lowest/bin/python -m pip check --disable-pip-version-check
 	.venv-lowest/bin/python -m pytest -q tests/case tests/store tests/results tests/model tests/hydraulics \
-	tests/mechanics tests/steady tests/monitoring tests/plots tests/report
+	tests/mechanics tests/steady tests/monitoring tests/plots tests/report tests/sweep/test_design.py tests/sweep/test_indices.py
 
 clean:
 	rm -rf .venv-next .venv-lowest validation/results reports/out docs/out build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis .benchmarks
