@@ -42,7 +42,7 @@ ROD_LENGTH, ROD_SEGMENT, ROD_WAVES = 100.0, 1.0, 8  # [m], [m], half waves
 # Captions of the tables of the full run.
 FULL = {
     "pushed_row": "A row of the helix that slides",
-    "locked_rows": "Rows of a helix that no block pushes, the last beyond its lock-up length",
+    "locked_rows": "Rows of a helix that no block pushes, the last beyond its lock-up length, with noise by their seed",
     "well": "Hook load of a horizontal well that slides, against the segment length; the last row is resolved",
     "analytic_well": "Hook load of that well on long segments, with and without the helix's wall force",
     "second_route": "One string by a second route",
@@ -273,7 +273,7 @@ def run(context: Context) -> Outcome:
     if not context.quick:
         parts += [
             ("pushed_row", lambda: resolved_rows.pushed_row(PUSHED, FRICTION, SHARES[0])),
-            ("locked_rows", lambda: resolved_rows.locked_rows(PUSHED, FRICTION, SHARES)),
+            ("locked_rows", lambda: pd.concat(context.apart(_locked_rows, resolved_rows.DRAWS), ignore_index=True)),
             ("well", resolved_rows.well_rows),
             ("analytic_well", analytic_helix.well_rows),
             ("second_route", second_route),
@@ -367,6 +367,11 @@ def _checks(tables: dict[str, pd.DataFrame]) -> list[Check]:
             name = f"engine against PyElastica, {column.split('_')[0]}"
             checks.append(Check(name, worst, 3.0, "at_most", "%", "a second route for one string"))
     return checks
+
+
+def _locked_rows(seed: int | None) -> pd.DataFrame:
+    """A draw of these rows."""
+    return resolved_rows.locked_rows(seed, PUSHED, FRICTION, SHARES)
 
 
 def _percent(value: Number, exact: Number) -> Number:
