@@ -6,7 +6,7 @@ Tests that need one are marked ``browser`` and skip by name where there is none.
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from functools import cache
@@ -18,6 +18,7 @@ import pytest
 from numpy.typing import NDArray
 
 from fctd.view.still import browser_path, open_browser
+from tests.commands import HANG
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 # Plotly's scene reads its canvas back; Chromium advises another setting of it.
 KNOWN = "willReadFrequently"
 HERE = ("file:", "data:", "blob:")
-LONGEST = 60_000  # [ms], on a busy machine
+LONGEST = int(1e3 * HANG)  # [ms]
 
 
 def missing() -> str:
@@ -97,6 +98,28 @@ def pixels(page: Page) -> NDArray[np.int16]:
     from PIL import Image
 
     return np.asarray(Image.open(io.BytesIO(page.screenshot())).convert("RGB"), np.int16)
+
+
+def until(page: Page, wanted: Callable[[], object]) -> None:
+    """Wait; the policy of a page may forbid playwright's own way of waiting, which evaluates text."""
+    for _ in range(LONGEST // 50):
+        if wanted():
+            return
+        page.wait_for_timeout(50)
+    assert wanted()
+
+
+def at_rest(page: Page) -> NDArray[np.int16]:
+    """The window as it is painted once nothing moves any more."""
+    found = [pixels(page)]
+
+    def rests() -> bool:
+        page.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        found.append(pixels(page))
+        return bool((found[-1] == found[-2]).all())
+
+    until(page, rests)
+    return found[-1]
 
 
 def overflow(page: Page) -> int:

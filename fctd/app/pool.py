@@ -104,13 +104,13 @@ def command_of(folder: Path) -> list[str]:
 class Pool:
     """Processes for requests; scratch files lie below ``folder``, and those of processes that were killed go.
 
-    longest : of an answer [s].
+    longest : of an answer [s], by default LONGEST.
     """
 
-    def __init__(self, folder: Path, size: int = WORKERS, longest: float = LONGEST) -> None:
+    def __init__(self, folder: Path, size: int = WORKERS, longest: float | None = None) -> None:
         for left, _ in left_by_dead(folder, r"work-PID"):
             shutil.rmtree(left, ignore_errors=True)
-        self.folder, self.longest = folder / f"work-{os.getpid()}", longest
+        self.folder, self.longest = folder / f"work-{os.getpid()}", LONGEST if longest is None else longest
         private_folder(self.folder)
         self._free: list[Worker] = []
         self._all: list[Worker] = []

@@ -1,6 +1,7 @@
 """Where numbers that are kept come from: files, versions, sources, the processor."""
 
 import hashlib
+import os
 import platform
 import subprocess
 from collections.abc import Iterator, Mapping
@@ -15,15 +16,22 @@ def versions() -> dict[str, str]:
     """Versions of the engine and of the packages that its numbers depend on, and the commit of the checkout if any."""
     found = {"fctd": version("fctd"), "python": platform.python_version()}
     found |= {name: version(name) for name in ("numpy", "numba")}
+    root = Path(__file__).resolve().parents[2]
     try:
         git = subprocess.run(
-            ["git", "-C", str(Path(__file__).parent), "rev-parse", "--short", "HEAD"],
-            capture_output=True, text=True, timeout=5, check=True,
+            ["git", "-C", str(root), "rev-parse", "--show-toplevel", "--short", "HEAD"],
+            capture_output=True, text=True, timeout=5, check=True, env=environment_of_git(),
         )  # fmt: skip
-        found["commit"] = git.stdout.strip()
-    except (OSError, subprocess.SubprocessError):
-        pass  # an installed wheel has no checkout: the version stands alone
-    return found
+        above, commit = git.stdout.splitlines()
+    except (OSError, ValueError, subprocess.SubprocessError):
+        return found  # an installed wheel has no checkout: the version stands alone
+    # An environment of Python may lie in a checkout of something else.
+    return found | {"commit": commit} if Path(above) == root else found
+
+
+def environment_of_git() -> dict[str, str]:
+    """This process's environment, in which git takes the checkout of a folder, not the one that a hook of git names."""
+    return {name: value for name, value in os.environ.items() if name not in ("GIT_DIR", "GIT_WORK_TREE")}
 
 
 def origin_of(files: Mapping[str, Path], sources: str) -> Origin:

@@ -5,7 +5,7 @@ import re
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +13,8 @@ import numpy as np
 import pytest
 
 from tests.app.made import NAME, SURVEY, TEXT
-from tests.browsers import LONGEST, needs_browser, opened, overflow, pixels
+from tests.browsers import needs_browser, opened, overflow, pixels, until
+from tests.commands import HANG
 
 pytestmark = needs_browser
 
@@ -31,6 +32,10 @@ WATCH = """() => {
 }"""
 
 
+# The command, whose answers may take as long as they do on a busy machine.
+PROGRAM = f"from fctd.app import pool; pool.LONGEST = {HANG}; from fctd.cli import main; main.main()"
+
+
 class Program:
     """``fctd app`` as a process, which can be killed and started again."""
 
@@ -39,7 +44,7 @@ class Program:
         self.address = self.start("well.toml")
 
     def start(self, *case: str) -> str:
-        command = [sys.executable, "-m", "fctd", "app", *case, "--no-browser"]
+        command = [sys.executable, "-c", PROGRAM, "app", *case, "--no-browser"]
         self.process = subprocess.Popen(
             command, stdout=subprocess.PIPE, text=True, cwd=self.folder, env=self.environment
         )
@@ -50,7 +55,7 @@ class Program:
 
     def end(self, number: int) -> None:
         self.process.send_signal(number)
-        self.process.communicate(timeout=60)
+        self.process.communicate(timeout=HANG)
 
 
 @pytest.fixture(scope="module")
@@ -78,15 +83,6 @@ def drawn(page: Any) -> None:
     assert page.locator("#fault").is_hidden(), page.locator("#fault").text_content()
 
 
-def until(page: Any, wanted: Callable[[], object]) -> None:
-    """Wait; the page's policy forbids playwright's own way of waiting, which evaluates text."""
-    for _ in range(LONGEST // 50):
-        if wanted():
-            return
-        page.wait_for_timeout(50)
-    assert wanted()
-
-
 def test_a_slider_moves_all_pictures(page: Any) -> None:
     k = "picking up"
     chart, string, words = page.evaluate(CURVE, k), page.evaluate(STRING), page.locator("#words").inner_text()
@@ -103,8 +99,7 @@ def test_a_slider_moves_all_pictures(page: Any) -> None:
     until(page, lambda: "scene" in page.evaluate("window.drawn"))
     # A key moves a slider by two events, whose second answer may paint the loads again before the scene's turn.
     assert list(dict.fromkeys(page.evaluate("window.drawn"))) == ["loads", "panels", "scene"]
-    page.wait_for_timeout(300)
-    assert (pixels(page) != before).any()
+    until(page, lambda: (pixels(page) != before).any())
     page.locator("#reset").click()
     until(page, lambda: page.evaluate(CURVE, k) == chart)
     assert page.locator("#sliders output").nth(1).inner_text() == "0.25"

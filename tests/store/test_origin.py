@@ -15,6 +15,8 @@ import fctd
 from fctd.store import origin
 from fctd.store.origin import changes, origin_of, versions
 
+WHO = ("-c", "user.name=they", "-c", "user.email=they@example.org")
+
 
 def test_each_change_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     survey = tmp_path / "survey.csv"
@@ -43,6 +45,21 @@ def test_versions_name_the_commit_of_a_checkout_and_of_nothing_else() -> None:
     asked = ["git", "rev-parse", "--short", "HEAD"]
     done = subprocess.run(asked, cwd=Path(fctd.__file__).parent, capture_output=True, text=True)
     assert versions().get("commit", "") == done.stdout.strip()
+
+
+@pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed")
+def test_the_commit_of_another_checkout_is_not_ours(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of one that a hook of git names, and of one in whose folder an environment of Python lies."""
+    ours = versions().get("commit")
+    for command in (["init", "-q"], [*WHO, "commit", "-q", "--allow-empty", "-m", "theirs"]):
+        subprocess.run(["git", "-C", str(tmp_path), *command], check=True)
+    with monkeypatch.context() as hook:
+        hook.setenv("GIT_DIR", str(tmp_path / ".git"))
+        assert versions().get("commit") == ours
+    installed = tmp_path / "lib" / "fctd" / "store" / "origin.py"
+    installed.parent.mkdir(parents=True)
+    monkeypatch.setattr(origin, "__file__", str(installed))
+    assert "commit" not in versions()
 
 
 def test_versions_name_engine_language_and_libraries() -> None:

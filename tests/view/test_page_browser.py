@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -10,11 +11,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from fctd.view import still
 from fctd.view.page import save_view
 from fctd.view.quantities import QUANTITIES
 from fctd.view.scene import Look, panel_data, scene_data
 from fctd.view.still import open_browser, save_still
-from tests.browsers import needs_browser, opened, overflow, pixels
+from tests.browsers import at_rest, needs_browser, opened, overflow, pixels, until
+from tests.commands import HANG
 from tests.view.made import strings
 
 pytestmark = needs_browser
@@ -58,7 +61,7 @@ def page(view: Any) -> Any:
     view.select_option("#colour", "tension")
     times = Look(strings()).exaggeration
     view.evaluate("(times) => { fctd.shown.picked = NaN; fctd.shown.times = times; return fctd.show(6); }", times)
-    view.wait_for_timeout(300)
+    at_rest(view)
     return view
 
 
@@ -98,8 +101,7 @@ def test_the_string_is_where_it_lies_in_its_colours_and_moves_with_the_slider(pa
     for _ in range(6):  # keys move the slider
         page.keyboard.press("ArrowLeft")
     page.wait_for_function("document.getElementById('where').textContent.includes('400.0 m')")
-    page.wait_for_timeout(500)
-    assert seen_segments(page).mean() > 0.9
+    until(page, lambda: seen_segments(page).mean() > 0.9)
     assert len(page.evaluate(PROJECTED)) < len(last)
     # Where the deep string ended is nothing of its colour now.
     x, y, above, below = last[-3]
@@ -125,17 +127,19 @@ def test_the_page_computes_what_the_figure_does(page: Any) -> None:
     assert f"{one.touching.sum()} of {len(one.offset)} points touch" in words
 
 
+def differs(page: Any, before: NDArray[np.int16]) -> bool:
+    """Whether the pictures below the tools are others than before."""
+    return bool((pixels(page)[150:] != before[150:]).any())
+
+
 def test_colours_cameras_and_play_change_the_picture(page: Any) -> None:
     before = pixels(page)
     page.select_option("#colour", "clearance")
-    page.wait_for_timeout(500)
-    assert (pixels(page) != before).any()
+    until(page, partial(differs, page, before))
     for name in ("bit", "along", "well"):
         page.click(f"[data-view={name}]")
-        page.wait_for_timeout(700)
-        now = pixels(page)
-        assert (now[150:] != before[150:]).any(), name
-        before = now
+        until(page, partial(differs, page, before))
+        before = at_rest(page)
     page.fill("#times", "40")
     page.press("#times", "Enter")
     page.wait_for_function("document.getElementById('exaggerated').textContent === '40'")
@@ -152,9 +156,10 @@ def test_a_click_on_a_panel_picks_the_depth_in_the_scene(page: Any) -> None:
       const k = one.x.length >> 1;
       return [box.left + x._offset + x.d2p(one.x[k]), box.top + y._offset + y.d2p(one.y[k]), one.y[k]];
     }""")
+    page.evaluate("document.getElementById('panels').on('plotly_hover', () => { window.hovered = true; })")
     page.mouse.move(x + 8, y)
     page.mouse.move(x, y)
-    page.wait_for_timeout(300)
+    page.wait_for_function("window.hovered")
     page.mouse.click(x, y)
     page.wait_for_function("fctd.data.scene.find((trace) => trace.name === 'picked').x.length === 1")
     assert page.evaluate("fctd.shown.picked") == pytest.approx(md)
@@ -163,8 +168,8 @@ def test_a_click_on_a_panel_picks_the_depth_in_the_scene(page: Any) -> None:
 @pytest.mark.parametrize("width", [400, 1280, 1920])
 def test_nothing_is_wider_than_the_page_and_names_are_text(page: Any, width: int) -> None:
     page.set_viewport_size({"width": width, "height": 800})
-    page.wait_for_timeout(300)
-    assert overflow(page) <= 0
+    until(page, lambda: overflow(page) <= 0)
+    at_rest(page)
     assert page.locator("h1").inner_text() == "<a href='https://example.org'>well</a> & $x$"
     assert page.locator("a[href*=example]").count() == 0
     names = page.locator("#panels :is(.xtitle, .x2title, .x3title)").evaluate_all(
@@ -190,7 +195,8 @@ def test_a_page_without_webgl_says_so_and_is_not_taken_for_drawn(page_file: Path
         assert "no WebGL" in thread.submit(without_webgl, page_file).result()
 
 
-def test_a_still_picture_is_that_of_the_page(page_file: Path, tmp_path: Path) -> None:
+def test_a_still_picture_is_that_of_the_page(page_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(still, "LONGEST", HANG)
     (picture,) = save_still(page_file, tmp_path / "view.png", (900, 600))
     from PIL import Image
 

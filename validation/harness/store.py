@@ -14,7 +14,7 @@ from pyarrow import parquet
 from pydantic import TypeAdapter
 
 from fctd.store.limits import cores
-from fctd.store.origin import versions
+from fctd.store.origin import environment_of_git, versions
 from fctd.store.parquet import read_frame
 from fctd.store.whole_file import whole_file
 from fctd.store.whole_folder import whole_folder
@@ -104,7 +104,8 @@ def provenance() -> Provenance:
     """The code and the machine that this process runs on."""
     found = versions()
     commit = found.pop("commit", "unknown")  # outside a repository
-    if commit != "unknown" and subprocess.run(["git", "-C", str(ROOT), "diff", "--quiet", "HEAD"]).returncode:
+    asked = ["git", "-C", str(ROOT), "diff", "--quiet", "HEAD"]
+    if commit != "unknown" and subprocess.run(asked, env=environment_of_git()).returncode:
         commit += " with changes"
     return Provenance(commit, found, cpu_name(), cores())
 
