@@ -280,3 +280,12 @@ def test_without_any_folder_code_is_kept_in_memory(tmp_path: Path, monkeypatch: 
     with pytest.warns(CompileCacheWarning, match="there is no cache folder"):
         assert hits(store, twice, 3.0) == 0
     assert hits(store, twice, 3.0) == 0
+
+
+def test_where_a_warning_is_an_error_code_is_compiled_after_it(tmp_path: Path) -> None:
+    store = Store(tmp_path, "compiled code is not kept")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(CompileCacheWarning):
+            store.read("function")
+        assert store.read("function") is None
