@@ -23,15 +23,30 @@ FLAGS := $(if $(filter-out 0,$(QUICK)),--quick) $(if $(PERTURBED),--perturbed $(
 # The first of these that starts; a command may exist and fail to start.
 PYTHON ?= $(shell for p in python3.11 python3.12 python3.13 python3.14 python3; do $$p -c '' 2>/dev/null && { echo $$p; break; }; done)
 
+<<<<<<< HEAD
 .PHONY: reproduce test bench docs lint bullet rivals next-numba lowest clean
+=======
+# Said before the work begins; minutes on two free cores, as in the README.
+SET_UP_TAKES := 2
+TESTS_TAKE := $(if $(filter 0,$(BROWSER)),5,8)
+STUDIES_TAKE := $(if $(FLAGS),3,10)
+>>>>>>> h_ci
 
-reproduce: $(STAMP)
+.PHONY: reproduce test bench docs lint bullet rivals next-numba clean say-tests say-studies
+
+say-tests:
+	@echo "tests: about $(TESTS_TAKE) minutes on two cores"
+
+say-studies:
+	@echo "studies and report: about $(STUDIES_TAKE) minutes on two cores"
+
+reproduce: say-studies $(STAMP)
 	@status=0; $(BIN)/python -m validation --reproduce $(FLAGS) || status=$$?; \
 	if [ $$status -le 1 ]; then $(BIN)/python -m reports || status=1; fi; exit $$status
 
 # Without compiled files, each process would compile the tests and the suite anew.
 test: export PYTHONDONTWRITEBYTECODE :=
-test: $(STAMP)
+test: say-tests $(STAMP)
 	$(BIN)/python -m pytest --numprocesses=2 --dist=worksteal
 ifneq ($(BROWSER),0)
 	$(BIN)/python -m pytest -m browser -q tests
@@ -55,6 +70,7 @@ $(STAMP): requirements.lock pyproject.toml
 	@[ -n "$(PYTHON)" ] || { echo "error: no python3 found; Python 3.11 to 3.14 is needed" >&2; exit 1; }
 	@$(PYTHON) -c 'import sys; v = sys.version_info; \
 	sys.exit(None if (3, 11) <= v < (3, 15) else "error: Python 3.11 to 3.14 is needed; $(PYTHON) is %d.%d (make PYTHON=... names another)" % v[:2])'
+	@echo "set-up first: about $(SET_UP_TAKES) minutes on two cores, and the download"
 	$(PYTHON) -m venv .venv
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --only-binary=:all: -r requirements.lock
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .

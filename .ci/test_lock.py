@@ -1,6 +1,7 @@
-"""Set-up: the locks against pyproject.toml and rivals, their check for every Python, the message for another one."""
+"""Set-up: the locks against pyproject.toml and rivals, their check for every Python, and what make says."""
 
 import importlib.util
+import re
 import shutil
 import subprocess
 import sys
@@ -119,3 +120,38 @@ def test_set_up_with_another_python_is_one_clear_message(version: tuple[int, int
     assert "error: Python 3.11 to 3.14 is needed" in done.stderr
     assert f"is {version[0]}.{version[1]} (make PYTHON=... names another)" in done.stderr
     assert not (tmp_path / ".venv").exists()
+
+
+@pytest.mark.parametrize(
+    ("command", "said", "in_the_readme"),
+    [
+        (("test",), "tests: about {} minutes", r"The tests take (\d+) minutes"),
+        (("test", "BROWSER=0"), "tests: about {} minutes", r"\(`BROWSER=0`: (\d+)\)"),
+        (("reproduce",), "studies and report: about {} minutes", r"studies and report (\d+) minutes"),
+        (("reproduce", "QUICK=1"), "studies and report: about {} minutes", r"\(`QUICK=1`: (\d+)\)"),
+    ],
+    ids=" ".join,
+)
+def test_make_says_how_long_it_takes_before_it_begins(
+    command: tuple[str, ...], said: str, in_the_readme: str, tmp_path: Path
+) -> None:
+    """The numbers are those of the README; set-up is named only where it is needed."""
+    if shutil.which("make") is None:
+        pytest.skip("make is not installed")
+    for name in ("Makefile", "requirements.lock", "pyproject.toml"):
+        shutil.copy(ROOT / name, tmp_path)
+    python = tmp_path / "python"
+    python.write_text('#!/bin/sh\necho "works: $*"\n[ "$2" != venv ] || { mkdir -p .venv/bin && cp "$0" .venv/bin; }\n')
+    python.chmod(0o755)
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    minutes = re.search(in_the_readme, readme)
+    set_up = re.search(r"set-up takes (\d+) minutes", readme)
+    assert minutes
+    assert set_up
+    expected = [f"set-up first: about {set_up[1]} minutes", said.format(minutes[1])]
+    for first in (True, False):
+        text = subprocess.run(
+            ["make", f"PYTHON={python}", *command], cwd=tmp_path, capture_output=True, text=True, check=True
+        ).stdout
+        before = text[: text.index("works: -m")]
+        assert [each in before for each in expected] == [first, True]

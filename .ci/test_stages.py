@@ -1,7 +1,8 @@
-"""Stages of .ci/run: one above its share of the time is named, and one that fails ends all, also beside another."""
+"""Stages of .ci/run: one above its share of the time is named, one that fails ends all, and skipped tests are known."""
 
 import re
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -44,19 +45,40 @@ def test_two_stages_beside_each_other_are_told_one_after_the_other(tmp_path: Pat
     assert sorted(re.findall(r"^above its share: (\w+), 6\d s of", text, re.MULTILINE)) == ["one", "three"]
 
 
-def test_a_python_that_is_not_there_is_said(tmp_path: Path) -> None:
-    """Without a later Python the stage says that it was not run; with one, the two commands run in a clone."""
-    for name in ("git", "make"):
-        (tmp_path / name).write_text(f'#!/bin/sh\necho "{name} $*"\n')
-        (tmp_path / name).chmod(0o755)
-    code, text = said(tmp_path, f"PATH={tmp_path}", "stage 'later' 240 later")
-    assert (code, "not run: neither python3.13 nor python3.14 is found" in text) == (0, True)
-    (tmp_path / "python3.13").write_text("#!/bin/sh\necho Python\n")
-    (tmp_path / "python3.13").chmod(0o755)
-    code, text = said(tmp_path, f"PATH={tmp_path}:/usr/bin:/bin", "later")
-    assert code == 0
-    assert "BROWSER=0 test" in text
-    assert "QUICK=1 reproduce" in text
+TESTS = """
+import pytest
+
+@pytest.mark.parametrize("name", ["a b.csv"])
+def test_data(name): pytest.skip("no data - none at all")
+
+def test_pages(): pytest.skip("no pages")
+
+def test_all(): pass
+"""
+
+
+@pytest.mark.parametrize(
+    ("named", "code"),
+    [
+        (["test_them.py::test_data[a b.csv]", "test_them.py::test_pages"], 0),
+        (["test_them.py::test_pages"], 1),
+        (["test_them.py::test_data[a b.csv]", "test_them.py::test_gone", "test_them.py::test_pages"], 1),
+    ],
+    ids=["equal", "one more skipped", "one more named"],
+)
+def test_skipped_tests_are_those_of_a_list(named: list[str], code: int, tmp_path: Path) -> None:
+    """As pytest itself names them."""
+    (tmp_path / "test_them.py").write_text(TESTS)
+    (tmp_path / "named").write_text("".join(f"{each}\n" for each in named))
+    log = f"{sys.executable} -m pytest -c /dev/null --rootdir=. -rs --no-fold-skipped test_them.py >log"
+    found, text = said(tmp_path, log, "skipped_are named log")
+    assert (found, text.count("test_them.py::")) == (code, code)
+
+
+def test_a_skipped_test_is_an_error(tmp_path: Path) -> None:
+    (tmp_path / "test_them.py").write_text(TESTS)
+    tests = f"none_skipped {sys.executable} -m pytest -c /dev/null --rootdir=. -q test_them.py"
+    assert [said(tmp_path, f"{tests}{which}")[0] for which in ("::test_all", "::test_pages", "")] == [0, 1, 1]
 
 
 @pytest.mark.parametrize("pair", ["one broken", "broken one"])

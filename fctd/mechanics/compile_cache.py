@@ -63,9 +63,9 @@ class Store:
 
     def read(self, name: str) -> bytes | None:
         """The data stored under a name; None where there is none or its file is unusable."""
-        if self._trouble:
-            _warn(self._trouble)
-            self._trouble = ""
+        trouble, self._trouble = self._trouble, ""
+        if trouble:  # once, also where a warning is an error
+            _warn(trouble)
         if self.folder is None:
             return None
         path = self.folder / name
