@@ -9,13 +9,14 @@ import jinja2
 from markupsafe import Markup, escape
 
 from fctd.store.whole_folder import whole_folder
-from reports import chapters, results, wells, which_contact, words
+from reports import chapters, results, rounding, wells, which_contact, words
 from reports.claims import LOOKS, judged
 from reports.figures import Tables
 from reports.figures.judged import WELLS
 from reports.figures.leading import LEADING, SHOWN
 from reports.sections import Picture, Section, anchor, section_of
 from validation.claims.ledger import CLAIMS
+from validation.harness.sensitivity import REASONS
 
 TEMPLATES = Path(__file__).parent / "templates"
 LONG_CELL = 40  # letters of a text in a table that is broken into lines
@@ -31,7 +32,8 @@ def render(
 ) -> list[str]:
     """Write the pages, ``figures`` and ``results.json`` into a folder; return what is missing.
 
-    Pages: ``index.html``, ``claims.html``, ``wells.html``, ``which_contact.html`` and those of ``studies``.
+    Pages: ``index.html``, ``claims.html``, ``wells.html``, ``which_contact.html``, ``rounding.html`` and those of
+    ``studies``.
 
     A folder of that name is replaced at the end, as a whole: an interruption leaves the pages before.
 
@@ -84,11 +86,13 @@ def _render(
         "absent": [section for section in sections.values() if section.absent],
         "machine": _machine(sections),
         "which": which_contact.table(stored),
+        "rounding": rounding.page_of(stored, REASONS),
     }
     _write_pages(out, given)
     results.write(sections.values(), claims, out)
     problems = [f"{section.study}: {problem}" for section in sections.values() for problem in section.problems]
-    return ([f"claims: {claims.problem}"] if claims.problem else []) + problems
+    whole = {"claims": claims.problem, "rounding": given["rounding"].problem}
+    return [f"{name}: {problem}" for name, problem in whole.items() if problem] + problems
 
 
 def _write_pages(out: Path, given: Mapping[str, Any]) -> None:
@@ -117,6 +121,7 @@ def _write_pages(out: Path, given: Mapping[str, Any]) -> None:
     write("claims.html", "claims.html")
     write("wells.html", "wells.html")
     write("which_contact.html", "which_contact.html")
+    write("rounding.html", "rounding.html")
     for section in given["sections"].values():
         write("study.html", f"studies/{section.study}.html", section=section)
 

@@ -11,18 +11,21 @@ from fctd.case.solver import PERTURBED
 from fctd.case.text import degrade_output, printable_lines
 from fctd.cli.interrupts import as_interrupts
 from validation.claims import judgement, ledger
-from validation.harness import fingerprint, runner, side_by_side, study, targets, variation
+from validation.harness import fingerprint, runner, sensitivity, side_by_side, study, targets, variation
 from validation.harness.registry import RIVALS, STUDIES
 from validation.harness.variation import Variation
 
-CLAIMS = "claims"  # No study: it judges by what the studies have stored.
+# No studies: they judge by what the studies have stored.
+CLAIMS, SENSITIVE = "claims", "sensitive"
 
 app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
 
 
 @app.command()
 def main(
-    names: Annotated[list[str] | None, typer.Argument(metavar="[NAME]...", help="Studies to run, or claims.")] = None,
+    names: Annotated[
+        list[str] | None, typer.Argument(metavar="[NAME]...", help="Studies to run, claims, sensitive.")
+    ] = None,
     show: Annotated[bool, typer.Option("--list", help="List the studies and their questions.")] = False,
     every: Annotated[bool, typer.Option("--all", help="Run every study but those of rivals.")] = False,
     rivals: Annotated[bool, typer.Option("--rivals", help="Run the studies of rivals; see make rivals.")] = False,
@@ -46,24 +49,27 @@ def main(
     judged by the stored results.
 
     --perturbed and --target show what hangs on rounding. Their results lie apart, in validation/results/.perturbed/,
-    and replace no plain one; their times are not judged.
+    and replace no plain one; their times are not judged. The name sensitive lists the numbers that move by more than a
+    tenth of their tolerance.
 
     Exit code 0: each check as recorded in expected.toml or better, each verdict as recorded in claims.toml. 1: worse
-    than recorded, another verdict, or a study failed. 2: bad usage. 130: interrupted; finished studies are kept.
+    than recorded, another verdict, or a study failed; a verdict that changes with rounding, and sensitive.toml does not
+    say why. 2: bad usage. 130: interrupted; finished studies are kept.
     """
     if show:
         for name in STUDIES:
             typer.echo(printable_lines(_line(name)))
         typer.echo(f"{CLAIMS:<20} Which claims of the paper hold, by how much, and within which limits?  [reproduce]")
+        typer.echo(f"{SENSITIVE:<20} Which numbers hang on rounding, by how much, and why?")
         return
     names = names or []
-    claims = every or reproduce or CLAIMS in names
+    claims, sensitive = every or reproduce or CLAIMS in names, SENSITIVE in names
     try:
         sources = fingerprint.Sources()  # before any study is imported: a later edit is repeated by the next run
-        chosen = choose([name for name in names if name != CLAIMS], every, reproduce, rivals)
-        if not chosen and not claims:
+        chosen = choose([name for name in names if name not in (CLAIMS, SENSITIVE)], every, reproduce, rivals)
+        if not chosen and not claims and not sensitive:
             raise runner.UsageError("nothing to run: name a study, or use --all, --rivals, --reproduce or --list")
-        expected = runner.read_expected(runner.EXPECTED)
+        expected, reasons = runner.read_expected(runner.EXPECTED), sensitivity.read_reasons(sensitivity.REASONS)
         asked = variations(perturbed, draws, target)
         if target is not None and (why := targets.lacking(target)):
             typer.echo(f"{target}: skipped: {why}")
@@ -72,14 +78,16 @@ def main(
     except (runner.UsageError, SourceSyntaxError) as error:
         typer.echo(printable_lines(f"error: {error}"), err=True)
         raise typer.Exit(2) from error
-    if len(asked) > 1 or not asked[0].is_here:
-        flags = {"--all": every, "--rivals": rivals, "--reproduce": reproduce, "--quick": quick, "--force": force}
-        raise typer.Exit(variation.in_processes(asked, [*names, *(flag for flag, given in flags.items() if given)]))
     console, code, results = Console(), 0, asked[0].folder(study.RESULTS)
-    if asked[0].label:
+    apart = (chosen or claims) and (len(asked) > 1 or not asked[0].is_here)
+    if apart:
+        flags = {"--all": every, "--rivals": rivals, "--reproduce": reproduce, "--quick": quick, "--force": force}
+        given = [*(name for name in names if name != SENSITIVE), *(flag for flag, there in flags.items() if there)]
+        code = variation.in_processes(asked, given)
+    elif asked[0].label:
         typer.echo(f"{asked[0].label}:")
     try:
-        if chosen:
+        if chosen and not apart:
             code = runner.run_all(
                 chosen,
                 quick=quick,
@@ -95,8 +103,10 @@ def main(
     except InputError as error:  # of the results folder: what a study fails at is its own result
         typer.echo(printable_lines(f"error: {error}"), err=True)
         raise typer.Exit(2) from error
-    if claims and code != runner.INTERRUPTED:
+    if claims and not apart and code != runner.INTERRUPTED:
         code = max(code, judgement.run(results, console, ledger.CLAIMS))
+    if sensitive and code != runner.INTERRUPTED:
+        code = max(code, sensitivity.tell(sensitivity.moved(study.RESULTS, reasons), reasons, console))
     raise typer.Exit(code)
 
 

@@ -37,8 +37,10 @@ def twelve_rows(case: Case) -> tuple[pd.DataFrame, list[Check]]:
     table = table.assign(strings_solved=max(solved), fit_s=fitted - begun, whole_s=ended - begun)
     source = "a target of this project; processor time"
     return table, [
-        Check("scatter: fit of twelve rows of two assemblies", fitted - begun, FIT, "at_most", "s", source),
-        Check("scatter: with intervals and each day left out", ended - begun, WHOLE, "at_most", "s", source),
+        Check("scatter: fit of twelve rows of two assemblies", fitted - begun, FIT, "at_most", "s", source, timed=True),
+        Check(
+            "scatter: with intervals and each day left out", ended - begun, WHOLE, "at_most", "s", source, timed=True
+        ),
     ]
 
 

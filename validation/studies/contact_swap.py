@@ -196,7 +196,7 @@ def run(context: Context) -> Outcome:
     }
     checks = [
         Check("cost of a step with cylinders over one without contact", _ratio(cost, "cylinders, compiled"), 2.0,
-              "at_most", "", "target: contact costs no more than the rest of the step"),
+              "at_most", "", "target: contact costs no more than the rest of the step", timed=True),
         Check("Σ rμF_n rotating, every method against the engine's own cylinders, largest difference",
               float(tables["torques"]["sum_difference_percent"].abs().max()), 2.0, "at_most", "%",
               f"facets: {wedge(FACETS):.1f} %; a mean over a few seconds keeps some of the swing"),
@@ -230,9 +230,9 @@ def fcl_checks(cost: pd.DataFrame, windows: pd.DataFrame) -> list[Check]:
     difference = windows.loc[windows["bit_depth_m"] > 1900, "difference_percent"].abs()
     return [
         Check("FCL contact over cylinders, a step of 60 segments", cheapest / _ratio(cost, "cylinders, compiled"), 10.0,
-              "at_least", "", "claim of the paper: FCTD contact is cheaper than geometry-based contact"),
+              "at_least", "", "claim of the paper: FCTD contact is cheaper than geometry-based contact", timed=True),
         Check("FCL contact over cylinders, both called from Python", cheapest / _ratio(cost, "cylinders, from Python"),
-              10.0, "at_least", "", "the same claim where both are called from Python"),
+              10.0, "at_least", "", "the same claim where both are called from Python", timed=True),
         Check("Σ rμF_n tripping in, FCL against FCTD below 1900 m, largest difference", float(difference.max()),
               2.0, "at_most", "%", f"facets: {wedge(FACETS):.1f} %; means over a few seconds keep some of the swing"),
     ]  # fmt: skip

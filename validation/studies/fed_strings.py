@@ -146,12 +146,12 @@ def _checks(tables: dict[str, pd.DataFrame]) -> list[Check]:
               "except where a string needs more segments than it may have"),
         Check("rows whose resolving runs out of its work", float(rows["lacks_work"].sum()), 0, "at_most", "",
               "an answer on segments that follow the waves"),
-        Check("slowest row", float(rows["seconds"].max()), 6.0, "at_most", "s", "processor time"),
-        Check("median row", float(rows["seconds"].median()), 1.0, "at_most", "s", "processor time"),
+        Check("slowest row", float(rows["seconds"].max()), 6.0, "at_most", "s", "processor time", timed=True),
+        Check("median row", float(rows["seconds"].median()), 1.0, "at_most", "s", "processor time", timed=True),
     ]  # fmt: skip
     if "chart" in tables:
         checks.append(Check("row of a chart", float(tables["chart"]["seconds_a_row"].iloc[0]), 1.0, "at_most", "s",
-                            f"processor time over the rows of {CHART} depths"))  # fmt: skip
+                            f"processor time over the rows of {CHART} depths", timed=True))  # fmt: skip
     if len(of := tables.get("thresholds", pd.DataFrame())):
         checks.append(Check("strings that another threshold of lock-up changes", float(of["changes"].sum()), 1.0,
                             "at_most", "", f"of {len(of)}, half and twice {100 * ARRIVING:g} %"))  # fmt: skip

@@ -221,9 +221,9 @@ def again(context: Context, well: Well, judged: str) -> tuple[dict[str, pd.DataF
         Check("frozen values against the fit repeated, largest difference", float(table["difference_sd"].max()), 0.1,
               "at_most", "standard deviations", "the digits of the file, and the last digits of another machine"),
         Check("processor time of a fit of twelve rows with two assemblies", first, FIT_TIME, "at_most", "s",
-              "a target of this project"),
+              "a target of this project", timed=True),
         Check("the same with intervals and every day left out", both, ALL_TIME, "at_most", "s",
-              "a target of this project"),
+              "a target of this project", timed=True),
     ]  # fmt: skip
 
 

@@ -103,11 +103,11 @@ def run(context: Context) -> Outcome:
                   connection(float(whole["took_per_m_s"])), CONNECTION, "at_most", "s",
                   "§7: faster than real time; a connection takes some three minutes"),
             Check("real-time factor of the engine, 1750 to 2250 m at 0.5 m/s", float(ours["real_time_factor"].iloc[0]),
-                  1.0, "at_least", "", "§7: faster than real time"),
+                  1.0, "at_least", "", "§7: faster than real time", timed=True),
             Check("the paper's time per metre with contact over that without", float(papers_ratio), 2.0, "at_most", "",
                   "§1: minimal effort; contact that costs no more than the rest of the step"),
             Check("the engine's time per metre with contact over that without", float(our_ratio), 2.0, "at_most", "",
-                  "§1: minimal effort; contact that costs no more than the rest of the step"),
+                  "§1: minimal effort; contact that costs no more than the rest of the step", timed=True),
         ],
         notes=[
             "The paper prints neither tripping speed nor step. Four hours for 2250 m are real time up to 0.16 m/s, "

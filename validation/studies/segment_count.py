@@ -332,12 +332,13 @@ def _checks(
         Check("torque of the references, largest uncertainty", float(counts["torque_doubt_percent"].max()), 0.02,
               "at_most", "%", "a fifth of the smallest error limit, 0.1 %"),
         Check("cost of a steady string, largest exponent", float(laws.loc[laws["cost_of"] == STEADY, "exponent"].max()),
-              1.5, "at_most", "", "theory: linear per iteration, and the number of iterations grows slowly"),
+              1.5, "at_most", "", "theory: linear per iteration, and the number of iterations grows slowly",
+              timed=True),
         *(
             Check(f"cost of {what} when the segments double, largest growth",
                   float(laws.loc[laws["cost_of"] == what, "growth_when_doubled"].max()), 1.5 * theory, "at_most", "",
                   f"theory: {theory}, with a margin of 1.5 for a busy machine; §5.6 speaks of an exponential "
-                  "increase, which would square its growth with every doubling")
+                  "increase, which would square its growth with every doubling", timed=True)
             for what, theory in ((ITERATION, 2), (STEP, 2), (SECOND, 4))
         ),
         Check("torque of cylinders that miss the hole by less than the clearance, largest error",

@@ -287,7 +287,7 @@ def run(context: Context) -> Outcome:
         Check("overpull with a static factor of three times the kinetic one, over μ_s Δp b L",
               float(pulls["share"].iloc[-1]), 0.9, "at_most", "", "the interval frees from the top"),
         Check("step with friction that sticks, over one with law coulomb, largest", float(spent["over_coulomb"].max()),
-              1.2, "at_most", "", "target of this project; least of windows that alternate"),
+              1.2, "at_most", "", "target of this project; least of windows that alternate", timed=True),
         *(
             Check(f"wall of exponent 1.5, {name}", fallen[key], 0.5, "at_most", "%", "Hertz 1882, closed form")
             for name, key in (

@@ -66,12 +66,12 @@ def run(context: Context) -> Outcome:
               int(charts["different_rows"].sum()), 0, "at_most", "", "to the last bit"),
         *(
             Check(f"processor time of a depth in a chart of {DEPTHS} depths, {segments} segments", taken, most,
-                  "at_most", "ms", "target")
+                  "at_most", "ms", "target", timed=True)
             for segments, taken, most in zip((61, 500), charts["depth_ms"], (0.3, 3.0), strict=True)
         ),
         *(
             Check(f"two threads over one in a chart of {DEPTHS} depths, {segments} segments", ratio, 1.8,
-                  "at_least", "", "target; least times on the wall")
+                  "at_least", "", "target; least times on the wall", timed=True)
             for segments, ratio in zip((61, 500), charts["two_threads_over_one"], strict=True)
         ),
         Check("position spread of a straight well, largest difference",

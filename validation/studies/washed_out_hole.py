@@ -177,7 +177,7 @@ def _checks(tables: dict[str, pd.DataFrame], quick: bool) -> list[Check]:
               float(spots["error_of_circle_mm"].max() / spots["error_mm"].max()), 3.0, "at_least", "",
               "what a circle leaves out"),
         Check("time of a point, in order along the hole", float(tables["point"]["ns"].iloc[0]), 50.0, "at_most", "ns",
-              "a target of this project"),
+              "a target of this project", timed=True),
     ]  # fmt: skip
     if quick:
         return checks
