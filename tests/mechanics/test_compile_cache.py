@@ -281,7 +281,6 @@ def test_without_any_folder_code_is_kept_in_memory(tmp_path: Path, monkeypatch: 
     assert hits(store, twice, 3.0) == 0
 
 
-<<<<<<< HEAD
 def test_code_for_another_processor_is_another_file(store: Store, file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The name of a processor alone says nothing of the instructions that are switched off."""
     codegen = cpu_target.target_context.codegen()
@@ -294,7 +293,8 @@ def test_code_for_another_processor_is_another_file(store: Store, file: Path, mo
     assert len(list(file.parent.iterdir())) == 2
     monkeypatch.setattr(numba.config, "CPU_NAME", "x86-64-v2")
     assert hits(store, twice, 3.0) == 0
-=======
+
+
 def test_where_a_warning_is_an_error_code_is_compiled_after_it(tmp_path: Path) -> None:
     store = Store(tmp_path, "compiled code is not kept")
     with warnings.catch_warnings():
@@ -302,4 +302,3 @@ def test_where_a_warning_is_an_error_code_is_compiled_after_it(tmp_path: Path) -
         with pytest.raises(CompileCacheWarning):
             store.read("function")
         assert store.read("function") is None
->>>>>>> h_ci
