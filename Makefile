@@ -23,16 +23,12 @@ FLAGS := $(if $(filter-out 0,$(QUICK)),--quick) $(if $(PERTURBED),--perturbed $(
 # The first of these that starts; a command may exist and fail to start.
 PYTHON ?= $(shell for p in python3.11 python3.12 python3.13 python3.14 python3; do $$p -c '' 2>/dev/null && { echo $$p; break; }; done)
 
-<<<<<<< HEAD
-.PHONY: reproduce test bench docs lint bullet rivals next-numba lowest clean
-=======
 # Said before the work begins; minutes on two free cores, as in the README.
 SET_UP_TAKES := 2
 TESTS_TAKE := $(if $(filter 0,$(BROWSER)),5,8)
-STUDIES_TAKE := $(if $(FLAGS),3,10)
->>>>>>> h_ci
+STUDIES_TAKE := $(if $(filter-out 0,$(QUICK)),3,10)
 
-.PHONY: reproduce test bench docs lint bullet rivals next-numba clean say-tests say-studies
+.PHONY: reproduce test bench docs lint bullet rivals next-numba lowest clean say-tests say-studies
 
 say-tests:
 	@echo "tests: about $(TESTS_TAKE) minutes on two cores"
