@@ -14,6 +14,7 @@ from benchmarks.measure import ROOT, Costs, ratios
 from benchmarks.subjects import REFERENCE
 from benchmarks.worker import reference_digest, sources_digest
 from fctd.case.errors import MISSING, InputError
+from fctd.store.origin import environment_of_git
 from references.timing.stopwatch import cpu_name, machine
 
 # Packages that compile the sources to machine code.
@@ -161,7 +162,7 @@ def uncommitted() -> str:
     try:
         done = subprocess.run(
             ["git", "-C", str(ROOT), "status", "--porcelain", "--", "fctd", "references", "benchmarks/*.py"],
-            capture_output=True, text=True, check=True,
+            capture_output=True, text=True, check=True, env=environment_of_git(),
         )  # fmt: skip
     except (OSError, subprocess.SubprocessError):
         raise InputError("a checkout with its history: a record names its commit", key="git") from None

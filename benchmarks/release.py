@@ -7,6 +7,7 @@ from pathlib import Path
 
 from benchmarks.history import Record, sources_of
 from benchmarks.measure import ROOT, cache
+from fctd.store.origin import environment_of_git
 
 # Folders of a release that a worker needs.
 FOLDERS = ("fctd", "references", "benchmarks", "validation/cases")
@@ -49,7 +50,8 @@ def check_out(record: Record, file: Path, root: Path = ROOT) -> Path:
 
 def _git(root: Path, *arguments: str) -> bytes:
     try:
-        return subprocess.run(["git", "-C", str(root), *arguments], capture_output=True, check=True).stdout
+        asked = ["git", "-C", str(root), *arguments]
+        return subprocess.run(asked, capture_output=True, check=True, env=environment_of_git()).stdout
     except FileNotFoundError:
         raise NoSourcesError("git is not installed") from None
     except subprocess.CalledProcessError as failure:

@@ -17,6 +17,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from fctd.view import still
 from fctd.view.still import browser_path, open_browser
 from tests.commands import HANG
 
@@ -60,7 +61,9 @@ _SHARED = ExitStack()
 @cache
 def shared() -> Browser:
     """The browser of all tests, which takes seconds to start; ``close`` ends it."""
-    return _SHARED.enter_context(open_browser())
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(still, "LONGEST", HANG)
+        return _SHARED.enter_context(open_browser())
 
 
 def close() -> None:

@@ -1,8 +1,8 @@
 """What a machine has: processors, disk, and limits of time and memory at which a run ends and keeps what it has."""
 
 import os
+import platform
 import shutil
-import sys
 from dataclasses import dataclass, field
 from math import ceil
 from pathlib import Path
@@ -53,7 +53,7 @@ def resident_memory() -> int:
 
     Its largest, ``ru_maxrss``, is of no use: Linux hands that of a parent down to the program that it starts.
     """
-    if sys.platform == "linux":
+    if platform.system() == "Linux":
         return int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1]) * os.sysconf("SC_PAGE_SIZE")
     import psutil
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 NAMES: Final = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
 VARIABLE: Final = "FCTD_BROWSER"  # names a browser that lies elsewhere
 SIZE: Final = (1280, 800)  # of a still picture [px]
-LONGEST: Final = 60.0  # until a page is drawn [s]
+LONGEST: Final = 60.0  # until a browser has begun, a page is there, or is drawn [s]
 # WebGL without a graphics card.
 SOFTWARE: Final = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 
@@ -51,7 +51,9 @@ def open_browser(*flags: str, key: str = "") -> Iterator["Browser"]:
     # Chromium refuses to sandbox pages of root.
     sandbox = ("--no-sandbox",) if os.name == "posix" and os.geteuid() == 0 else ()
     with sync_playwright() as player:
-        browser = player.chromium.launch(executable_path=path, args=[*SOFTWARE, *sandbox, *flags])
+        browser = player.chromium.launch(
+            executable_path=path, args=[*SOFTWARE, *sandbox, *flags], timeout=1e3 * LONGEST
+        )
         try:
             yield browser
         finally:
@@ -77,9 +79,10 @@ def _photograph(page_file: Path, size: tuple[int, int]) -> bytes:
         from playwright.sync_api import Error
 
         page = browser.new_page(viewport={"width": size[0], "height": size[1]})
+        page.set_default_timeout(1e3 * LONGEST)
         try:
             page.goto(page_file.resolve().as_uri())
-            page.wait_for_function("document.documentElement.dataset.ready === 'yes'", timeout=1e3 * LONGEST)
+            page.wait_for_function("document.documentElement.dataset.ready === 'yes'")
             return page.screenshot()
         except Error as error:
             expected = f"a browser that draws the page ({error.message.splitlines()[0]})"

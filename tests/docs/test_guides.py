@@ -20,10 +20,12 @@ from fctd.model.operations import rad_per_s, steady_rates
 from fctd.results.notes import MEANINGS
 from fctd.sweep.run import prepare
 from fctd.sweep.spec import read_sweep
+from fctd.view import still
 from references import __main__ as references
 from reports import figures
 from tests.browsers import needs_browser
 from tests.case import survey_files
+from tests.commands import HANG
 from validation.harness.registry import STUDIES
 
 ROOT = Path(__file__).parents[2]
@@ -114,6 +116,7 @@ def checkout(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     for folder in ("examples", "validation"):
         (tmp_path / folder).symlink_to(ROOT / folder)
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(still, "LONGEST", HANG)
     return tmp_path
 
 

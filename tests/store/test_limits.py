@@ -1,8 +1,8 @@
 """What a machine has: processors, time and memory, and what is said where they are spent."""
 
 import os
+import platform
 import shutil
-import sys
 from collections.abc import Iterator
 from multiprocessing import get_all_start_methods, get_context
 from pathlib import Path
@@ -69,7 +69,7 @@ def test_every_system_says_how_much_memory_a_process_holds(monkeypatch: pytest.M
     pytest.importorskip("psutil")
     here = resident_memory()
     assert 2e7 < here < 1e12  # bytes, not kilobytes
-    monkeypatch.setattr(sys, "platform", "darwin")
+    monkeypatch.setattr(platform, "system", lambda: "Darwin")
     assert resident_memory() == pytest.approx(here, rel=0.3)
 
 

@@ -16,7 +16,7 @@ from fctd.view.page import save_view
 from fctd.view.quantities import QUANTITIES
 from fctd.view.scene import Look, panel_data, scene_data
 from fctd.view.still import open_browser, save_still
-from tests.browsers import at_rest, needs_browser, opened, overflow, pixels, until
+from tests.browsers import LONGEST, at_rest, needs_browser, opened, overflow, pixels, until
 from tests.commands import HANG
 from tests.view.made import strings
 
@@ -183,6 +183,7 @@ def without_webgl(path: Path) -> str:
     """What the page says in a browser that has none, after it has failed to be ready."""
     with open_browser("--disable-gpu", "--disable-3d-apis") as found:
         page = found.new_page()
+        page.set_default_timeout(LONGEST)
         page.goto(path.resolve().as_uri())
         page.wait_for_function("!document.getElementById('fault').hidden")
         with pytest.raises(AssertionError, match="no WebGL"):
@@ -190,7 +191,10 @@ def without_webgl(path: Path) -> str:
         return str(page.locator("#fault").inner_text())
 
 
-def test_a_page_without_webgl_says_so_and_is_not_taken_for_drawn(page_file: Path) -> None:
+def test_a_page_without_webgl_says_so_and_is_not_taken_for_drawn(
+    page_file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(still, "LONGEST", HANG)
     with ThreadPoolExecutor(1) as thread:  # playwright allows one browser process a thread
         assert "no WebGL" in thread.submit(without_webgl, page_file).result()
 
