@@ -1,0 +1,60 @@
+"""The same numbers everywhere: loads of the examples in other processes, and as compiled for other processors.
+
+What is the same to the last bit on one machine is held where it is made: rows on threads and alone
+(``tests/steady/test_torque_drag.py``, ``test_laid_string.py``), sweeps (``tests/sweep/test_run.py``), and runs that go
+on (``tests/store/test_saver.py``).
+"""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests import same_numbers
+from tests.same_numbers import LOADS
+from validation.harness import targets
+
+ROOT = Path(__file__).parents[1]
+# Relative to the largest of a chart or a run: what docs/conventions.md says.
+STEADY, IN_TIME = 1e-9, 1e-9
+
+
+@pytest.fixture(scope="module")
+def here() -> dict[str, list[dict[str, object]]]:
+    """The loads that this process finds."""
+    return same_numbers.loads()
+
+
+def elsewhere(environment: dict[str, str]) -> dict[str, list[dict[str, object]]]:
+    """The loads that a process with more variables finds."""
+    command = [sys.executable, "-m", "tests.same_numbers"]
+    done = subprocess.run(command, env=os.environ | environment, cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    found: dict[str, list[dict[str, object]]] = json.loads(done.stdout)
+    return found
+
+
+@pytest.mark.slow(seconds=60)
+def test_another_process_has_them_to_the_last_bit(here: dict[str, list[dict[str, object]]]) -> None:
+    assert json.dumps(elsewhere({})) == json.dumps(here)  # as text, where no number equals itself
+
+
+@pytest.mark.slow(seconds=150)
+@pytest.mark.parametrize("target", ["no-fma", "x86-64-v2"])
+def test_another_processor_has_them_to_the_stated_digits(target: str, here: dict[str, list[dict[str, object]]]) -> None:
+    if why := targets.lacking(target):
+        pytest.skip(f"{target}: {why}")
+    there = elsewhere(targets.environment(target))
+    assert there.keys() == here.keys()
+    for name, rows in here.items():
+        limit = IN_TIME if name == same_numbers.RUN else STEADY
+        assert [row.get("status") for row in rows] == [row.get("status") for row in there[name]]
+        for load in LOADS:
+            ours, theirs = (np.array([row[load] for row in each], float) for each in (rows, there[name]))
+            np.testing.assert_allclose(
+                theirs, ours, rtol=0, atol=limit * np.nanmax(np.abs(ours)), err_msg=f"{name} {load}"
+            )
