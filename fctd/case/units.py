@@ -286,7 +286,6 @@ def bare(value: object, key: str, noun: str) -> float:
 
 
 Bare = Annotated[float, Number(noun="a bare number")]
-Seed = Annotated[int, Whole(at_least=0, at_most=1e6)]
 SeveralCount = Annotated[int, Whole(at_least=2, at_most=1e6)]
 Count = Annotated[int, Whole(at_least=1, at_most=1e6)]  # far above state.MAX_SEGMENTS, whose check has a better message
 Seed = Annotated[int, Whole(at_least=0, at_most=2**32)]

@@ -10,13 +10,14 @@ from fctd.case.load import Case
 from fctd.model import perturbed
 from fctd.model.wellbore import build_wellbore
 from fctd.results import notes
+from fctd.steady import several_balances
 from fctd.steady.equilibrium import Solver
 from fctd.steady.steady_string import Equilibrium
 from fctd.sweep.spec import WorkSpec
 from fctd.sweep.work import WORK, task_of
 from tests.steady.buckled import level_case, with_tables
 
-KIND, LENGTH = "drill_sliding", 90.0
+KIND, LENGTH = "drill_sliding", 60.0
 
 
 def case_of(times_onset: float = 1.7, buckling: str = "feed", friction: float = 0.2, seed: int | None = None) -> Case:
@@ -34,13 +35,14 @@ def coarse_noise(monkeypatch: pytest.MonkeyPatch) -> None:
     """Noise that moves every row a little, and a bound that each of them exceeds, whatever the processor's rounding."""
     monkeypatch.setattr(perturbed, "SHARE", 1e-9)
     monkeypatch.setattr(notes, "HARDLY", 1e-12)
+    monkeypatch.setattr(several_balances, "SEEDS", (1,))
 
 
 def test_a_fed_helix_is_solved_again_and_other_rows_are_not() -> None:
     point = solved(case_of())
     assert (point.status, point.buckling.mode) == ("converged", "helical")
     assert point.draw is not None
-    others = case_of(1.2), case_of(buckling="resolve"), case_of(buckling="detect"), case_of(seed=3), case_of(friction=0)
+    others = case_of(1.2), case_of(buckling="resolve"), case_of(seed=3)
     assert [solved(case).draw for case in others] == [None] * len(others)
 
 
@@ -64,12 +66,9 @@ def test_chart_sweep_page_and_equilibrium_pick_one_balance_and_say_one_note() ->
     below = chart(case, KIND, [LENGTH - 10, LENGTH])
     charted, page = below.table.iloc[-1], Rows().solve(case, build_wellbore(case), [KIND], [LENGTH])[0]
     assert [found.text for found in below.notes if found.bit_depth == LENGTH] == [note.text]
-    swept = [
-        row_of(case, kind="chart", depths=f"{LENGTH} m"),
-        row_of(case, kind="equilibrium", bit_depth=f"{LENGTH} m"),
-    ]
-    assert [row["notes"] for row in (charted, *swept)] == ["several_balances"] * 3
-    assert {row["hookload_N"] for row in (charted, page, *swept)} == {alone.hookload}
+    swept = row_of(case, kind="equilibrium", bit_depth=f"{LENGTH} m")
+    assert (charted["notes"], swept["notes"]) == ("several_balances", "several_balances")
+    assert {row["hookload_N"] for row in (charted, page, swept)} == {alone.hookload}
 
 
 def row_of(case: Case, **spec: object) -> dict[str, Any]:
