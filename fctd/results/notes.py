@@ -5,7 +5,7 @@ well or that would damage the string.
 """
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, Final, NamedTuple
 
@@ -50,6 +50,10 @@ MEANINGS: Final = {
     "homogenised": Meaning(
         "the waves of the buckled string are homogenised: mean wall force and friction of the closed forms",
         "raise solver.resolve_work where the shape itself matters, or use smaller loads",
+    ),
+    "several_balances": Meaning(
+        "the buckled string has several balances, and rounding picks one",
+        'take the hook load as a range, or use solver.buckling = "resolve", which has one balance with more drag',
     ),
     "flow_law": Meaning(
         "the pull of the mud along the string is uncertain, since most of the stress at its walls is yield stress",
@@ -244,6 +248,23 @@ def homogenised(buckling: Buckling) -> Note:
         "may have, or finds no shape that slides"
     )
     return note_of("homogenised", text, 1.0, buckling.from_md)
+
+
+def several_balances(hookload: float, drawn: Sequence[float], weight: float) -> Note | None:
+    """A note on a string whose hook load [N] moves with rounding; None where it hardly does.
+
+    drawn : its hook loads with noise of the size of rounding, NaN without a balance; weight : of the string [N].
+    """
+    loads = [hookload, *(load for load in drawn if math.isfinite(load))]
+    low, high = min(loads), max(loads)
+    text = (
+        f"with noise of the size of rounding the hook load is {low / 1e3:.4g} to {high / 1e3:.4g} kN, "
+        f"{100 * (high - low) / weight:.2g} % of the string's weight apart"
+    )
+    if lost := len(drawn) + 1 - len(loads):
+        text += f", and {lost} of {len(drawn)} draws have no balance"
+        return note_of("several_balances", text, max(1.0, (high - low) / (HARDLY * weight)))
+    return note_beyond("several_balances", text, high - low, HARDLY * weight)
 
 
 def under_resolved(buckling: Buckling) -> Note | None:

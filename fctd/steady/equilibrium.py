@@ -4,7 +4,8 @@ The string slides or turns at constant rates while its shape stands still; the f
 (tangent.py).  Newton's method starts from the guess of a soft string (first_guess.py, continuation.py).
 """
 
-from functools import cached_property
+from dataclasses import replace
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -31,6 +32,7 @@ from fctd.steady.laws import Hole, hole_of
 from fctd.steady.lie import lie_of
 from fctd.steady.problem import Allowance, Problem, Workspace
 from fctd.steady.reading import SOLVED, Answer
+from fctd.steady.several_balances import draw, may_move
 from fctd.steady.steady_string import Equilibrium, steady_string
 
 
@@ -104,7 +106,12 @@ class Solver:
         The problem then has the pose of the answer, except for a resolved string, whose segments are others.
         above : the shapes of the row above, with which a resolved string begins.
         """
-        return look_for(Findings(self.case, problem, above, self.problem, self.answer))
+        so_far = Findings(self.case, problem, above, self.problem, self.answer)
+        point = look_for(so_far)
+        if not may_move(point, so_far):
+            return point
+        again = partial(_solved, problem.operation, problem.rates, problem.string.bit_depth)
+        return replace(point, draw=partial(draw, again, self.case))
 
     def problem(self, operation: str, rates: SteadyRates, laid: LaidString, cut: Case | None = None) -> Problem:
         """A laid-out string as a problem; cut : the case with other segments, of which it has been laid out."""
@@ -118,6 +125,10 @@ class Solver:
         return steady_string(
             self.case, self.hole, problem.operation, problem.rates, laid, answer, code, negative, method
         )
+
+
+def _solved(operation: str, rates: SteadyRates, bit_depth: float, case: Case) -> Equilibrium:
+    return Solver(case).solve(operation, rates, bit_depth)
 
 
 def equilibrium(

@@ -18,11 +18,12 @@ from fctd.arrays import Array
 from fctd.mechanics import state
 from fctd.mechanics.rotations import rotation_columns
 from fctd.steady.carried_shape import CarriedShape
-from fctd.steady.climb import SOUND_PUSH, creep_of
+from fctd.steady.climb import SLOW_MODE_STEP, SOUND_PUSH, creep_of
 from fctd.steady.continuation import CONVERGED
 from fctd.steady.held_friction import ALONG_THEN, MEMORY, PLACE_THEN, Held, end_increment
 from fctd.steady.pose import PLACE, QUATERNION
 from fctd.steady.problem import Pose, Problem, Share
+from fctd.steady.relaxation import Creep
 from fctd.steady.stability import push_aside
 
 # The top begins so far above the rotary table [m], since feeding moves it down.
@@ -32,6 +33,8 @@ ABOVE = 2.0
 FIRST, SMALLEST, LARGEST = 0.1, 0.02, 1.0
 FEW, MANY, GROWTH, SHRINKAGE, CUT = 30, 60, 1.5, 0.67, 0.4
 ITERATIONS, FIRST_TIME = 100, 0.2
+# A string that leaves its balance: iterations, and growth of the pseudo-time.
+LEAVING, LEAVING_GROWTH = 200, 1.1
 # A snap: so many times the friction follows some steps of the relaxation, and then holds.
 SNAPS, SLIPPING, SNAP_TIME = 12, 20, 0.05
 # On the way a balance may be out by this multiple of what a balance is allowed: the last one is exact.
@@ -253,9 +256,10 @@ class FedString:
     def _rest(self, iterations: int, slips: bool) -> tuple[int, int]:
         """Let the string come to rest; returns code and iterations."""
         creep = creep_of(self.problem, iterations, IMBALANCE)
-        code, done = self.problem.relax(
-            creep._replace(tau=SNAP_TIME if slips else FIRST_TIME, slips=slips), self._share
-        )
+        return self._relax(creep._replace(tau=SNAP_TIME if slips else FIRST_TIME, slips=slips))
+
+    def _relax(self, creep: Creep) -> tuple[int, int]:
+        code, done = self.problem.relax(creep, self._share)
         self.iterations += done
         return code, done
 
@@ -263,10 +267,14 @@ class FedString:
         """Push the string aside where it would leave its balance; returns whether it comes to rest beside it.
 
         A straight string stays straight above its buckling limit until something moves it aside, and friction lets it
-        go while it slides along.
+        go while it slides along.  It leaves in steps shorter than the time in which its mode grows, which then grow
+        slowly: longer ones turn modes round, and rounding decides where it comes to rest.
         """
-        aside = push_aside(self.problem, self._share, if_driven=True)
-        return aside is None or self._rest(ITERATIONS, False)[0] == CONVERGED
+        time = push_aside(self.problem, self._share, if_driven=True)
+        if time is None:
+            return True
+        creep = creep_of(self.problem, LEAVING, IMBALANCE)
+        return self._relax(creep._replace(tau=SLOW_MODE_STEP * time, growth=LEAVING_GROWTH))[0] == CONVERGED
 
     def _snaps(self) -> bool:
         """Let the string snap into another shape; returns whether it comes to rest."""

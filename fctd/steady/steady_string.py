@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -21,7 +21,7 @@ from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling
 from fctd.results.columns import IN_CHART, Column
 from fctd.results.display import MAIN, Picture, html_table, load_rows, picture
 from fctd.results.limits import WORST
-from fctd.results.notes import Note, flow_law, flow_lie, homogenised, limit_notes, rig_notes
+from fctd.results.notes import Note, flow_law, flow_lie, homogenised, limit_notes, rig_notes, several_balances
 from fctd.results.profile import profile_table
 from fctd.results.status import SteadyStatus
 from fctd.results.unit_systems import System
@@ -52,7 +52,9 @@ class Equilibrium:
     shape : of a buckled string whose segments follow it, snaking or helix, else none; hookload_low, hookload_high
     [N] : of both shapes where they differ, else NaN; slack_off_spent_at, locked_up_at : shares of the friction (of the
     weight on bit where the message says so) at which the hook load is −block weight and at which no push suffices;
-    NaN where they were not found.  carried : of a resolved string, the shapes with which the next depth may begin.
+    NaN where they were not found.  draw : of a row that may have several balances, finds its hook loads with noise of
+    the size of rounding [N], NaN without loads (several_balances.py).  carried : of a resolved string, the shapes with
+    which the next depth may begin.
     bit_depth [m]; hookload, weight_indicator, total_contact_force, imbalance [N]; surface_torque, drive_torque [N m];
     sum_r_ft, sum_r_mu_fn [N m] : torques of wall friction, Σ r F_t and Σ r μ F_n.
     """
@@ -79,6 +81,7 @@ class Equilibrium:
     slack_off_spent_at: float = float("nan")
     locked_up_at: float = float("nan")
     roll_rate: float = float("nan")
+    draw: Callable[[], tuple[float, ...]] | None = field(default=None, repr=False)
     carried: Carried | None = field(default=None, repr=False)
     fed: tuple[Fed, ...] = field(default=(), repr=False)
 
@@ -170,8 +173,11 @@ class Equilibrium:
         found = rig_notes(self.case.rig, self.case.limits, self.weight_indicator, self.drive_torque, top, hanging)
         if shape.numbers[NOTED] or not self.case.limits.all_used:
             found = (*limit_notes(self.shares, string, shape.walls, self.case.limits), *found)
+        weight = float(string.weight @ string.length)
+        if (other := several_balances(self.hookload, self.draw() if self.draw is not None else (), weight)) is not None:
+            found = (*found, other)
         if (circuit := shape.laid.circuit) is not None:
-            law = flow_law(circuit.doubted, float(string.weight @ string.length))
+            law = flow_law(circuit.doubted, weight)
             lies = flow_lie() if shape.laid.eccentricity is None else None
             found = (*found, *(note for note in (law, lies) if note is not None))
         if self.method != HOMOGENISED:

@@ -1,6 +1,7 @@
 """Notes: each bound from both sides, and nothing on sound strings."""
 
 import json
+import math
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -266,3 +267,19 @@ def test_a_string_that_hangs_in_crushing_slips_is_noted_in_a_run() -> None:
         rig={"feed": "stands", "slip_length": 0.1, "connection_time": 1.0},
     )  # fmt: skip
     assert "slips" in {note.code for note in simulate(hung).notes}
+
+
+def test_loads_that_rounding_moves_are_worth_a_note_from_a_hundredth_of_the_weight_on() -> None:
+    assert notes.several_balances(-5e3, (), 100e3) is None
+    assert notes.several_balances(-5e3, (-5.9e3, -5e3), 100e3) is None
+    note = notes.several_balances(-5e3, (-7e3, -4e3), 100e3)
+    assert note is not None
+    assert "is -7 to -4 kN, 3 % of the string's weight apart" in note.text
+    assert note.excess == pytest.approx(3.0)
+
+
+def test_a_draw_without_a_balance_is_worth_a_note_too() -> None:
+    note = notes.several_balances(-5e3, (math.nan, -5e3), 100e3)
+    assert note is not None
+    assert note.text.endswith("1 of 2 draws have no balance")
+    assert note.excess == 1.0

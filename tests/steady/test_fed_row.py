@@ -13,7 +13,7 @@ from tests.steady.buckled import level_case, with_tables
 
 
 def resolved(case: Case, length: float = 150.0, **tables: dict[str, object]) -> Equilibrium:
-    return fctd.equilibrium(with_tables(case, solver={"buckling": "feed"}, **tables), "drill_sliding", length)
+    return fctd.equilibrium(with_tables(case, **({"solver": {"buckling": "feed"}} | tables)), "drill_sliding", length)
 
 
 @pytest.mark.parametrize("times_onset", [1.3, 2.5])
@@ -26,17 +26,24 @@ def test_every_mesh_has_the_same_answer(times_onset: float) -> None:
     assert np.ptp(loads) < 0.01 * max(np.abs(loads))
 
 
-@pytest.mark.parametrize("times_onset", [1.3, 1.6])
+@pytest.mark.parametrize("times_onset", [1.3, 1.6, 2.5])
 def test_damping_does_not_decide_the_row(times_onset: float, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The pseudo-time with which a string comes to rest, three values.
-
-    From two times the onset on it does, by up to 6 %: there the string comes to one of several shapes.
-    """
+    """The pseudo-time with which a string comes to rest, three values."""
     loads = []
     for time in (0.1, 0.2, 0.8):
         monkeypatch.setattr(feed, "FIRST_TIME", time)
         loads.append(resolved(level_case(times_onset, 150.0, 6.0, 0.2), rig={"block_weight": 1e6}).hookload)
     assert np.ptp(loads) < 0.01 * max(np.abs(loads))
+
+
+def test_rounding_does_not_decide_the_row() -> None:
+    """A string that left its balance in steps longer than its mode takes to grow came to rest 3 % apart."""
+    case = level_case(1.8, 150.0, 6.0, 0.2)
+    loads = [
+        resolved(case, rig={"block_weight": 1e6}, solver={"buckling": "feed", "perturbed": seed}).hookload
+        for seed in (1, 2, 3)
+    ]
+    assert np.ptp(loads) < 1e-4 * max(np.abs(loads))
 
 
 def test_a_row_has_the_path_by_which_it_was_fed() -> None:

@@ -40,6 +40,7 @@ STUDIES: dict[str, str] = {
     "beam_in_hole": "validation.studies.beam_in_hole",
     "post_buckling": "validation.studies.post_buckling",
     "compressed_strings": "validation.studies.compressed_strings",
+    "several_balances": "validation.studies.several_balances",
     "johancsik": "validation.studies.johancsik",
     "segment_count": "validation.studies.segment_count",
     "refine": "validation.studies.refine",
