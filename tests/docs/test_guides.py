@@ -100,7 +100,8 @@ def name(value: Path | str) -> str:
 def shorter(command: str) -> str:
     """A chart with its last depth alone or with that of the shoe, the first rows of a file, a fit from one start, a
     short trip, a string that does not lock up, and other methods and engines with less time and fewer segments."""
-    command = re.sub(r"(--depths shoe:td:)\d+", r"\g<1>1500", command)
+    first = "td" if "--limits" in command else "shoe"  # each depth has its search
+    command = re.sub(r"(--depths )shoe(:td:)\d+", rf"\g<1>{first}\g<2>1500", command)
     for file in FIRST_ROWS:
         command = command.replace(f"examples/{file}", file)
     command = command.replace('to_md="1900 m"', 'to_md="1770 m"').replace('to_md="1800 m"', 'to_md="1760 m"')
