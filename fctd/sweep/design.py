@@ -6,8 +6,6 @@ from math import prod
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 import numpy as np
-from scipy import stats
-from scipy.stats import qmc
 
 from fctd.arrays import Array
 from fctd.case.errors import InputError
@@ -72,6 +70,8 @@ def problem_of(spec: SweepSpec) -> dict[str, Any]:
 
 def unit_cube(spec: SweepSpec) -> Array:
     """Points (n, k) of the unit cube, of uniform marginals, by a method that draws; see ``samples_of``."""
+    from scipy.stats import qmc
+
     count, k = spec.samples or 0, len(spec.parameters)
     if spec.method == "saltelli":
         from SALib.sample import sobol
@@ -102,6 +102,8 @@ def morris_points(spec: SweepSpec) -> Array:
 
 def _correlated(points: Array, spec: SweepSpec) -> Array:
     """Points whose normal scores are correlated as the sweep says."""
+    from scipy import stats
+
     if not spec.correlations:
         return points
     keys = [parameter.key for parameter in spec.parameters]
@@ -147,6 +149,8 @@ def drawn(parameter: ParameterSpec, points: Array) -> list[Any] | Array:
 
 def _law(parameter: ParameterSpec) -> Any:
     """The distribution before it is truncated, of scipy."""
+    from scipy import stats
+
     of = {key: parameter.number(key) or 0.0 for key in ("low", "high", "mean", "sd", "median", "mode")}
     match parameter.distribution:
         case "uniform":

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
 
 from fctd.arrays import Array
 from fctd.case.errors import InputError
@@ -101,6 +100,8 @@ def _listed(found: Any, names: Sequence[str], measures: dict[str, str]) -> list[
 
 def _regression(samples: pd.DataFrame, result: Array) -> list[Index]:
     """Coefficients of a linear regression; their errors are those of least squares, times 1.96."""
+    from scipy import stats
+
     names = [name for name in samples.columns if name != "sample" and samples[name].dtype.kind in "if"]
     names = [name for name in names if samples[name].max() > samples[name].min()]
     kept = np.isfinite(result)

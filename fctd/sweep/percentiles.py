@@ -11,7 +11,6 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
-from scipy import stats
 
 from fctd.arrays import Array
 from fctd.case.errors import InputError, nearest
@@ -48,6 +47,8 @@ def columns_of(rows: pd.DataFrame, wanted: Sequence[str], key: str = "uncertaint
 
 def quantile(values: Array, share: float) -> tuple[float, float, float]:
     """A quantile of values (n,), and the ends of its error bar; an end that lies beyond the samples is NaN."""
+    from scipy import stats
+
     if not len(values):
         return float("nan"), float("nan"), float("nan")
     bar: Any = stats.quantile_test(values, p=share).confidence_interval(CONFIDENCE)

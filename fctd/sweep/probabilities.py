@@ -11,7 +11,6 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
-from scipy import stats
 
 from fctd.results.buckling import BUCKLED, HELICAL, MODES
 from fctd.results.notes import BORNE
@@ -88,5 +87,7 @@ def _row(operation: Any, depth: float, event: str, count: int, samples: int) -> 
 
 def interval(count: int, samples: int) -> tuple[float, float]:
     """Wilson's interval of 95 % of a probability, of which ``count`` of ``samples`` events were seen."""
+    from scipy import stats
+
     found = stats.binomtest(count, samples).proportion_ci(0.95, method="wilson")
     return float(np.clip(found.low, 0, 1)), float(np.clip(found.high, 0, 1))

@@ -3,10 +3,10 @@
 import re
 from pathlib import Path
 
-from fctd.app import page
+import fctd.app
 from tests.app.test_page import walk
 
-ASSETS = Path(page.__file__).parent / "assets"
+ASSETS = Path(fctd.app.__file__).parent / "assets"
 SCRIPT, STYLE = (ASSETS / f"app.{kind}" for kind in ("js", "css"))
 
 
@@ -18,6 +18,8 @@ def test_nothing_is_fetched_from_elsewhere_or_made_of_text() -> None:
 
 
 def test_styles_and_scripts_name_parts_of_the_page() -> None:
+    from fctd.app import page  # slow to import
+
     parts = walk(page.layout())
     names = {part.id for part in parts if hasattr(part, "id")}
     colours = re.compile(r"#[0-9a-fA-F]{3,6}\b")

@@ -2,7 +2,6 @@
 
 from typing import Any
 
-from fctd.app import page
 from fctd.app.downloads import FILES
 
 
@@ -14,12 +13,16 @@ def walk(part: Any) -> list[Any]:
 
 
 def test_every_part_has_its_own_name() -> None:
+    from fctd.app import page
+
     names = [part.id for part in walk(page.layout()) if hasattr(part, "id")]
     assert len(names) == len(set(names))
     assert {*page.GRAPHS, "upload", "sliders", "run", "stop", "fault", "note", "operations"} <= set(names)
 
 
 def test_texts_from_outside_are_children_and_no_markup() -> None:
+    from fctd.app import page
+
     text = "<script>alert(1)</script>"
     assert [part for part in walk(page.warned([text])) if part == text]
     assert page.warned([]) == []
@@ -27,11 +30,15 @@ def test_texts_from_outside_are_children_and_no_markup() -> None:
 
 
 def test_links_lead_to_the_files_of_the_session() -> None:
+    from fctd.app import page
+
     links = [part for one in page.links("/t/s/k/") for part in walk(one) if hasattr(part, "href")]
     assert [link.href for link in links] == [f"/t/s/k/files/{name}" for name in FILES]
 
 
 def test_a_slider_stands_at_its_value() -> None:
+    from fctd.app import page
+
     one = {"name": "mud", "label": "mud density", "unit": "kg/m³", "low": 800, "high": 2200, "step": 10, "value": 1}
     parts = walk(page.slider(one, 1250.0))
     assert "1250" in parts

@@ -1,5 +1,7 @@
 """The page served by waitress: attacks are refused, and its address lasts."""
 
+from __future__ import annotations
+
 import base64
 import http.client
 import json
@@ -9,20 +11,20 @@ import tomllib
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import pytest
-from waitress import wasyncore
 
 from fctd.app.downloads import FILES
 from fctd.app.home import Home
-from fctd.app.page import GRAPHS
-from fctd.app.server import MOST_RECEIVED, AppServer, listening
 from fctd.app.sessions import Session
 from fctd.case.errors import InputError
 from fctd.model.first_runs import to_paste
 from tests.app.made import NAME, SURVEY, TEXT, InProcess, source
 from tests.commands import HANG
+
+if TYPE_CHECKING:
+    from fctd.app.server import AppServer
 
 
 class Answer(NamedTuple):
@@ -33,6 +35,10 @@ class Answer(NamedTuple):
 
 @contextmanager
 def served(folder: Path) -> Iterator[AppServer]:
+    from waitress import wasyncore
+
+    from fctd.app.server import AppServer
+
     server, ended = AppServer(Home.open(folder), port=None, pool=InProcess()), threading.Event()  # type: ignore[arg-type]
 
     def run() -> None:
@@ -151,6 +157,8 @@ def test_no_path_leads_elsewhere(path: str, server: AppServer) -> None:
 
 
 def test_too_large_a_request_is_refused(server: AppServer) -> None:
+    from fctd.app.server import MOST_RECEIVED
+
     connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=HANG)
     connection.putrequest("POST", f"{server.home.prefix}_dash-update-component")
     connection.putheader("Content-Length", str(MOST_RECEIVED + 1))
@@ -201,6 +209,8 @@ def wish(of: Session | None, **given: Any) -> dict[str, Any]:
 
 
 def test_a_killed_server_goes_on_at_its_address(tmp_path: Path) -> None:
+    from fctd.app.page import GRAPHS
+
     with served(tmp_path / "app") as server:
         address = server.begin(source())
         key = address.rstrip("/").rpartition("/")[2]
@@ -364,6 +374,8 @@ def test_connections_that_send_nothing_stop_nobody(server: AppServer) -> None:
 
 
 def test_a_port_that_is_taken(tmp_path: Path) -> None:
+    from fctd.app.server import listening
+
     with listening(None, 0) as first:
         first.listen()
         port = first.getsockname()[1]

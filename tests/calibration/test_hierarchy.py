@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy.stats import norm
 
 from fctd.calibration.hierarchy import Linear, condition
 from fctd.calibration.quadrature import Mixture, integrate
@@ -25,6 +24,8 @@ def model(effects: int) -> Linear:
 
 def density(of: Linear, deviations: Array) -> Array:
     """Density of all readings and the unknown at each ``X``: a sum over a grid of the effects of each day."""
+    from scipy.stats import norm
+
     found = norm.pdf(X, 0.3, 2.0)
     grids = np.meshgrid(*[U] * of.effects.shape[1], indexing="ij")
     prior = np.prod([norm.pdf(grid) * (U[1] - U[0]) for grid in grids], axis=0).ravel()
@@ -104,6 +105,8 @@ def test_a_prior_of_mean_0_is_no_deviation() -> None:
 
 def test_a_day_left_out_has_the_density_of_its_readings() -> None:
     """Normal about the prediction of the others."""
+    from scipy.stats import norm
+
     of, none = model(1), np.zeros((1, 1))
     others = condition(of.without(1), none)
     J, v = of.jacobian[2, 0], of.variance[2]

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.stats import norm
 
 from fctd.calibration.calibrate import calibrate, predict
 from fctd.calibration.predict import Posterior, coverage, crps, posterior_file, predict_rows, read_posterior
@@ -28,6 +27,8 @@ def posterior(spread: float = 0.0) -> Posterior:
 
 def test_bands_add_up_unknowns_noise_ranges_and_model() -> None:
     """Normal with the variances of 5, 10 and 20 kN, and of a uniform distribution."""
+    from scipy.stats import norm
+
     for spread in (0.0, 5e3):
         table = predict_rows(posterior(spread), [SLIPS], {"": CASE}, samples=100_000)
         sd = np.sqrt(5**2 + 10**2 + 20**2 + (spread / 1e3) ** 2) * 1e3
@@ -49,6 +50,8 @@ def test_measured_rows_are_scored() -> None:
 
 def test_the_score_of_a_normal_sample_in_closed_form() -> None:
     """Of a normal distribution: σ (z (2Φ(z) − 1) + 2φ(z) − 1/√π) (Gneiting & Raftery 2007)."""
+    from scipy.stats import norm
+
     sample = norm.ppf((np.arange(20_000) + 0.5) / 20_000, 3.0, 2.0)
     for z in (0.0, 1.5):
         expected = 2.0 * (z * (2 * norm.cdf(z) - 1) + 2 * norm.pdf(z) - 1 / np.sqrt(np.pi))

@@ -2,7 +2,6 @@
 
 import json
 import re
-import subprocess
 import sys
 from pathlib import Path
 from typing import Any
@@ -13,12 +12,9 @@ import pyarrow.parquet as pq
 import pytest
 
 import fctd
-from fctd.case.operations import KINDS
 from tests.cli.tiny import CASE, FOOT, LBF, SOFT_BELOW, settings
 from tests.commands import Command
 
-# Packages that a chart as CSV does without; each takes a tenth to half a second to import.
-SPARED = {"pandas", "pyarrow", "pint", "matplotlib", "plotly"}
 CHART_COLUMNS = [
     "operation", "friction", "rotational_friction", "friction_label", "bit_depth_m", "hookload_N", "surface_torque_N_m",
     "weight_indicator_N",
@@ -41,7 +37,7 @@ def test_a_chart_reads_its_survey_once(tmp_path: Path, cli: Command) -> None:
         reads += listening and event == "open" and arguments[0] == str(survey)
 
     sys.addaudithook(count)
-    kinds = ["trip_in", "trip_out", "rotate_off_bottom"]
+    kinds = ["trip_in", "rotate_off_bottom"]
     case = fctd.load_case(case_file)
     fctd.torque_drag(case, kinds, [600, 700], [0.1, 0.3])
     fctd.equilibrium(case, "trip_in", 700)
@@ -210,27 +206,24 @@ def test_friction_by_kind_is_a_line_of_its_own(case_file: Path, tmp_path: Path, 
 def test_rates_go_to_the_operations_that_have_them(case_file: Path, tmp_path: Path, cli: Command) -> None:
     out, picture = tmp_path / "chart.csv", tmp_path / "profiles.svg"
     rates = ("--speed", "0.7 m/s", "--rpm", "80", "--plot-profile", picture)
-    chart = ("chart", case_file, "--operation", "all", "--depths", "800:800:10", "--out", out, "--quiet")
+    chart = (
+        "chart",
+        case_file,
+        "--operation",
+        "rotate_off_bottom,drill_sliding",
+        "--depths",
+        "800",
+        "--out",
+        out,
+        "--quiet",
+    )
     cli(*chart, *rates)
     found = json.loads((tmp_path / "chart.csv.json").read_text())["rates"]
     speeds = {kind: abs(rate["speed_m_s"]) for kind, rate in found.items()}
     spins = {kind: rate["spin_rad_s"] for kind, rate in found.items()}
-    assert speeds == {kind: 0.0 if kind == "rotate_off_bottom" else 0.7 for kind in KINDS}
-    assert spins == pytest.approx({kind: 0.0 if kind == "drill_sliding" else 80 * np.pi / 30 for kind in KINDS})
+    assert speeds == {"rotate_off_bottom": 0.0, "drill_sliding": 0.7}
+    assert spins == pytest.approx({"rotate_off_bottom": 80 * np.pi / 30, "drill_sliding": 0.0})
     assert picture.exists()
-
-
-def test_a_chart_as_csv_imports_no_package_that_it_does_not_use(tmp_path: Path) -> None:
-    case_file, out = tmp_path / "tiny.toml", tmp_path / "chart.csv"
-    case_file.write_text(CASE)
-    command = ["chart", str(case_file), "--operation", "trip_in", "--depths", "500:600:50", "--out", str(out)]
-    program = (
-        f"import sys\nfrom fctd.cli.main import app\napp({command}, standalone_mode=False)\n"
-        f"print(sorted({SPARED} & sys.modules.keys()))"
-    )
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
-    assert done.stdout.splitlines()[-1] == "[]"
-    assert len(pd.read_csv(out)) == 3
 
 
 def test_measured_rows_that_the_picture_does_not_show_are_told(

@@ -14,7 +14,7 @@ import pytest
 
 from fctd import open_result
 from fctd.cli import chart, refine, simulate
-from fctd.cli.interrupts import as_interrupts, deferred
+from fctd.cli.interrupts import as_interrupts, deferred, is_fctd
 from tests.commands import HANG, Command
 
 ROOT = Path(__file__).parents[2]
@@ -204,11 +204,20 @@ IMPORTING = (
 )
 
 
-@pytest.mark.parametrize("command", ["fctd", "/usr/bin/fctd.exe"])
-def test_between_the_imports_and_the_command(command: str) -> None:
+def test_between_the_imports_and_the_command() -> None:
     """While the package is imported and nothing has begun, Ctrl-C leaves no traceback."""
-    done = subprocess.run([sys.executable, "-c", IMPORTING, command], cwd=ROOT, capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, "-c", IMPORTING, "/usr/bin/fctd.exe"], cwd=ROOT, capture_output=True, text=True
+    )
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "")
+
+
+@pytest.mark.parametrize(
+    ("command", "ours"), [("fctd", True), ("/usr/bin/fctd.exe", True), ("/home/a/fctd.py.d/x.py", False), ("", False)]
+)
+def test_a_program_is_known_by_its_name(command: str, ours: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "argv", [command])
+    assert is_fctd() == ours
 
 
 def test_other_programs_that_import_it_get_ctrl_c() -> None:

@@ -13,7 +13,6 @@ import pytest
 
 import fctd
 from docs.site.notebooks import as_markdown, cells
-from docs.site.pages import with_notebooks
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = ROOT / "examples"
@@ -63,6 +62,8 @@ def test_a_notebook_is_small_and_without_outputs(notebook: Path) -> None:
 
 
 def test_there_are_two_and_the_site_shows_them() -> None:
+    from docs.site.pages import with_notebooks
+
     assert [notebook.stem for notebook in NOTEBOOKS] == ["a_well", "own_contact"]
     for notebook in NOTEBOOKS:
         page = ROOT / "docs" / "project" / f"{notebook.stem}.md"

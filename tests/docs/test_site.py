@@ -10,9 +10,6 @@ from urllib.parse import unquote, urlsplit
 import pytest
 
 import fctd
-from docs.site.docstrings import escaped
-from docs.site.pages import as_page
-from docs.site.rooms import modules
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
@@ -150,6 +147,8 @@ def test_every_document_has_its_place() -> None:
 
 
 def test_a_docstring_means_what_it_says() -> None:
+    from docs.site.docstrings import escaped
+
     assert (
         escaped("``a*b`` and `key` are |PT|² − r_ds*2, x_ too")
         == "``a*b`` and ``key`` are \\|PT\\|² − r_ds\\*2, x\\_ too"
@@ -157,11 +156,15 @@ def test_a_docstring_means_what_it_says() -> None:
 
 
 def test_links_of_guides_lead_to_pages() -> None:
+    from docs.site.pages import as_page
+
     assert as_page("[it](../README.md#what-the-answers-say)") == "[it](project/answers.md)"
     assert as_page("`fctd.equilibrium` and `fctd chart`") == "{py:obj}`fctd.equilibrium` and `fctd chart`"
 
 
 def test_rooms_have_all_of_their_modules() -> None:
+    from docs.site.rooms import modules
+
     found = modules("fctd.mechanics")
     assert {"fctd.mechanics.contact", "fctd.mechanics.laws.coulomb"} < set(found)
     assert len(found) == len(list((Path(fctd.__file__).parent / "mechanics").rglob("*.py"))) - 1

@@ -6,7 +6,6 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-from scipy import stats
 
 from fctd import plots
 from fctd.case.errors import InputError
@@ -78,6 +77,8 @@ def test_a_tornado_has_its_bars_in_order(tmp_path: Path) -> None:
 
 def test_effects_of_morris_have_the_unit_of_the_result(tmp_path: Path) -> None:
     """The hook load is 900 kN (1 + friction): a step of 2/3 is from the eighth to five eighths of its distribution."""
+    from scipy import stats
+
     found = made(tmp_path, 'method = "morris"\nsamples = 8\n')
     (si,), (field,) = (plots.tornado_figure(found, units=units).axes for units in ("si", "field"))
     assert si.get_title(loc="left") == "hook load (string): mean absolute effect (Morris), kN"

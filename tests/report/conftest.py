@@ -9,7 +9,6 @@ from fctd.case.load import Case, load_case
 from fctd.report.answers import Answers, Asked, answer
 from fctd.report.content import Cover, report_of
 from fctd.report.html_file import to_html
-from fctd.report.pdf_file import to_pdf
 from fctd.report.tables import Report
 from fctd.report.xlsx_file import to_xlsx
 from fctd.results.unit_systems import System
@@ -68,6 +67,8 @@ def made(answers: Answers) -> Callable[[System], Report]:
 @pytest.fixture(scope="session")
 def files(made: Callable[[System], Report]) -> Callable[[System, str], bytes]:
     """The content of a file of the report, by units and suffix."""
+    from fctd.report.pdf_file import to_pdf
+
     writers = {".html": to_html, ".pdf": to_pdf, ".xlsx": to_xlsx}
 
     @cache

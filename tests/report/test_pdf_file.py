@@ -8,16 +8,17 @@ from typing import Any
 import pytest
 from matplotlib.figure import Figure
 
-from fctd.report.pdf_file import to_pdf
 from fctd.report.tables import Cell, Part, Picture, Report, Section, Table, Text, number
 from fctd.results.unit_systems import System
 from tests.report.conftest import ADDRESS, FORMULA
 
-pypdf = pytest.importorskip("pypdf")
+
+def read(content: bytes) -> Any:
+    return pytest.importorskip("pypdf").PdfReader(io.BytesIO(content))
 
 
 def pages(content: bytes) -> list[Any]:
-    return list(pypdf.PdfReader(io.BytesIO(content)).pages)
+    return list(read(content).pages)
 
 
 def lowest(page: Any) -> float:
@@ -60,7 +61,7 @@ def test_names_stand_as_they_are(files: Callable[[System, str], bytes]) -> None:
     text = "\n".join(page.extract_text() for page in pages(content))
     for name in ('A & B <b>"well"</b> \\u6c34 \\x1b[31m', FORMULA, ADDRESS, "<i>pipe</i>", "C <& D>", "page 1 of"):
         assert name in text
-    about = pypdf.PdfReader(io.BytesIO(content))
+    about = read(content)
     assert about.metadata.author == "E F"
     assert [entry.title for entry in about.outline][:3] == ["Well", "Hole", "String"]
 
@@ -72,6 +73,8 @@ def test_no_page_is_half_empty(files: Callable[[System, str], bytes]) -> None:
 
 
 def test_a_long_table_has_its_heads_on_each_page_and_each_of_its_rows() -> None:
+    from fctd.report.pdf_file import to_pdf
+
     rows = tuple((Cell(f"row{k}", None), number(k, 3), Cell("word " * 20)) for k in range(450))
     found = [page.extract_text().split() for page in pages(to_pdf(report(Table("", ("name", "value", "text"), rows))))]
     assert len(found) > 8
@@ -80,6 +83,8 @@ def test_a_long_table_has_its_heads_on_each_page_and_each_of_its_rows() -> None:
 
 
 def test_a_picture_that_does_not_fit_leaves_its_page_to_what_follows() -> None:
+    from fctd.report.pdf_file import to_pdf
+
     rows = tuple((number(k, 1), number(2 * k, 1)) for k in range(30))
     before, after = Table("", ("a", "b"), rows), Table("", ("c", "d"), rows)
     tall = Picture("caption of the picture", Figure(figsize=(7, 8)))
@@ -92,12 +97,16 @@ def test_a_picture_that_does_not_fit_leaves_its_page_to_what_follows() -> None:
 @pytest.mark.parametrize("long", ["x" * 6000, "word " * 2000])
 def test_texts_of_any_length_are_no_error(long: str) -> None:
     """In a title, a cell and a paragraph: the title is cut, the others break over lines and pages."""
+    from fctd.report.pdf_file import to_pdf
+
     made = report(Table(long, ("a", "b"), ((Cell(long), number(1.0, 1)),)), Text(long), title=long)
     text = "".join(page.extract_text() for page in pages(to_pdf(made)))
     assert text.count(long[0]) >= 3 * len(long) // (1 if " " not in long else 5)
 
 
 def test_the_same_report_gives_the_same_bytes_and_field_units_letter_paper() -> None:
+    from fctd.report.pdf_file import to_pdf
+
     first = report(Text("text"), units="field")
     assert to_pdf(first) == to_pdf(first)
     assert [float(side) for side in pages(to_pdf(first))[0].mediabox[2:]] == [612, 792]

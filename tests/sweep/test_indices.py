@@ -3,7 +3,6 @@
 import numpy as np
 import pandas as pd
 import pytest
-from scipy import stats
 
 from fctd.case.errors import InputError
 from fctd.sweep.design import samples_of
@@ -77,6 +76,8 @@ def test_a_regression_explains_a_linear_result_and_its_ranks_a_monotonic_one() -
 
 def test_errors_of_a_regression_on_one_parameter_are_those_of_its_slope() -> None:
     """1.96 standard errors, as scipy has them of the standardised values."""
+    from scipy import stats
+
     spec = spec_of("random", PI[:1], 30)
     samples = samples_of(spec)
     values = samples["a"].to_numpy(float) + np.random.default_rng(1).normal(size=30)

@@ -3,7 +3,6 @@
 import numpy as np
 import pandas as pd
 import pytest
-from scipy import stats
 
 from fctd.case.errors import InputError
 from fctd.sweep.percentiles import columns_of, convergence_table, percentile_table, quantile
@@ -24,6 +23,8 @@ def rows(values: list[float], depth: float = 100.0) -> pd.DataFrame:
 @pytest.mark.parametrize("share", [0.05, 0.5, 0.95])
 def test_an_error_bar_holds_the_true_percentile_in_95_of_100_cases(share: float) -> None:
     """Of 600 draws of 200 samples, within four standard errors; the binomial steps make it a little wider."""
+    from scipy import stats
+
     draw, true, inside = np.random.default_rng(3), stats.gumbel_r.ppf(share), 0
     for _ in range(600):
         _, low, high = quantile(draw.gumbel(size=200), share)
@@ -49,6 +50,8 @@ def test_a_table_has_a_row_for_every_place_column_and_percentile() -> None:
 
 def test_convergence_is_that_of_more_and_more_samples_at_the_last_depth() -> None:
     """Its bar at the median of a normal distribution, of which any 2ᵏ samples have one in every 2ᵏ-th."""
+    from scipy import stats
+
     values = stats.norm.ppf(stats.qmc.Halton(1, scramble=False).random(1025)[1:, 0])
     table = pd.concat([rows(values.tolist()), rows((values + 9).tolist(), 200.0)], ignore_index=True)
     found = convergence_table(table, ["hookload_N"], (50.0,))

@@ -6,7 +6,6 @@ import pytest
 
 from fctd.sweep.cluster import ClusterChoice, connected
 from fctd.sweep.design import Sample
-from fctd.sweep.plugin import Carrier, run_chunk, warm_up
 from fctd.sweep.run import prepare
 from fctd.sweep.spec import read_sweep
 from validation.parts.small_sweep import sweep_file
@@ -14,6 +13,8 @@ from validation.parts.small_sweep import sweep_file
 
 @pytest.mark.slow
 def test_a_chunk_runs_on_a_worker_as_it_runs_here(tmp_path: Path) -> None:
+    from fctd.sweep.plugin import Carrier, run_chunk, warm_up
+
     runner, _ = prepare(read_sweep(sweep_file(tmp_path)))
     samples = [
         Sample(number, {"friction.open": friction, "mud.density": density})

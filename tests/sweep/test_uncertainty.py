@@ -5,7 +5,6 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-from scipy import stats
 
 from fctd.case.errors import InputError
 from fctd.model.section import section_of
@@ -75,6 +74,8 @@ def of_friction(spec: SweepSpec, dataset: Dataset) -> tuple[float, float]:
 
 
 def test_the_hook_load_of_a_straight_inclined_string_is_normal_with_its_friction(tmp_path: Path) -> None:
+    from scipy import stats
+
     count = 300
     spec, dataset = swept(tmp_path, f'method = "random"\nsamples = {count}\nseed = 5')
     found = assess(dataset, spec)

@@ -8,7 +8,6 @@ from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 import pandas as pd
-from scipy.stats import norm
 
 from fctd.arrays import Array
 from fctd.calibration.forward import Evaluation, Forward
@@ -64,6 +63,8 @@ def judged(forward: Forward, absolute: Collection[str]) -> list[Judged]:
 
 def _row(forward: Forward, evaluation: Evaluation, covariance: Array, one: Judged) -> dict[str, object]:
     """The prediction of a quantity and its score."""
+    from scipy.stats import norm
+
     readings = [(forward.readings[i], share) for i, share in one.parts]
     slopes = np.array([share * evaluation.slopes[i] for i, share in one.parts]).sum(axis=0)
     median = sum(share * float(evaluation.value[i]) for i, share in one.parts)

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from scipy import stats
 
 from fctd.model.section import section_of
 from fctd.model.survey import along_courses, minimum_curvature
@@ -119,6 +118,8 @@ def closed_form(spec: SweepSpec) -> tuple[float, float]:
 
 
 def _hook_loads(folder: Path, count: int) -> tuple[pd.DataFrame, list[Check]]:
+    from scipy import stats
+
     spec, dataset = swept(folder / "loads", {"method": "random", "samples": count, "parameters": [FRICTION], "seed": 5})
     found = assess(dataset, spec)
     base, slope = closed_form(spec)

@@ -4,13 +4,14 @@ import numpy as np
 import pytest
 
 from fctd.model.wellbore import build_wellbore
-from references.beams.cosserat import Bit, rest
 from validation.parts.buckled_pipe import BELOW_SURFACE, HOLE, SECTION, Rig
 
 
 @pytest.mark.slow(seconds=16)  # it compiles what other tests use, too
 def test_pushed_rod_shortens_by_its_axial_stiffness() -> None:
     """Far below the onset of buckling: F L/EA; the bit sags by the reaction of a propped cantilever, 3/8 wL."""
+    from references.beams.cosserat import Bit, rest
+
     length, force, wall = 6.0, 20e3, 1e7
     hole = build_wellbore(Rig(length, 1.0).case)
     bottom = BELOW_SURFACE + length

@@ -4,7 +4,6 @@ import dataclasses
 
 import numpy as np
 import pytest
-import trimesh
 
 from fctd.case.errors import InputError
 from fctd.model.pieces import RUN_OUT
@@ -90,6 +89,8 @@ def test_ring_axis_and_facet_beside_a_point() -> None:
 
 
 def test_a_missing_triangle_and_a_turned_one_are_found() -> None:
+    import trimesh
+
     tube = tube_of()
     check_tube(tube)
     faces = np.asarray(tube.mesh.faces)
