@@ -194,13 +194,16 @@ CROSSED: dict[str, Crossed] = {
         ),
         "surface_torque_max_N_m",
     ),
-    "caliper": Crossed(
+    "caliper": Crossed(  # a short hole: it is meshed, and the mesh is queried in every step
         lambda on: case(
+            [[0, 0, 0], [20, 0, 0], [60, 20, 0], [100, 20, 0]],
+            components=[pipe(80, 4)],
+            operations=[rotation(80, 1.0, ramp=0.5)],
             wellbore=_hole(
-                _interval(),
+                _interval(to_md=100),
                 geometry="sampled",
-                caliper={"rows": [[md, 0.2159, 0.4 if on else 0.2159] for md in (10, 390)]},
-            )
+                caliper={"rows": [[md, 0.2159, 0.4 if on else 0.2159] for md in (10, 90)]},
+            ),
         ),
         "gravity_J",
     ),
