@@ -2,7 +2,6 @@
 
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -15,6 +14,7 @@ from fctd.cli.sweep import cluster_choice
 from fctd.store.limits import cores
 from fctd.sweep.dataset import open_dataset
 from fctd.sweep.run import Summary
+from tests.commands import HANG, until
 from validation.parts import clusters
 from validation.parts.small_sweep import sweep_file
 
@@ -91,12 +91,9 @@ def test_a_lost_scheduler_is_told_without_a_traceback(tmp_path: Path) -> None:
         dask.wait_for_workers(1)
         asked = [*command, "--scheduler-file", str(dask.file)]
         with subprocess.Popen(asked, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as sweeping:
-            end = time.monotonic() + 120
-            while not (tmp_path / "out" / "sweep.json").exists() and time.monotonic() < end:
-                time.sleep(0.1)
-            time.sleep(6.0)  # some samples
+            until(lambda: list(tmp_path.glob("out/rows/part-*.parquet")))  # of some samples
             dask.kill("scheduler")
-            _, told = sweeping.communicate(timeout=120)
+            _, told = sweeping.communicate(timeout=HANG)
     assert sweeping.returncode == 1, told
     assert "The scheduler has ended; what was written stays in" in " ".join(told.split())
     assert "Traceback" not in told, told
