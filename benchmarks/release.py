@@ -2,7 +2,7 @@
 
 import io
 import subprocess
-import tarfile
+import zipfile
 from pathlib import Path
 
 from benchmarks.history import Record, sources_of
@@ -32,13 +32,13 @@ def check_out(record: Record, file: Path, root: Path = ROOT) -> Path:
         commits.append(added.decode().strip())
     for commit in filter(None, commits):
         try:
-            archive = _git(root, "archive", commit, "--", *FOLDERS)
+            archive = _git(root, "archive", "--format=zip", commit, "--", *FOLDERS)
         except NoSourcesError:
             continue
         try:
             folder = cache() / f"release-{record.sources}-{record.reference}"
-            with tarfile.open(fileobj=io.BytesIO(archive)) as tar:
-                tar.extractall(folder, filter="data")
+            with zipfile.ZipFile(io.BytesIO(archive)) as packed:
+                packed.extractall(folder)
         except (OSError, RuntimeError) as error:  # RuntimeError: no home folder
             raise NoSourcesError(f"the cache folder cannot be written: {error}") from None
         if sources_of(folder) == record.sources:

@@ -52,7 +52,8 @@ def whole_folder(folder: Path, own: Own = os.listdir) -> Iterator[Path]:
 def check_folder(folder: Path, key: str = "") -> Path:
     """The folder without symlinks; InputError, which names ``key`` and ``folder``, where it could not be replaced."""
     target = Path(os.path.realpath(folder))
-    advice = f"a folder for the results alone, such as {folder / 'result'}"
+    room = folder if os.access(target, os.W_OK) else Path()
+    advice = f"a folder for the results alone, such as {room / 'result'}"
     in_use = (Path(os.path.realpath(place)) for place in (os.curdir, os.path.expanduser("~")))
     if any(place.is_relative_to(target) for place in in_use):
         raise InputError(f"{advice} (this one is or contains the current folder or your home)", key=key, value=folder)
