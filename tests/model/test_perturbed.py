@@ -63,7 +63,7 @@ def test_the_environment_sets_the_default(monkeypatch: pytest.MonkeyPatch) -> No
     assert make_case(solver={"step": "largest"}).solver.perturbed == 5
     assert make_case(solver={"perturbed": 6}).solver.perturbed == 6
     monkeypatch.setenv("FCTD_PERTURBED", "many")
-    with pytest.raises(InputError, match="FCTD_PERTURBED = .many.: expected a whole number"):
+    with pytest.raises(InputError, match=r"FCTD_PERTURBED = .many.: expected a whole number"):
         make_case()
     monkeypatch.setenv("FCTD_PERTURBED", "")
     assert make_case().solver.perturbed is None
