@@ -73,6 +73,7 @@ def _render(
     leading = [(each.study, each.figure.caption, drawn.get(each.study)) for each in LEADING]
     leading.sort(key=lambda each: each[2] is None)  # keeps the order of those that are drawn
     claims = judged(stored, ledger)
+    sensitive = rounding.page_of(stored, REASONS)
     given = {
         "sections": sections,
         "claims": claims,
@@ -86,12 +87,12 @@ def _render(
         "absent": [section for section in sections.values() if section.absent],
         "machine": _machine(sections),
         "which": which_contact.table(stored),
-        "rounding": rounding.page_of(stored, REASONS),
+        "rounding": sensitive,
     }
     _write_pages(out, given)
     results.write(sections.values(), claims, out)
     problems = [f"{section.study}: {problem}" for section in sections.values() for problem in section.problems]
-    whole = {"claims": claims.problem, "rounding": given["rounding"].problem}
+    whole = {"claims": claims.problem, "rounding": sensitive.problem}
     return [f"{name}: {problem}" for name, problem in whole.items() if problem] + problems
 
 

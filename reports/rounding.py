@@ -9,6 +9,7 @@ import pandas as pd
 from fctd.case.text import counted
 from reports.sections import Printed, printed
 from validation.harness import sensitivity
+from validation.harness.runner import UsageError
 from validation.harness.sensitivity import Moved, in_words
 
 
@@ -26,7 +27,7 @@ def page_of(stored: Path, reasons: Path) -> Page:
     """The page from the results of a folder, and the reasons of a file."""
     try:
         found = sensitivity.moved(stored, sensitivity.read_reasons(reasons))
-    except sensitivity.UsageError as error:
+    except UsageError as error:
         return Page("", problem=str(error))
     if not found:
         return Page("Not answered yet: python -m validation STUDY --perturbed 1 --draws 4.")
