@@ -11,9 +11,7 @@ from fctd.calibration.forward import Forward
 from fctd.calibration.rows import Range, Row
 from fctd.calibration.setup import Setup
 from fctd.calibration.unknowns import find_unknowns, parse_fits
-from tests.calibration.wells import TRUTH, blank_rows, measured_rows, well
-
-ROWS = measured_rows(well(), TRUTH, blank_rows(well()))
+from tests.calibration.wells import TRUTH, exact_rows, well
 
 
 def forward_of(rows: list[Row], names: list[str], *priors: str) -> Forward:
@@ -25,21 +23,21 @@ def fitted(forward: Forward, **more: object) -> Fit:
 
 
 def test_rows_without_noise_give_the_values_that_made_them() -> None:
-    found = fitted(forward_of(ROWS, list(TRUTH)))
+    found = fitted(forward_of(exact_rows(), list(TRUTH)))
     np.testing.assert_allclose(found.best, list(TRUTH.values()), rtol=1e-4)
     assert found.cost < 1e-6
-    assert found.used == tuple(range(len(ROWS)))
+    assert found.used == tuple(range(len(exact_rows())))
 
 
 def test_every_start_ends_there() -> None:
-    found = fitted(forward_of(ROWS[4:], ["friction.open", "rig.block_weight"]), starts=3)
+    found = fitted(forward_of(exact_rows()[4:], ["friction.open", "rig.block_weight"]), starts=3)
     assert len(found.costs) == 3
     assert max(found.costs) - min(found.costs) < ROUGH * max(found.costs)
 
 
 def test_a_range_counts_as_zero_inside() -> None:
     """The block lies anywhere in the range: its value stays where the fit starts."""
-    slips = replace(ROWS[-2], hookload=Range(225e3, 240e3))
+    slips = replace(exact_rows()[-2], hookload=Range(225e3, 240e3))
     forward = forward_of([slips], ["rig.block_weight=100 kN:300 kN"])
     inside = residuals_of(forward, forward.evaluate(np.array([230e3])), np.array([230e3]), [0])
     assert inside.value.tolist() == [0.0]
@@ -51,24 +49,24 @@ def test_a_range_counts_as_zero_inside() -> None:
 
 def test_a_prior_is_a_residual() -> None:
     """Two sources of one standard deviation each: the mean of both."""
-    forward = forward_of([ROWS[-2]], ["rig.block_weight"], "rig.block_weight=250e3+-10e3")
+    forward = forward_of([exact_rows()[-2]], ["rig.block_weight"], "rig.block_weight=250e3+-10e3")
     assert fitted(forward, loss="linear").best == pytest.approx([240e3], rel=1e-6)
 
 
 def test_the_weight_of_a_row_multiplies_its_squares() -> None:
     """Four times the weight of the prior, whose standard deviation is that of the noise: a fifth of the way."""
-    forward = forward_of([replace(ROWS[-2], weight=4.0)], ["rig.block_weight"], "rig.block_weight=250e3+-10e3")
+    forward = forward_of([replace(exact_rows()[-2], weight=4.0)], ["rig.block_weight"], "rig.block_weight=250e3+-10e3")
     assert fitted(forward, loss="linear").best == pytest.approx([234e3], rel=1e-6)
 
 
 def test_a_fit_ends_at_its_bounds() -> None:
-    forward = forward_of([ROWS[-2]], ["rig.block_weight=240 kN:300 kN"])
+    forward = forward_of([exact_rows()[-2]], ["rig.block_weight=240 kN:300 kN"])
     assert fitted(forward).best == pytest.approx([240e3], rel=1e-6)
 
 
 def test_a_robust_loss_limits_an_outlier() -> None:
     """Of three in-slips rows one is 200 kN off: its pull is that of three standard deviations (soft l1)."""
-    rows = [replace(ROWS[-2], id=str(k), hookload=Range(w, w)) for k, w in enumerate((230e3, 230e3, 430e3))]
+    rows = [replace(exact_rows()[-2], id=str(k), hookload=Range(w, w)) for k, w in enumerate((230e3, 230e3, 430e3))]
     forward = forward_of(rows, ["rig.block_weight"])
     robust, linear = (fitted(forward, loss=loss).best[0] for loss in ("soft_l1", "linear"))
     assert linear == pytest.approx((2 * 230e3 + 430e3) / 3)
@@ -84,5 +82,5 @@ def test_a_robust_loss_limits_an_outlier() -> None:
 
 
 def test_an_unknown_may_be_fixed() -> None:
-    forward = forward_of(ROWS[-2:], ["rig.block_weight", "rig.torque_offset"])
+    forward = forward_of(exact_rows()[-2:], ["rig.block_weight", "rig.torque_offset"])
     assert fitted(forward, fixed={0: 200e3}, loss="linear").best == pytest.approx([200e3, 1280.0])

@@ -10,17 +10,16 @@ from fctd.calibration.rows import Range
 from fctd.calibration.setup import Setup
 from fctd.calibration.unknowns import find_unknowns, parse_fits
 from fctd.case.errors import InputError
-from tests.calibration.wells import TRUTH, blank_rows, measured_rows, well
+from tests.calibration.wells import TRUTH, exact_rows, well
 
 CASE = well()
-ROWS = measured_rows(CASE, TRUTH, blank_rows(CASE))
 UP, DOWN, TURN = 6, 7, 8  # at 1500 m
 SLIPS, TARE = 9, 10
 
 
 def flagged(rows: list[int], names: list[str], *priors: str) -> list[tuple[str, ...]]:
     forward = Forward(
-        [ROWS[k] for k in rows], {"": CASE}, find_unknowns(parse_fits(names, priors), Setup(), [CASE]), Setup()
+        [exact_rows()[k] for k in rows], {"": CASE}, find_unknowns(parse_fits(names, priors), Setup(), [CASE]), Setup()
     )
     at = np.array([unknown.start for unknown in forward.unknowns])
     return [found.names for found in undetermined(forward, forward.evaluate(at), range(len(rows)))]
@@ -45,7 +44,7 @@ def test_a_pair_is_named_unless_a_prior_holds_it(
 def test_rows_that_separate_a_pair_lift_its_flag() -> None:
     assert flagged([UP, DOWN, TURN, SLIPS], ["rig.block_weight", "mass.collars", "friction"]) == []
     assert flagged([2, TARE], ["friction.cased", "rig.torque_offset"]) == []
-    assert flagged(list(range(len(ROWS))), list(TRUTH)) == []
+    assert flagged(list(range(len(exact_rows()))), list(TRUTH)) == []
 
 
 def test_an_unknown_without_effect_is_named_alone() -> None:
@@ -53,7 +52,7 @@ def test_an_unknown_without_effect_is_named_alone() -> None:
 
 
 def test_the_calibration_refuses_before_it_fits_unless_told_otherwise() -> None:
-    rows, names = [ROWS[TARE]], ["rig.torque_offset", "rig.torque_per_rpm"]
+    rows, names = [exact_rows()[TARE]], ["rig.torque_offset", "rig.torque_per_rpm"]
     with pytest.raises(
         InputError, match=r"fit = .*cannot be told apart: they need rotating rows or tares at different"
     ):
@@ -70,7 +69,7 @@ def test_the_covariance_in_closed_form() -> None:
 
 
 def test_a_range_informs_as_a_uniform_distribution_does() -> None:
-    row = ROWS[SLIPS]
+    row = exact_rows()[SLIPS]
     wide = [row.__class__(**{**row.__dict__, "hookload": Range(200e3, 200e3 + 10e3 * np.sqrt(36))})]
     forward = Forward(wide, {"": CASE}, find_unknowns(parse_fits(["rig.block_weight"]), Setup(), [CASE]), Setup())
     J = information(forward, forward.evaluate(np.array([2e5])), [0])

@@ -9,16 +9,15 @@ from fctd.calibration.calibrate import calibrate
 from fctd.calibration.intervals import Z95, leave_one_out
 from fctd.calibration.result import Calibration
 from fctd.calibration.rows import Range, Row
-from tests.calibration.wells import TRUTH, TURN, blank_rows, measured_rows, well
+from tests.calibration.wells import TURN, exact_rows, well
 
 CASE = well()
-SLIPS = measured_rows(CASE, TRUTH, blank_rows(CASE)[-2:-1])[0]
 
 
 def blocks(*weights: float | Range, fit: str = "rig.block_weight") -> Calibration:
     """The block's weight from rows in slips, whose noise is 10 kN."""
     ranges = [weight if isinstance(weight, Range) else Range(weight, weight) for weight in weights]
-    rows = [replace(SLIPS, id=str(k), hookload=each) for k, each in enumerate(ranges)]
+    rows = [replace(exact_rows()[-2], id=str(k), hookload=each) for k, each in enumerate(ranges)]
     return calibrate(CASE, rows, [fit], loss="linear", starts=1)
 
 
@@ -50,7 +49,7 @@ def test_a_range_widens_the_interval_by_its_ends() -> None:
 def test_correlations_are_those_of_the_covariance() -> None:
     """Offset and torque per rpm of two tares: the line through two points, at 60 and 120 rev/min."""
     rows = [
-        Row(str(rpm), "", float("nan"), "tare", SLIPS.rates._replace(spin=rpm * TURN), None, Range(t, t))
+        Row(str(rpm), "", float("nan"), "tare", exact_rows()[-2].rates._replace(spin=rpm * TURN), None, Range(t, t))
         for rpm, t in ((60, 1e3), (120, 1.5e3))
     ]
     found = calibrate(CASE, rows, ["rig.torque_offset", "rig.torque_per_rpm"], loss="linear", starts=1)

@@ -13,10 +13,9 @@ from fctd.calibration.rows import Range
 from fctd.calibration.setup import Setup
 from fctd.calibration.unknowns import find_unknowns, parse_fits
 from fctd.case.errors import InputError
-from tests.calibration.wells import TRUTH, blank_rows, measured_rows, well
+from tests.calibration.wells import TRUTH, blank_rows, exact_rows, measured_rows, well
 
 CASE = well()
-SLIPS = measured_rows(CASE, TRUTH, blank_rows(CASE)[-2:-1])[0]
 SETUP = Setup.model_validate({"model_error": {"hookload": 20e3}})
 
 
@@ -30,7 +29,7 @@ def test_bands_add_up_unknowns_noise_ranges_and_model() -> None:
     from scipy.stats import norm
 
     for spread in (0.0, 5e3):
-        table = predict_rows(posterior(spread), [SLIPS], {"": CASE}, samples=100_000)
+        table = predict_rows(posterior(spread), [exact_rows()[-2]], {"": CASE}, samples=100_000)
         sd = np.sqrt(5**2 + 10**2 + 20**2 + (spread / 1e3) ** 2) * 1e3
         (row,) = table.to_dict("records")
         for name, share in (("low95", 0.025), ("low50", 0.25), ("middle", 0.5), ("high50", 0.75), ("high95", 0.975)):
@@ -39,8 +38,8 @@ def test_bands_add_up_unknowns_noise_ranges_and_model() -> None:
 
 
 def test_measured_rows_are_scored() -> None:
-    rows = [replace(SLIPS, id=str(w), hookload=Range(w - 1e3, w + 1e3)) for w in (232e3, 260e3, 330e3)]
-    table = predict_rows(posterior(), [*rows, replace(SLIPS, hookload=None)], {"": CASE})
+    rows = [replace(exact_rows()[-2], id=str(w), hookload=Range(w - 1e3, w + 1e3)) for w in (232e3, 260e3, 330e3)]
+    table = predict_rows(posterior(), [*rows, replace(exact_rows()[-2], hookload=None)], {"": CASE})
     assert table["inside50"].tolist() == [True, False, False, None]
     assert table["inside95"].tolist() == [True, True, False, None]
     assert coverage(table) == {"inside50": (1, 3), "inside95": (2, 3)}
@@ -65,7 +64,7 @@ def test_a_posterior_is_written_and_read(tmp_path: Path) -> None:
     found = read_posterior(path)
     assert (found.best, found.covariance, found.setup) == (posterior().best, posterior().covariance, SETUP)
     assert found.spread == {"": {"hookload": 3e3}}
-    first, again = (predict(CASE, [SLIPS], each) for each in (path, found))
+    first, again = (predict(CASE, [exact_rows()[-2]], each) for each in (path, found))
     assert first.equals(again)
 
 
@@ -84,7 +83,7 @@ def test_a_posterior_that_cannot_be_used(text: str | None, expected: str, tmp_pa
     with pytest.raises(InputError, match=expected):
         read_posterior(tmp_path / "a.fit.json")
     with pytest.raises(InputError, match="not from a file"):
-        predict(CASE, [SLIPS])
+        predict(CASE, [exact_rows()[-2]])
 
 
 @pytest.mark.parametrize(
@@ -126,7 +125,7 @@ def test_an_unknown_that_no_calibration_writes(key: str, value: object, expected
     kept["unknowns"][0][key] = value
     path.write_text(json.dumps(kept), encoding="utf-8")
     with pytest.raises(InputError, match=f"a.fit.json: .*{expected}"):
-        predict(CASE, [SLIPS], path)
+        predict(CASE, [exact_rows()[-2]], path)
 
 
 def test_values_drawn_have_the_mean_and_deviation_and_keep_to_the_bounds() -> None:

@@ -1,5 +1,6 @@
 """A small well with synthetic rows, which the tests of calibrations build on."""
 
+import functools
 from dataclasses import replace
 from typing import Any
 
@@ -59,3 +60,9 @@ def measured_rows(case: Case, truth: dict[str, float], rows: list[Row], seed: in
     for reading, read in zip(forward.readings, value, strict=True):
         found[reading.row] = replace(found[reading.row], **{reading.load: Range(float(read), float(read))})
     return found
+
+
+@functools.cache
+def exact_rows() -> list[Row]:
+    """The rows of the well without noise; the last but one is of slips."""
+    return measured_rows(well(), TRUTH, blank_rows(well()))
