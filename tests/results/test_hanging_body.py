@@ -7,22 +7,23 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.linalg import solve_banded
 
 from fctd import Case, equilibrium
-from fctd.mechanics.jit import kernel
 from fctd.model.section import section_of
 from fctd.results.hanging_body import USUAL, USUAL_TOOL_JOINT, bend_body, give_of, may_yield
 from fctd.results.profile import von_mises
 from tests.cases import make_case, pipe
+from tests.compiled import kept
 
 INCH, POUND, FOOT = 0.0254, 4.4482216152605, 0.3048
 # 5 in 19.5 lb/ft: EI [N m²], half of a joint of 30 ft [m], by how much tool joints of 6 5/8 in stand out [m].
 EI = 30e6 * 6894.757 * math.pi / 64 * ((5 * INCH) ** 4 - (4.276 * INCH) ** 4)
 HALF, ROOM = 180 * INCH, 0.8125 * INCH
 DOGLEG = math.radians(3.25) / (100 * FOOT)
-body = kernel(lambda *given: bend_body(*given))
-give = kernel(lambda outer, inner, tool_joint: give_of(outer, inner, tool_joint))
-matters = kernel(lambda row, weight, tension, own: may_yield(row, weight, tension, own))
+body = kept(bend_body)
+give = kept(give_of)
+matters = kept(may_yield)
 
 
 def factor(tension: float, dogleg: float = DOGLEG, tool_joint: float = 0.0, weight: float = 0.0) -> tuple[float, float]:
@@ -40,16 +41,15 @@ def by_differences(tension: float, dogleg: float, weight: float, tool_joint: flo
     """
     free = HALF - 0.5 * tool_joint
     h = free / n
-    main, beside = np.full(n + 1, -2.0 / h**2 - tension / EI), np.full(n, 1.0 / h**2)
-    matrix = np.diag(main) + np.diag(beside, 1) + np.diag(beside, -1)
-    load = np.zeros(n + 1)
+    band = np.full((3, n + 1), 1.0 / h**2)  # above, on and below the diagonal
+    band[1] = -2.0 / h**2 - tension / EI
     # Of the slope θ: EI θ'' − T θ = −q s, odd in s.
     s = np.linspace(0.0, free, n + 1)
-    load[:] = weight * s / EI
-    matrix[0], matrix[-1] = 0.0, 0.0
-    matrix[0, 0] = matrix[-1, -1] = 1.0
+    load = weight * s / EI
+    band[0, 1] = band[2, -2] = 0.0
+    band[1, [0, -1]] = 1.0
     load[0], load[-1] = 0.0, dogleg * HALF
-    slope = np.linalg.solve(matrix, load)
+    slope = solve_banded((1, 1), band, load)
     return EI * np.gradient(slope, s, edge_order=2)
 
 

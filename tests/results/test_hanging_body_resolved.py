@@ -12,14 +12,14 @@ from scipy import sparse
 from scipy.linalg import solve_banded
 
 from fctd import Case, equilibrium, torque_drag
-from fctd.mechanics.jit import kernel
 from fctd.model.section import Section
 from fctd.results.hanging_body import SMALL, stiffer
 from tests.cases import make_case, pipe
+from tests.compiled import kept
 from tests.results.test_hanging_body import DOGLEG, EI, FOOT, HALF, INCH, POUND, ROOM, SHORT_JOINT, bar, factor, joints
 
 TENSION = 200e3 * POUND
-over_segments = kernel(lambda *given: stiffer(*given))
+over_segments = kept(stiffer)
 # Segments of a body, by how much the moment in its middle may be off: the error falls fourfold with twice as many, down
 # to what the tension of the pipe's own weight does.
 FINER = {8: 0.055, 16: 0.017, 32: 0.0075, 64: 0.005}

@@ -173,8 +173,10 @@ def test_a_push_leads_out_of_the_balance() -> None:
     assert 0.009 * clearance < moved < 0.7 * clearance
 
 
-@pytest.mark.parametrize("weight_on_bit", [9e3, 12e3, 23.8e3])
-@pytest.mark.parametrize("operation", ["drill_sliding", "drill_rotating"])
+@pytest.mark.parametrize(
+    ("operation", "weight_on_bit"),
+    [("drill_sliding", 9e3), ("drill_sliding", 12e3), ("drill_sliding", 23.8e3), ("drill_rotating", 9e3)],
+)
 def test_a_straight_string_above_its_onset_is_not_converged(weight_on_bit: float, operation: str) -> None:
     """2.9 to 7.6 times 1.02 (EI w²)^⅓, the onset of a free lower end: they were straight, without any wall force."""
     point = equilibrium(hanging_case(weight_on_bit), operation, 300.0)

@@ -46,7 +46,7 @@ def test_it_is_due_as_often_as_wanted(machine: Machine) -> None:
 def test_it_takes_a_hundredth_of_either_clock_at_most(machine: Machine, cost: tuple[float, float], busy: float) -> None:
     """Kept as often as allowed.  On a busy machine a write is not interrupted, and the steps between two are."""
     interval = SaveInterval(0.0)
-    kept = machine.compute(interval, 1000.0, cost, busy)
+    kept = machine.compute(interval, 400.0, cost, busy)
     assert len(kept) > 5
     assert 0.8 * SHARE < (interval.spent / interval.passed).max() <= SHARE
     assert interval.passed[0] == machine.wall

@@ -1,10 +1,13 @@
 """Each feature of a case has its effect in another engine, or is refused."""
 
+from functools import cache
+
 import pytest
 
 from fctd import Case, InputError, Simulation
 from fctd.simulation.features import FEATURES, refuse
 from fctd.simulation.preparation import prepare
+from fctd.simulation.run import Run
 from references import engines
 from references.engines import ENGINES, EngineRun, Window
 from references.engines.own import Fctd
@@ -22,6 +25,12 @@ def run_in(name: str, case: Case, **options: str) -> EngineRun:
     return engines.build(name, **options).run(case, Window(0.0, Simulation(case).end))
 
 
+@cache
+def prepared(feature: str) -> Run:
+    """The run of a case with a feature, which no refusal changes, once for all engines."""
+    return prepare(CROSSED[feature].make(True))[0]
+
+
 def has_its_effect(name: str, feature: str) -> None:
     """Assert that a feature changes the loads in an engine as it does in FCTD."""
     make, column = CROSSED[feature]
@@ -37,11 +46,10 @@ def test_what_an_engine_leaves_out_is_refused(name: str) -> None:
     needs(name)
     honours = engines.engine_class(name).honours
     for feature in set(CROSSED) - set(honours) - {"helical_force", "overpull", "packer"}:  # no run has these
-        run, _ = prepare(CROSSED[feature].make(True))
         with pytest.raises(InputError, match=f"since {name} leaves out"):
-            refuse(run, honours, name)
-        with pytest.raises(InputError, match=f"since engine {name} leaves out"):
-            Simulation(run.case, engine=engines.build(name))
+            refuse(prepared(feature), honours, name)
+    with pytest.raises(InputError, match=f"since engine {name} leaves out"):
+        Simulation(CROSSED["cake"].make(True), engine=engines.build(name))
 
 
 @pytest.mark.slow

@@ -24,7 +24,7 @@ from tests.commands import HANG, until
 from tests.validation.conftest import outcome
 from validation.claims.ledger import CLAIMS
 from validation.harness import runner, side_by_side, store
-from validation.harness.fingerprint import Sources, surroundings
+from validation.harness.fingerprint import surroundings
 from validation.harness.registry import STUDIES
 from validation.studies import engines_agree
 
@@ -113,14 +113,14 @@ def test_parts_of_the_engines_join_as_one_table():
     ]
 
 
-def test_two_runs_differ_in_times_only(tmp_path):
+def test_two_runs_differ_in_times_only(tmp_path, sources):
     """Real studies, one after the other and side by side."""
     names, tables = ("overlap", "ownership"), []
     for processes in (1, 2):
         results = tmp_path / str(processes)
         code = runner.run_all(
             names, quick=True, processes=processes, data=None, expected=runner.read_expected(runner.EXPECTED),
-            results=results, sources=Sources(), console=Console(quiet=True),
+            results=results, sources=sources, console=Console(quiet=True),
         )  # fmt: skip
         assert code == 0
         records = {name: store.read(results / name) for name in names}
