@@ -53,7 +53,7 @@ MEANINGS: Final = {
     ),
     "several_balances": Meaning(
         "the buckled string has several balances, and rounding picks one",
-        'take the hook load as a range, or use solver.buckling = "resolve", which has one balance with more drag',
+        'take the hook load as a range, or use solver.buckling = "resolve", which rounding seldom moves',
     ),
     "flow_law": Meaning(
         "the pull of the mud along the string is uncertain, since most of the stress at its walls is yield stress",

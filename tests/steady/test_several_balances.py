@@ -20,9 +20,9 @@ from tests.steady.buckled import level_case, with_tables
 KIND, LENGTH = "drill_sliding", 60.0
 
 
-def case_of(times_onset: float = 1.7, buckling: str = "feed", friction: float = 0.2, seed: int | None = None) -> Case:
+def case_of(times_onset: float = 1.7, buckling: str = "feed", seed: int | None = None) -> Case:
     solver = {"buckling": buckling, "perturbed": seed}
-    case = level_case(times_onset, LENGTH, 6.0, friction)
+    case = level_case(times_onset, LENGTH, 6.0, friction=0.2)
     return with_tables(case, solver=solver, rig={"block_weight": 1e6})
 
 
