@@ -267,11 +267,10 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
     if deepest is not None:
         _check_feed(case, top.origin, deepest)
     check_segments(len(lengths))
-    length, seed = np.array(lengths[::-1]), case.solver.perturbed
     return String(
         top_md=case.string.top_md,
         bit_depth=bit_depth,
-        length=length if seed is None else perturb_lengths(length, seed),
+        length=perturb_lengths(np.array(lengths[::-1]), case.solver.perturbed),
         component=np.array(owner[::-1], dtype=np.int64),
         sections=sections_of(parts, case.mud.density),
         parts=tuple(parts),

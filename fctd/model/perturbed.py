@@ -14,11 +14,13 @@ TURN = 1e-9  # largest turn of the whole survey about the vertical [rad]: some m
 STATIONS, SEGMENTS = range(2)
 
 
-def perturb_stations(stations: Array, seed: int) -> Array:
+def perturb_stations(stations: Array, seed: int | None) -> Array:
     """Stations (n, 3) of measured depth [m], inclination and azimuth [rad] with noise, and turned about the vertical.
 
-    A vertical station stays vertical, and the ends of the hole stay where they are.
+    A vertical station stays vertical, and the ends of the hole stay where they are.  None leaves all as it is.
     """
+    if seed is None:
+        return stations
     draw = np.random.default_rng([seed, STATIONS])
     noisy = stations * (1 + SHARE * draw.standard_normal(stations.shape))
     noisy[[0, -1], 0] = stations[[0, -1], 0]
@@ -26,7 +28,9 @@ def perturb_stations(stations: Array, seed: int) -> Array:
     return noisy
 
 
-def perturb_lengths(length: Array, seed: int) -> Array:
+def perturb_lengths(length: Array, seed: int | None) -> Array:
     """Lengths (n,) [m] of segments with noise, each by itself, and so their masses, weights, arms and stiffnesses."""
+    if seed is None:
+        return length
     draw = np.random.default_rng([seed, SEGMENTS])
     return length * (1 + SHARE * draw.standard_normal(length.shape))

@@ -291,17 +291,14 @@ def find_contacts(wellbore: Wellbore, points: Array, radii: Array | float) -> Co
 def build_wellbore(case: Case) -> Wellbore:
     """The hole of a case.
 
-    Raises InputError for an overlap longer than a cylinder, for too many pieces, or for stations that no arc
-    joins.
+    Raises InputError for an overlap longer than a cylinder, for too many pieces, or for stations that no arc joins.
     """
     with naming_file(case):
         return _build(case.wellbore, case.string.components, case.solver.perturbed)
 
 
 def _build(hole: WellboreSpec, components: Sequence[ComponentSpec], seed: int | None) -> Wellbore:
-    stations, intervals = hole.trajectory, _intervals(hole)
-    if seed is not None:
-        stations = perturb_stations(stations, seed)
+    stations, intervals = perturb_stations(hole.trajectory, seed), _intervals(hole)
     if hole.tortuosity is not None:
         _courses(hole, stations)  # names a station that no arc reaches
         stations = winding(stations, hole.tortuosity)

@@ -23,10 +23,10 @@ ABOVE = 0.94  # of the bit depth: where a chart has the depth above
 
 
 class Drawn(NamedTuple):
-    """A string: where it lies, its index there, the case, operation, bit depth [m] and buoyed weight [N]."""
+    """A string: where it lies, its number there, the case, operation, bit depth [m] and buoyed weight [N]."""
 
     family: str
-    index: int
+    number: int
     case: Case
     operation: str
     bit_depth: float
@@ -77,7 +77,7 @@ def row_of(string: Drawn, buckling: str, seeds: Sequence[int] = SEEDS) -> dict[s
     for seed in (None, *seeds):
         row = fed_strings.solve(changed(string.case, buckling, seed), string.operation, string.bit_depth)
         if row.point is None:
-            raise RuntimeError(f"{string.family} {string.index} {buckling}: {row.raised}")
+            raise RuntimeError(f"{string.family} {string.number} {buckling}: {row.raised}")
         rows.append(row.point)
         seconds.append(row.seconds)
         if excess_of(rows[0]) < BEYOND:
@@ -97,7 +97,7 @@ def row_of(string: Drawn, buckling: str, seeds: Sequence[int] = SEEDS) -> dict[s
     note = {note.code: note for note in point.notes}.get("several_balances")
     drawing = time.process_time() - began
     return {
-        "family": string.family, "string": string.index, "buckling": buckling, "operation": string.operation,
+        "family": string.family, "string": string.number, "buckling": buckling, "operation": string.operation,
         "bit_depth_m": string.bit_depth, "weight_kN": string.weight / 1e3,
         "inclination_deg": _inclination(point),
         "method": point.method, "status": str(point.status), "shape": point.shape, "mode": shape.buckling.mode,
@@ -134,7 +134,7 @@ def carried_row(string: Drawn) -> dict[str, Any]:
     _, chart = chart_rows(case, string.operation, [ABOVE * depth, depth], threads=1)
     (alone,) = chart_rows(case, string.operation, [depth], threads=1)
     return {
-        "family": string.family, "string": string.index, "status": chart["status"], "alone_status": alone["status"],
+        "family": string.family, "string": string.number, "status": chart["status"], "alone_status": alone["status"],
         "shape": chart["shape"], "alone_shape": alone["shape"], "notes": chart["notes"],
         "off_percent_of_weight": 100 * abs(chart["hookload_N"] - alone["hookload_N"]) / string.weight,
     }  # fmt: skip
