@@ -19,6 +19,7 @@ from tests.same_numbers import LOADS
 from validation.harness import targets
 
 ROOT = Path(__file__).parents[1]
+TARGET = targets.NO_FMA
 # What docs/conventions.md says, of the largest load of a chart or a run.
 STEADY = {"hookload_N": 1e-11, "surface_torque_N_m": 1e-11, "total_contact_force_N": 1e-9}
 IN_TIME = dict.fromkeys(LOADS, 1e-9)
@@ -44,12 +45,10 @@ def test_another_process_has_them_to_the_last_bit(here: dict[str, list[dict[str,
     assert json.dumps(elsewhere({})) == json.dumps(here)  # as text, where no number equals itself
 
 
-@pytest.mark.slow(seconds=150)
-@pytest.mark.parametrize("target", ["no-fma", "x86-64-v2"])
-def test_another_processor_has_them_to_the_stated_digits(target: str, here: dict[str, list[dict[str, object]]]) -> None:
-    if why := targets.lacking(target):
-        pytest.skip(f"{target}: {why}")
-    there = elsewhere(targets.environment(target))
+@pytest.mark.slow(seconds=200)  # from an empty cache, as all code is compiled again
+@pytest.mark.skipif(bool(targets.lacking(TARGET)), reason=f"{TARGET}: {targets.lacking(TARGET)}")
+def test_another_processor_has_them_to_the_stated_digits(here: dict[str, list[dict[str, object]]]) -> None:
+    there = elsewhere(targets.environment(TARGET))
     assert there.keys() == here.keys()
     assert json.dumps(there) != json.dumps(here)  # other code ran
     for name, rows in here.items():

@@ -65,29 +65,30 @@ def main(
     names = names or []
     claims, sensitive = every or reproduce or CLAIMS in names, SENSITIVE in names
     try:
-        sources = fingerprint.Sources()  # before any study is imported: a later edit is repeated by the next run
-        chosen = choose([name for name in names if name not in (CLAIMS, SENSITIVE)], every, reproduce, rivals)
-        if not chosen and not claims and not sensitive:
-            raise runner.UsageError("nothing to run: name a study, or use --all, --rivals, --reproduce or --list")
-        expected, reasons = runner.read_expected(runner.EXPECTED), sensitivity.read_reasons(sensitivity.REASONS)
         asked = variations(perturbed, draws, target)
         if target is not None and (why := targets.lacking(target)):
             typer.echo(f"{target}: skipped: {why}")
             return
+        is_here = len(asked) == 1 and asked[0].is_here
+        # Before any study is imported: a later edit is repeated by the next run.
+        sources = fingerprint.Sources() if is_here else None
+        chosen = choose([name for name in names if name not in (CLAIMS, SENSITIVE)], every, reproduce, rivals)
+        if not chosen and not claims and not sensitive:
+            raise runner.UsageError("nothing to run: name a study, or use --all, --rivals, --reproduce or --list")
+        expected, reasons = runner.read_expected(runner.EXPECTED), sensitivity.read_reasons(sensitivity.REASONS)
         runner.check_results(asked[0].folder(study.RESULTS))
     except (runner.UsageError, SourceSyntaxError) as error:
         typer.echo(printable_lines(f"error: {error}"), err=True)
         raise typer.Exit(2) from error
     console, code, results = Console(), 0, asked[0].folder(study.RESULTS)
-    apart = (chosen or claims) and (len(asked) > 1 or not asked[0].is_here)
-    if apart:
+    if (chosen or claims) and not is_here:
         flags = {"--all": every, "--rivals": rivals, "--reproduce": reproduce, "--quick": quick, "--force": force}
         given = [*(name for name in names if name != SENSITIVE), *(flag for flag, there in flags.items() if there)]
         code = variation.in_processes(asked, given)
     elif asked[0].label:
         typer.echo(f"{asked[0].label}:")
     try:
-        if chosen and not apart:
+        if chosen and sources is not None:
             code = runner.run_all(
                 chosen,
                 quick=quick,
@@ -103,7 +104,7 @@ def main(
     except InputError as error:  # of the results folder: what a study fails at is its own result
         typer.echo(printable_lines(f"error: {error}"), err=True)
         raise typer.Exit(2) from error
-    if claims and not apart and code != runner.INTERRUPTED:
+    if claims and is_here and code != runner.INTERRUPTED:
         code = max(code, judgement.run(results, console, ledger.CLAIMS))
     if sensitive and code != runner.INTERRUPTED:
         code = max(code, sensitivity.tell(sensitivity.moved(study.RESULTS, reasons), reasons, console))

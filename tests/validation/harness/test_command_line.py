@@ -28,6 +28,7 @@ number = { study = "paper_well", check = "error", at_most = 1.0 }
 def invoke(register, tmp_path, monkeypatch):
     expected = tmp_path / "expected.toml"
     expected.write_text("")
+    monkeypatch.delenv(PERTURBED, raising=False)
     monkeypatch.setattr(runner, "EXPECTED", expected)
     monkeypatch.setattr(ledger, "CLAIMS", tmp_path / "claims.toml")
     ledger.CLAIMS.write_text(CLAIM)
