@@ -45,7 +45,7 @@ reproduce: say-studies $(STAMP)
 test: export PYTHONDONTWRITEBYTECODE :=
 test: say-tests $(STAMP)
 	@$(BIN)/python -m compileall -q fctd references validation reports benchmarks docs
-	@$(BIN)/fctd compile
+	@$(BIN)/python -m fctd compile
 	$(BIN)/python -m pytest --numprocesses=2 --dist=worksteal
 ifneq ($(BROWSER),0)
 	$(BIN)/python -m pytest -m browser -q tests

@@ -130,7 +130,7 @@ def test_set_up_with_another_python_is_one_clear_message(version: tuple[int, int
         (("reproduce",), "studies and report: about {} minutes", r"studies and report (\d+) minutes"),
         (("reproduce", "QUICK=1"), "studies and report: about {} minutes", r"\(`QUICK=1`: (\d+)\)"),
     ],
-    ids=" ".join,
+    ids=["test", "test without a browser", "reproduce", "reproduce the short way"],
 )
 def test_make_says_how_long_it_takes_before_it_begins(
     command: tuple[str, ...], said: str, in_the_readme: str, tmp_path: Path

@@ -39,7 +39,7 @@ def test_a_string_without_a_steady_lie_is_taken_as_concentric_and_says_so(monkey
     concentric = case.model_copy(update={"mud": case.mud.model_copy(update={"eccentricity": 0.0})})
     assert unknown.lift == equilibrium(concentric, "trip_in", 1100.0).lift > known.lift
     assert [note.code for note in unknown.notes] == ["flow_lie"]
-    with pytest.raises(InputError, match="a depth at which a steady string is found"):
+    with pytest.raises(InputError, match="a bit depth at which the solver finds a steady string"):
         lie_along(case, 1100.0)
 
 
