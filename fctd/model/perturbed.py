@@ -7,11 +7,17 @@ noise, which is far below any tolerance of a survey or a pipe.
 import numpy as np
 
 from fctd.arrays import Array
+from fctd.case.load import Case
 
 SHARE = 1e-13  # standard deviation, relative
 TURN = 1e-9  # largest turn of the whole survey about the vertical [rad]: some micrometres at the end of a well
 # What each draw is of: the same seed gives independent noise.
 STATIONS, SEGMENTS = range(2)
+
+
+def with_noise(case: Case, seed: int | None) -> Case:
+    """The case with the noise of a seed; without noise for None."""
+    return case.model_copy(update={"solver": case.solver.model_copy(update={"perturbed": seed})})
 
 
 def perturb_stations(stations: Array, seed: int | None) -> Array:

@@ -11,6 +11,7 @@ from collections.abc import Callable
 from typing import Final
 
 from fctd.case.load import Case
+from fctd.model.perturbed import with_noise
 from fctd.steady.findings import Findings
 from fctd.steady.steady_string import Equilibrium
 
@@ -30,8 +31,4 @@ def may_move(point: Equilibrium, so_far: Findings) -> bool:
 
 def draw(again: Again, case: Case) -> tuple[float, ...]:
     """Hook loads of a row of a case with noise [N], one a seed, NaN without loads."""
-    return tuple(again(_noisy(case, seed)).hookload for seed in SEEDS)
-
-
-def _noisy(case: Case, seed: int) -> Case:
-    return case.model_copy(update={"solver": case.solver.model_copy(update={"perturbed": seed})})
+    return tuple(again(with_noise(case, seed)).hookload for seed in SEEDS)

@@ -9,6 +9,7 @@ import numpy as np
 
 from fctd import Case, Equilibrium
 from fctd.case.errors import InputError
+from fctd.model.perturbed import with_noise
 from fctd.results.notes import HARDLY
 from fctd.steady.torque_drag import chart_rows
 from validation.harness.study import Context
@@ -59,7 +60,8 @@ def wells(context: Context) -> Iterator[Drawn]:
 
 def changed(case: Case, buckling: str, seed: int | None) -> Case:
     """The case with ``solver.buckling`` and the noise of a seed."""
-    return case.model_copy(update={"solver": case.solver.model_copy(update={"buckling": buckling, "perturbed": seed})})
+    buckled = case.model_copy(update={"solver": case.solver.model_copy(update={"buckling": buckling})})
+    return with_noise(buckled, seed)
 
 
 def excess_of(point: Equilibrium) -> float:

@@ -56,24 +56,11 @@ def run(context: Context) -> Outcome:
             charts.append(carried_row(string))
     rows, carried = pd.DataFrame(found), pd.DataFrame(charts)
     asked = rows[rows["buckling"] != "detect"]
-    resolved, fed, moved = asked[asked["buckling"] == "resolve"], asked[asked["buckling"] == "feed"], asked["moves"]
     return Outcome(
         tables={"rows": rows, "rates": rates_of(rows), "beyond_onset": beyond_onset(rows), "charts": carried},
         checks=[
-            Check("resolved rows whose loads move", float(resolved["moves"].sum()), 0, "at_most", "",
-                  f"of {len(resolved)} rows; by more than 1 % of the weight"),
-            Check("fed rows whose loads move", share(float(fed["moves"].sum()), len(fed)), MOST_MOVED, "at_most", "%",
-                  f"of {len(fed)} rows"),
-            Check("rows that move and were drawn again", share(float((moved & asked["predicted"]).sum()),
-                  float(moved.sum())), HIT, "at_least", "%", f"of {int(moved.sum())} rows: hit rate of the rule"),
-            Check("rows that move and have the note", share(float((moved & asked["noted"]).sum()),
-                  float(moved.sum())), HIT, "at_least", "%", "noise of two other seeds than those of the note"),
-            Check("rows that do not move and were drawn again",
-                  share(float((~moved & asked["predicted"]).sum()), float((~moved).sum())), FALSE, "at_most", "%",
-                  f"of {int((~moved).sum())} rows: false alarms, which cost time alone"),
-            Check("rows with the note that do not move", float((asked["noted"] & ~moved).sum()),
-                  max(1.0, 0.01 * len(asked)), "at_most", "", f"of {int(asked['noted'].sum())} with the note: they "
-                  "move with its own seeds alone"),
+            # Of the quick run's three strings one that moves by another processor's rounding would turn every share.
+            *([] if context.quick else _shares(asked)),
             Check("resolved row of a chart against the row alone, largest difference",
                   float(carried["off_percent_of_weight"].max()), 1.0, "at_most", "%", "of the weight"),
         ],
@@ -92,6 +79,27 @@ def run(context: Context) -> Outcome:
             "beyond_onset": "Fed and resolved rows that noise moves, by inclination and load",
         },
     )  # fmt: skip
+
+
+def _shares(asked: pd.DataFrame) -> list[Check]:
+    """How many rows move, and what the rule and the note say of them."""
+    resolved, fed, moved = asked[asked["buckling"] == "resolve"], asked[asked["buckling"] == "feed"], asked["moves"]
+    return [
+        Check("resolved rows whose loads move", float(resolved["moves"].sum()), 0, "at_most", "",
+              f"of {len(resolved)} rows; by more than 1 % of the weight"),
+        Check("fed rows whose loads move", share(float(fed["moves"].sum()), len(fed)), MOST_MOVED, "at_most", "%",
+              f"of {len(fed)} rows"),
+        Check("rows that move and were drawn again", share(float((moved & asked["predicted"]).sum()),
+              float(moved.sum())), HIT, "at_least", "%", f"of {int(moved.sum())} rows: hit rate of the rule"),
+        Check("rows that move and have the note", share(float((moved & asked["noted"]).sum()),
+              float(moved.sum())), HIT, "at_least", "%", "noise of two other seeds than those of the note"),
+        Check("rows that do not move and were drawn again",
+              share(float((~moved & asked["predicted"]).sum()), float((~moved).sum())), FALSE, "at_most", "%",
+              f"of {int((~moved).sum())} rows: false alarms, which cost time alone"),
+        Check("rows with the note that do not move", float((asked["noted"] & ~moved).sum()),
+              max(1.0, 0.01 * len(asked)), "at_most", "", f"of {int(asked['noted'].sum())} with the note: they "
+              "move with its own seeds alone"),
+    ]  # fmt: skip
 
 
 STUDY = Study(
