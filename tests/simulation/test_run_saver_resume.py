@@ -27,9 +27,9 @@ def undisturbed(name: str, geometry: str) -> SimulationResult:
     return finished(Simulation(CASES[name](geometry)))
 
 
-@pytest.mark.parametrize("name", CASES)
 @pytest.mark.parametrize(
-    ("geometry", "share"), [("arcs", share) for share in (0.0, 0.4, 0.75, 1.0)] + [("cylinders", 0.4)]
+    ("name", "geometry", "share"),
+    [(name, "arcs", share) for name in CASES for share in (0.0, 0.4, 0.75, 1.0)] + [("trip", "cylinders", 0.4)],
 )
 def test_a_run_goes_on_bitwise_the_same(name: str, geometry: str, share: float) -> None:
     """Stopped after the first record, among connections, on bottom, and after the last record."""

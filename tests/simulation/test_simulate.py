@@ -134,11 +134,11 @@ def test_mud_resists_all_of_a_long_segment(operation: dict) -> None:
 def test_energy_error_falls_with_the_step(operation: dict, damping: float) -> None:
     """At first order to zero, also with a damper at the clamp that pulls on the pipe fed in."""
     errors = []
-    for step in (0.8e-3, 0.4e-3, 0.2e-3):
+    for step in (0.8e-3, 0.2e-3):
         solver = {"step": step, "joint_damping": damping}
         result = simulate(build_case(operation, wellbore={"geometry": "arcs"}, solver=solver))
         errors.append(result.energy.residual_J.abs().max())
-    assert errors[2] < 0.35 * errors[0], errors
+    assert errors[1] < 0.35 * errors[0], errors
 
 
 def test_fed_pipe_brings_its_strain_energy() -> None:
