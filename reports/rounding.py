@@ -30,7 +30,7 @@ def page_of(stored: Path, reasons: Path) -> Page:
     except UsageError as error:
         return Page("", problem=str(error))
     if not found:
-        return Page("Not answered yet: python -m validation STUDY --perturbed 1 --draws 4.")
+        return Page("Not measured here yet: run python -m validation STUDY --perturbed 1 --draws 4.")
     labels = sorted({label for each in found for label in each.runs})
     sensitive = [each for each in found if each.is_sensitive]
     changed = sum(bool(each.changed) for each in sensitive)

@@ -35,7 +35,7 @@ def test_the_numbers_that_moved_stand_first_with_their_reason(render, tmp_path):
 def test_without_runs_the_page_says_how_to_make_them(render, tmp_path):
     render(studies=[])
     text = words_of((tmp_path / "out" / "rounding.html").read_text(encoding="utf-8"))
-    assert "Not answered yet: python -m validation STUDY --perturbed 1 --draws 4." in text
+    assert "Not measured here yet: run python -m validation STUDY --perturbed 1 --draws 4." in text
 
 
 def test_reasons_that_cannot_be_read_are_a_problem(tmp_path):
