@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 from fctd.case.solver import PERTURBED, SolverSpec
 from validation.__main__ import app
 from validation.claims import ledger
-from validation.harness import fingerprint, runner, store, study, targets, variation
+from validation.harness import fingerprint, runner, sensitivity, store, study, targets, variation
 from validation.harness.study import Check, Outcome
 from validation.harness.variation import FOLDER
 
@@ -30,6 +30,8 @@ def invoke(register, tmp_path, monkeypatch):
     expected.write_text("")
     monkeypatch.delenv(PERTURBED, raising=False)
     monkeypatch.setattr(runner, "EXPECTED", expected)
+    monkeypatch.setattr(sensitivity, "REASONS", tmp_path / "sensitive.toml")
+    sensitivity.REASONS.write_text("")
     monkeypatch.setattr(ledger, "CLAIMS", tmp_path / "claims.toml")
     ledger.CLAIMS.write_text(CLAIM)
     register("paper_well")
