@@ -1,10 +1,10 @@
 """What the project says of itself: version, citation, licence, supported Pythons, and the lowest versions it allows."""
 
-import importlib.util
+import runpy
 import tomllib
 from importlib.metadata import version
 from pathlib import Path
-from types import ModuleType
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -19,14 +19,9 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["
 
 
 @pytest.fixture(scope="module")
-def lowest() -> ModuleType:
+def lowest() -> SimpleNamespace:
     """The script that names the pins of ``make lowest``."""
-    spec = importlib.util.spec_from_file_location("lowest", ROOT / ".ci" / "lowest.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return SimpleNamespace(**runpy.run_path(str(ROOT / ".ci" / "lowest.py")))
 
 
 @pytest.fixture(scope="module")
@@ -74,7 +69,7 @@ def test_the_classifiers_name_the_pythons_that_set_up_accepts() -> None:
     assert {each.removeprefix(head) for each in PROJECT["classifiers"] if each.startswith(head)} == accepted
 
 
-def test_every_requirement_of_a_user_has_one_lower_bound_that_the_lock_keeps(lowest: ModuleType) -> None:
+def test_every_requirement_of_a_user_has_one_lower_bound_that_the_lock_keeps(lowest: SimpleNamespace) -> None:
     """``make lowest`` tests with exactly these versions; the same package has one bound in all extras."""
     needs = lowest.bounded(PROJECT)
     names = [canonicalize_name(need.name) for need in needs]
@@ -90,13 +85,13 @@ def test_every_requirement_of_a_user_has_one_lower_bound_that_the_lock_keeps(low
 
 
 @pytest.mark.parametrize("text", ["numpy", "numpy<3", "numpy>=1,>=2"])
-def test_a_requirement_without_one_lower_bound_is_refused(text: str, lowest: ModuleType) -> None:
+def test_a_requirement_without_one_lower_bound_is_refused(text: str, lowest: SimpleNamespace) -> None:
     with pytest.raises(ValueError, match=r"expected one lower bound, as in numpy>=1\.2\.0"):
         lowest.lowest(Requirement(text))
 
 
 def test_the_pins_hold_the_bounds_and_what_runs_the_tests(
-    lowest: ModuleType, capsys: pytest.CaptureFixture[str]
+    lowest: SimpleNamespace, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert lowest.main() == 0
     pins = capsys.readouterr().out.splitlines()

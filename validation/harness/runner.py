@@ -82,9 +82,8 @@ def check_results(folder: Path) -> None:
         raise UsageError(f"{folder}: expected a folder that can be written")
 
 
-def read_expected(path: Path) -> Expected:
-    """study -> check -> ``missed: why``, ``finding: why`` the paper misses it, or ``varies: why`` machines differ."""
-    expected: dict[str, dict[str, str]] = {}
+def read_by_check(path: Path) -> Iterator[tuple[str, str, str]]:
+    """Study, check and text of a file with a table for each study; ``UsageError`` for another file."""
     try:
         tables = tomllib.loads(path.read_text(encoding="utf-8"))
     except tomllib.TOMLDecodeError as error:
@@ -93,13 +92,22 @@ def read_expected(path: Path) -> Expected:
         if study not in STUDIES or not isinstance(checks, dict):
             raise UsageError(f"{path.name}: {study!r} is no table named after a study")
         for check, text in checks.items():
-            verdict, _, why = str(text).partition(":")
-            if verdict not in VERDICTS or not why.strip():
-                raise UsageError(
-                    f"{path.name}, [{study}] {check!r}: expected 'missed: why', 'finding: why' or 'varies: why', "
-                    f"got {text!r}"
-                )
-            expected.setdefault(study, {})[check] = f"{verdict}: {why.strip()}"
+            if not isinstance(text, str) or not text.strip():
+                raise UsageError(f"{path.name}, [{study}] {check!r}: expected a text, got {text!r}")
+            yield study, check, text.strip()
+
+
+def read_expected(path: Path) -> Expected:
+    """study -> check -> ``missed: why``, ``finding: why`` the paper misses it, or ``varies: why`` machines differ."""
+    expected: dict[str, dict[str, str]] = {}
+    for study, check, text in read_by_check(path):
+        verdict, _, why = text.partition(":")
+        if verdict not in VERDICTS or not why.strip():
+            raise UsageError(
+                f"{path.name}, [{study}] {check!r}: expected 'missed: why', 'finding: why' or 'varies: why', "
+                f"got {text!r}"
+            )
+        expected.setdefault(study, {})[check] = f"{verdict}: {why.strip()}"
     return expected
 
 

@@ -1,7 +1,6 @@
 """Which numbers hang on rounding: each study's plain result beside its runs with noise and as other compiled code."""
 
 import math
-import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -13,7 +12,7 @@ from fctd.case.text import counted, printable_lines
 from validation.harness import fingerprint, store
 from validation.harness.fingerprint import VARIED, Inputs
 from validation.harness.registry import STUDIES
-from validation.harness.runner import UsageError
+from validation.harness.runner import read_by_check
 from validation.harness.store import Record
 from validation.harness.study import ROOT, Check
 from validation.harness.variation import FOLDER
@@ -89,17 +88,10 @@ class Moved:
 
 def read_reasons(path: Path) -> Reasons:
     """study -> check -> why it is sensitive, and what was done; ``UsageError`` for anything else."""
-    try:
-        tables = tomllib.loads(path.read_text(encoding="utf-8"))
-    except tomllib.TOMLDecodeError as error:
-        raise UsageError(f"{path.name}: {error}") from error
-    for study, checks in tables.items():
-        if study not in STUDIES or not isinstance(checks, dict):
-            raise UsageError(f"{path.name}: {study!r} is no table named after a study")
-        for check, text in checks.items():
-            if not isinstance(text, str) or not text.strip():
-                raise UsageError(f"{path.name}, [{study}] {check!r}: expected why it moves, got {text!r}")
-    return tables
+    found: dict[str, dict[str, str]] = {}
+    for study, check, why in read_by_check(path):
+        found.setdefault(study, {})[check] = why
+    return found
 
 
 def moved(results: Path, reasons: Reasons, studies: Iterable[str] = STUDIES) -> list[Moved]:
