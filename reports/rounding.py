@@ -34,10 +34,11 @@ def page_of(stored: Path, reasons: Path) -> Page:
     labels = sorted({label for each in found for label in each.runs})
     sensitive = [each for each in found if each.is_sensitive]
     changed = sum(bool(each.changed) for each in sensitive)
+    studies = list(dict.fromkeys(each.study for each in found))
     answer = (
-        f"{counted(len(sensitive), 'number')} of {len(found)} moved by more than a tenth of what its bound allows, and "
-        f"{counted(changed, 'verdict')} changed, in runs with noise of the size of rounding or as compiled for other "
-        f"processors: {', '.join(labels)}."
+        f"{len(sensitive)} of {counted(len(found), 'number')} moved by more than a tenth of what its bound allows, and "
+        f"{counted(changed, 'verdict')} changed. Studies that ran again: {', '.join(studies)}. Their runs: "
+        f"{', '.join(labels)}."
     )
     others = [each for each in found if not each.is_sensitive]
     return Page(

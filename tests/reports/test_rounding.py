@@ -23,11 +23,12 @@ def test_the_numbers_that_moved_stand_first_with_their_reason(render, tmp_path):
     _, problems = render(studies=["johancsik"])
     assert problems == []
     text = words_of((tmp_path / "out" / "rounding.html").read_text(encoding="utf-8"))
-    assert "1 number of 2 moved by more than a tenth of what its bound allows, and 1 verdict changed" in text
+    assert "1 of 2 numbers moved by more than a tenth of what its bound allows, and 1 verdict changed" in text
+    assert "Studies that ran again: johancsik. Their runs: noise-1" in text
     assert "johancsik jump 5e-07 5e-07 2e-06 at most 1e-06 kN·m 1 another verdict in noise-1 not explained" in text
     assert "johancsik still 5e-07 5e-07 5.1e-07 at most 1e-06 kN·m 1 2 % of its tolerance" in text
     first = words_of((tmp_path / "out" / "index.html").read_text(encoding="utf-8"))
-    assert "1 number of 2 moved" in first
+    assert "1 of 2 numbers moved" in first
     assert "not explained" in first
     assert [path.stem for path in (tmp_path / "out" / "studies").iterdir()] == ["johancsik"]  # none of the run
 
