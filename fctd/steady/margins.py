@@ -8,7 +8,7 @@ those of the string under that load.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from typing import Any, ClassVar, Final, NamedTuple
 
@@ -220,7 +220,8 @@ def swivel_of(laid: LaidString) -> str:
 
 def _said(point: Equilibrium) -> list[str]:
     """What the notes on a string at its limit say about its bending."""
-    return [f"at the limit {note.text}" for note in point.notes if note.code in SAID]
+    alone = replace(point, draw=None)  # its other balances, which two more solves would find, are not among them
+    return [f"at the limit {note.text}" for note in alone.notes if note.code in SAID]
 
 
 def _without_make_up(laid: LaidString) -> list[str]:

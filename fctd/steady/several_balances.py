@@ -23,9 +23,10 @@ Again = Callable[[Case], Equilibrium]
 def may_move(point: Equilibrium, so_far: Findings) -> bool:
     """Whether loads of a row may hang on rounding: a string that was fed and is beyond the limit of the helix.
 
-    A case that has noise already is one of the draws, and is not drawn again.
+    A case that has noise already is one of the draws, and is not drawn again.  A string that is held in mud at rest is
+    stuck (stuck.py), and its case alone does not say so.
     """
-    is_fed = so_far.is_to_be_fed and not so_far.is_fed_in_part
+    is_fed = so_far.is_to_be_fed and not so_far.is_fed_in_part and not so_far.problem.laid.rests
     return is_fed and point.buckling.mode == "helical" and so_far.case.solver.perturbed is None
 
 

@@ -8,6 +8,7 @@ from fctd import chart, equilibrium
 from fctd.app.rows import Rows
 from fctd.case.load import Case
 from fctd.model import perturbed
+from fctd.model.operations import steady_rates
 from fctd.model.wellbore import build_wellbore
 from fctd.results import notes
 from fctd.steady import several_balances
@@ -44,6 +45,9 @@ def test_a_fed_helix_is_solved_again_and_other_rows_are_not() -> None:
     assert point.draw is not None
     others = case_of(1.2), case_of(buckling="resolve"), case_of(seed=3)
     assert [solved(case).draw for case in others] == [None] * len(others)
+    solver = Solver(case_of())
+    held = solver.solve_string(KIND, steady_rates(solver.case, KIND), solver.lay_out(LENGTH).at_rest)
+    assert (held.buckling.mode, held.draw) == ("helical", None)
 
 
 def test_the_draws_are_the_rows_of_their_seeds() -> None:
