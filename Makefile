@@ -23,10 +23,10 @@ FLAGS := $(if $(filter-out 0,$(QUICK)),--quick) $(if $(PERTURBED),--perturbed $(
 # The first of these that starts; a command may exist and fail to start.
 PYTHON ?= $(shell for p in python3.11 python3.12 python3.13 python3.14 python3; do $$p -c '' 2>/dev/null && { echo $$p; break; }; done)
 
-# Said before the work begins; minutes on two free cores, as in the README.
+# Said before the work begins; minutes on two cores from an empty cache of compiled code, as in the README.
 SET_UP_TAKES := 2
-TESTS_TAKE := $(if $(filter 0,$(BROWSER)),5,8)
-STUDIES_TAKE := $(if $(filter-out 0,$(QUICK)),3,10)
+TESTS_TAKE := $(if $(filter 0,$(BROWSER)),9,13)
+STUDIES_TAKE := $(if $(filter-out 0,$(QUICK)),4,10)
 
 .PHONY: reproduce test bench docs lint bullet rivals next-numba lowest clean say-tests say-studies
 
