@@ -172,7 +172,7 @@ def sweep(
                 running.summary.start = time.perf_counter() - began
                 running.run()
             except (OSError, CancelledError) as error:  # TimeoutError is an OSError
-                if client.status == "running":
+                if not _lost(client, error):
                     raise
                 raise SchedulerLostError from error
             finally:
@@ -294,7 +294,7 @@ class _Running:
         try:
             done = event.result(timeout=LOST)
         except (Exception, CancelledError) as error:
-            if self.client.status != "running" or isinstance(error, TimeoutError):
+            if _lost(self.client, error) or isinstance(error, TimeoutError):
                 raise SchedulerLostError from None
             if not _died(error):
                 raise
@@ -360,6 +360,13 @@ class _Running:
             self.summary.rows += sum(len(table) for table in tables)
             self.summary.writing += time.perf_counter() - began
         self.written = time.perf_counter()
+
+
+def _lost(client: Client, error: BaseException) -> bool:
+    """Whether a call failed because the scheduler ended: the client notices that later than a call that is under way."""
+    from distributed.comm import CommClosedError
+
+    return client.status != "running" or isinstance(error, CommClosedError)
 
 
 def _died(error: BaseException) -> bool:

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
+from unittest.mock import Mock
 
 import pandas as pd
 import pytest
@@ -134,6 +135,19 @@ def test_a_chunk_whose_worker_died_is_halved_and_a_sample_is_given_up_after_thre
     assert (row["sample"], row["status"]) == (4, "crashed")
     assert "ended its worker 3 times" in row["reason"]
     assert running.taken == {4}
+
+
+def test_a_scheduler_that_ends_while_rows_are_fetched_is_lost_before_the_client_knows_it(tmp_path: Path) -> None:
+    from distributed.comm import CommClosedError
+
+    runner, samples = prepare(read_sweep(sweep_file(tmp_path)))
+    dataset = run.begin_dataset(tmp_path / "out", runner.template, samples)
+    client, future = Mock(status="running"), Mock()
+    future.result.side_effect = CommClosedError("in <TCP (closed)>: Stream is closed")
+    running = run._Running(client, runner, dataset, None)
+    running.flying[future] = (1,)
+    with pytest.raises(run.SchedulerLostError):
+        running._take(future)
 
 
 @pytest.mark.parametrize("extreme", ["idxmin", "idxmax"])
