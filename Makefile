@@ -48,7 +48,7 @@ test: say-tests $(STAMP)
 	@$(BIN)/python -m fctd compile
 	$(BIN)/python -m pytest --numprocesses=2 --dist=worksteal
 ifneq ($(BROWSER),0)
-	$(BIN)/python -m pytest -m browser -q tests
+	$(BIN)/python -m pytest --numprocesses=2 --dist=loadfile -m browser -q tests
 endif
 
 bench: $(STAMP)
@@ -71,7 +71,8 @@ $(STAMP): requirements.lock pyproject.toml
 	sys.exit(None if (3, 11) <= v < (3, 15) else "error: Python 3.11 to 3.14 is needed; $(PYTHON) is %d.%d (make PYTHON=... names another)" % v[:2])'
 	@echo "set-up first: about $(SET_UP_TAKES) minutes on two cores, and the download"
 	$(PYTHON) -m venv .venv
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --only-binary=:all: -r requirements.lock
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --only-binary=:all: -r requirements.lock
+	@$(BIN)/python -m compileall -qq -j 0 .venv/lib || true # pip uses one core, and ignores what is no Python, too
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
 	@touch $@
 

@@ -157,7 +157,7 @@ def test_a_limit_and_its_note_are_one_entry_of_a_table(copy: Path) -> None:
     """Charts, equilibria, the records of a run and a sweep's events have it; compiled is the walk alone."""
     limits = copy / "fctd" / "results" / "limits.py"
     add_line(limits, "LIMITS: Final[tuple[Limit, ...]] = (", MAKE_UP)
-    (copy / "well.toml").write_text(WELL.replace("segment_length = 40", "segment_length = 100") + ROTATE)
+    (copy / "well.toml").write_text(WELL.replace("segment_length = 40", "segment_length = 100") + ROTATE.replace("30", "6"))
     walked, codes, headline, events, *texts = lines_of(copy, compiled=ONE_WALK, interpreted=LIMITED)
     assert walked == "['1500 N m at 700 m, the connection holds 1000 N m']"
     assert codes == "['none', 'connection']"
@@ -216,7 +216,7 @@ from fctd.mechanics.law_names import CODES
 laws = state.Laws(state.ARCS, CODES["viscous"], 1.0, 0.0, 0.0, 0.0)
 entry(dynamics.update_velocities.py_func)(state.new_state(1), state.LANES, laws, 1e-3)
 """
-ROTATE = '[[operations]]\nkind = "rotate_off_bottom"\nat_md = 700\nduration = 60\nrpm = 60\nramp_time = 5\n'
+ROTATE = '[[operations]]\nkind = "rotate_off_bottom"\nat_md = 700\nduration = 30\nrpm = 60\nramp_time = 5\n'
 
 
 @pytest.mark.slow(seconds=20)

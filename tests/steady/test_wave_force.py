@@ -184,21 +184,15 @@ def spent(case: Case, **tables: dict[str, object]) -> Case:
 
 
 @pytest.mark.parametrize("times_onset", [1.25, 2.0])
-@pytest.mark.parametrize(
-    "operation",
-    ["drill_sliding", pytest.param("drill_rotating", marks=pytest.mark.slow(seconds=20)), "trip_in"],
-)
+@pytest.mark.parametrize("operation", ["drill_sliding", "trip_in"])
 def test_homogenised_waves_have_the_loads_of_resolved_ones(times_onset: float, operation: str) -> None:
     """What they drag: the push beyond the weight on bit."""
     case = level_case(times_onset, 400.0, 3.0, friction=0.2)
     point = fctd.equilibrium(spent(case), operation, 400.0)
     whole = fctd.equilibrium(with_tables(spent(case), solver={"buckling": "resolve"}), operation, 400.0)
     pressed_at_bit = 0.0 if operation == "trip_in" else case.bit.weight_on_bit
-    if operation != "drill_rotating":
-        drag, of_whole = (-each.hookload - pressed_at_bit for each in (point, whole))
-        assert drag == pytest.approx(of_whole, rel=0.025)
-    elif whole.answered:
-        assert point.surface_torque == pytest.approx(whole.surface_torque, rel=0.05)
+    drag, of_whole = (-each.hookload - pressed_at_bit for each in (point, whole))
+    assert drag == pytest.approx(of_whole, rel=0.025)
     if operation == "drill_sliding":
         assert (point.method, point.status, point.message) == ("homogenised", SteadyStatus.CONVERGED, "")
         assert [note.code for note in point.notes] == ["homogenised"]
