@@ -157,7 +157,8 @@ def test_a_limit_and_its_note_are_one_entry_of_a_table(copy: Path) -> None:
     """Charts, equilibria, the records of a run and a sweep's events have it; compiled is the walk alone."""
     limits = copy / "fctd" / "results" / "limits.py"
     add_line(limits, "LIMITS: Final[tuple[Limit, ...]] = (", MAKE_UP)
-    (copy / "well.toml").write_text(WELL.replace("segment_length = 40", "segment_length = 100") + ROTATE.replace("30", "6"))
+    well = WELL.replace("segment_length = 40", "segment_length = 100")
+    (copy / "well.toml").write_text(well + ROTATE.replace("duration = 30", "duration = 6"))
     walked, codes, headline, events, *texts = lines_of(copy, compiled=ONE_WALK, interpreted=LIMITED)
     assert walked == "['1500 N m at 700 m, the connection holds 1000 N m']"
     assert codes == "['none', 'connection']"

@@ -363,7 +363,7 @@ class _Running:
 
 
 def _lost(client: Client, error: BaseException) -> bool:
-    """Whether a call failed because the scheduler ended: the client notices that later than a call that is under way."""
+    """Whether a call failed because the scheduler ended; a call that is under way may see that before the client."""
     from distributed.comm import CommClosedError
 
     return client.status != "running" or isinstance(error, CommClosedError)
