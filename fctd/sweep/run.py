@@ -364,7 +364,7 @@ class _Running:
 
 def _lost(client: Client, error: BaseException) -> bool:
     """Whether a call failed because the scheduler ended; a call that is under way may see that before the client."""
-    from distributed.comm import CommClosedError
+    from distributed.comm.core import CommClosedError
 
     return client.status != "running" or isinstance(error, CommClosedError)
 

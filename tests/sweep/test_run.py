@@ -138,7 +138,7 @@ def test_a_chunk_whose_worker_died_is_halved_and_a_sample_is_given_up_after_thre
 
 
 def test_a_scheduler_that_ends_while_rows_are_fetched_is_lost_before_the_client_knows_it(tmp_path: Path) -> None:
-    from distributed.comm import CommClosedError
+    from distributed.comm.core import CommClosedError
 
     runner, samples = prepare(read_sweep(sweep_file(tmp_path)))
     dataset = run.begin_dataset(tmp_path / "out", runner.template, samples)
