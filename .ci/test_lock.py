@@ -2,6 +2,7 @@
 
 import importlib.util
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -112,7 +113,7 @@ def test_set_up_with_another_python_is_one_clear_message(version: tuple[int, int
         shutil.copy(ROOT / name, tmp_path)
     python = tmp_path / "python"
     program = f"import sys; sys.version_info = {version}; exec(sys.argv[1])"
-    python.write_text(f"#!/bin/sh\nexec {sys.executable} -c '{program}' \"$2\"\n")
+    python.write_text(f"#!/bin/sh\nexec {shlex.quote(sys.executable)} -c '{program}' \"$2\"\n")
     python.chmod(0o755)
     command = ["make", f"PYTHON={python}", ".venv/installed"]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)

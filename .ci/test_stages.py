@@ -1,13 +1,15 @@
 """Stages of .ci/run: one above its share of the time is named, one that fails ends all, and skipped tests are known."""
 
 import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-STAGES = Path(__file__).with_name("stages")
+STAGES = shlex.quote(str(Path(__file__).with_name("stages")))
+PYTEST = f"{shlex.quote(sys.executable)} -m pytest -c /dev/null --rootdir=."
 HEAD = f"""
 set -euo pipefail
 scratch=.
@@ -70,14 +72,14 @@ def test_skipped_tests_are_those_of_a_list(named: list[str], code: int, tmp_path
     """As pytest itself names them."""
     (tmp_path / "test_them.py").write_text(TESTS)
     (tmp_path / "named").write_text("".join(f"{each}\n" for each in named))
-    log = f"{sys.executable} -m pytest -c /dev/null --rootdir=. -rs --no-fold-skipped test_them.py >log"
+    log = f"{PYTEST} -rs --no-fold-skipped test_them.py >log"
     found, text = said(tmp_path, log, "skipped_are named log")
     assert (found, text.count("test_them.py::")) == (code, code)
 
 
 def test_a_skipped_test_is_an_error(tmp_path: Path) -> None:
     (tmp_path / "test_them.py").write_text(TESTS)
-    tests = f"none_skipped {sys.executable} -m pytest -c /dev/null --rootdir=. -q test_them.py"
+    tests = f"none_skipped {PYTEST} -q test_them.py"
     assert [said(tmp_path, f"{tests}{which}")[0] for which in ("::test_all", "::test_pages", "")] == [0, 1, 1]
 
 

@@ -1,6 +1,7 @@
 """Strange machines and the newcomer's: whose they are, what they have of ours, and the table that ends .ci/strange."""
 
 import os
+import shlex
 import shutil
 import subprocess
 import sys
@@ -114,7 +115,7 @@ def test_a_home_that_is_read_only_can_keep_nothing(checkout: Path) -> None:
 def test_a_python_of_an_option_is_used(checkout: Path) -> None:
     """It is looked for by its version; one on the way of commands that does not start is passed over."""
     python = checkout.parent / "other"
-    python.write_text(f'#!/bin/sh\n[ "$1" != --version ] && [ -z "$2" ] || echo {sys.executable}\n')
+    python.write_text(f'#!/bin/sh\n[ "$1" != --version ] && [ -z "$2" ] || echo {shlex.quote(sys.executable)}\n')
     python.chmod(0o755)
     code, text, ((name, *cells),) = strange(checkout, "--python", str(python), "python3.13")
     assert code == 0, text
