@@ -15,7 +15,7 @@ SIZES = [
     {"to_md": 500, "diameter": 0.3, "friction": 0.2, "stiffness": 2e7, "kind": "cased"},
     {"to_md": 1000, "diameter": BORE, "friction": 0.3, "kind": "open"},
 ]
-FIRST, LAST = 520.0, 980.0  # measured [m]
+FIRST, LAST = 520.0, 740.0  # measured [m]
 
 
 def bent_case(geometry: str, **wellbore: object) -> Case:

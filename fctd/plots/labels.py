@@ -3,13 +3,15 @@
 A label stands on one of several levels; a vertical line leads from the end of its curve down to it.
 """
 
-from collections.abc import Sequence
+import warnings
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from functools import cache
 from itertools import product
 from typing import NamedTuple
 
 from matplotlib.font_manager import FontProperties
-from matplotlib.textpath import TextPath
+from matplotlib.textpath import text_to_path
 
 SIZE = 8.0  # of the type [pt]
 LEVEL = 12.0  # height of a level [pt]
@@ -28,15 +30,21 @@ class Place(NamedTuple):
     right: bool
 
 
+@contextmanager
+def boxes() -> Iterator[None]:
+    """A character that the font lacks is a box, without a warning of the package: a name of another script."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Glyph .* missing from font")
+        yield
+
+
 @cache
 def width_of(text: str, size: float = SIZE, weight: str = "normal") -> float:
     """Width of a text [pt], with its dollar signs as they stand."""
-    if not text.strip():
-        return 0.0  # a path has no outline
-    # A path reads what stands between two of them as a formula.
-    plain = text.replace("$", "0")
-    outline = TextPath((0, 0), plain, size=size, prop=FontProperties(family="DejaVu Sans", weight=weight))
-    return HINTED * float(outline.get_extents().width)
+    prop = FontProperties(family="DejaVu Sans", weight=weight, size=size)
+    with boxes():
+        width, _, _ = text_to_path.get_text_width_height_descent(text, prop, ismath=False)
+    return HINTED * float(width)
 
 
 def place(ends: Sequence[float], texts: Sequence[str], width: float) -> list[Place] | None:

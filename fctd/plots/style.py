@@ -1,7 +1,6 @@
 """What all pictures share: colours, markers, the sheet with its heading, and the files."""
 
 import io
-import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from textwrap import wrap
@@ -15,7 +14,7 @@ from matplotlib.legend import Legend
 from matplotlib.typing import RcKeyType
 
 from fctd.case.text import printable
-from fctd.plots.labels import SIZE, width_of
+from fctd.plots.labels import SIZE, boxes, width_of
 from fctd.plots.palette import DARK, DASHES, QUIET, Dash
 from fctd.store.whole_file import whole_file
 
@@ -71,13 +70,9 @@ def save(figure: Figure, path: Path) -> list[Path]:
 
 
 def drawn(figure: Figure, suffix: str, **options: Any) -> bytes:
-    """A figure in the format of a suffix; options : of ``savefig``.
-
-    A character that the font lacks is a box, without a warning of the package: a name of another script.
-    """
+    """A figure in the format of a suffix; options : of ``savefig``."""
     content = io.BytesIO()
-    with mpl.rc_context(RC), warnings.catch_warnings():
-        warnings.filterwarnings("ignore", "Glyph .* missing from font")
+    with mpl.rc_context(RC), boxes():
         figure.savefig(content, format=suffix.removeprefix("."), metadata=_UNDATED.get(suffix), **options)
     return content.getvalue()
 

@@ -60,12 +60,12 @@ def test_the_hole_of_a_caliper_is_that_around_a_segment() -> None:
     """A hole that widens from 0.3 to 0.4 m, and its viscous resistance."""
     case = bent_case("sampled", caliper={"rows": [[FIRST, 0.3], [620, 0.3], [720, 0.4], [LAST, 0.4]]})
     hole = build_wellbore(case)
-    found = hole_radius(hole, 600.0, np.array([20.0, 100.0, 40.0, 20.0]))
+    found = hole_radius(hole, 600.0, np.array([20.0, 100.0, 8.0, 8.0]))
     assert found == pytest.approx([0.15, 0.175, 0.2, 0.2], abs=1e-3)
     assert hole_radius(hole, 0.0, np.array([490.0])) == pytest.approx(0.15)
     assert hole_radius(hole, 990.0, np.array([5.0, 5.0])) == pytest.approx(0.5 * BORE)  # below the log
     viscous = case.model_copy(update={"mud": case.mud.model_copy(update={"density": 1200.0, "viscosity": 0.03})})
-    string = lay_out(viscous, 980.0)
+    string = lay_out(viscous, 740.0)
     around = resistance(string.of("outer"), hole_radius(hole, 0.0, string.length), 0.03)
     assert damping_of(viscous, string, hole)[:, 2] == pytest.approx(around)
     assert around[-10:].max() < around[:10].min()

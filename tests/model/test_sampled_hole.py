@@ -35,7 +35,7 @@ def test_an_oval_hole_is_widest_where_the_caliper_says(reference: str) -> None:
     rows = [[md, 0.30, 0.2159] for md in np.arange(FIRST, LAST, 5.0)]
     given = {"rows": rows, "reference": reference, "first_arm": np.radians(40)}
     hole = build_wellbore(bent_case("sampled", caliper=given))
-    md, tangent = np.array([560.0, 700.0, 940.0]), hole.at(np.array([560.0, 700.0, 940.0]))[1]
+    md, tangent = np.array([560.0, 640.0, 720.0]), hole.at(np.array([560.0, 640.0, 720.0]))[1]
     up, right = hole_frame(tangent)
     if reference == "north":
         up = np.array([1.0, 0, 0]) - tangent[:, :1] * tangent

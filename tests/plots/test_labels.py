@@ -46,3 +46,10 @@ def test_curves_with_one_end_are_listed_below_each_other() -> None:
 
 def test_a_text_wider_than_the_panel_does_not_fit() -> None:
     assert place([150.0], ["x" * 80], WIDTH) is None
+
+
+def test_letters_without_an_outline_or_that_the_font_lacks_have_a_width() -> None:
+    """A warning would be an error here."""
+    assert width_of("\u200b") == 0.0
+    assert width_of("水") > 0.0
+    assert width_of("$5 to $6") == width_of("05 to 06")

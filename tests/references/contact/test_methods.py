@@ -3,11 +3,13 @@
 Cylinders, arcs, meshes and libraries are tested together here; most modules of the room have no test file of their own.
 """
 
+import functools
+
 import numpy as np
 import pytest
 
 from fctd.case.errors import InputError
-from fctd.model.wellbore import build_wellbore, find_contacts
+from fctd.model.wellbore import Wellbore, build_wellbore, find_contacts
 from references import contact
 from references.contact.tube_mesh import MeshMethod, curvature_at
 from references.registry import absent
@@ -18,7 +20,8 @@ CASE = bent_case()
 # Mesh methods are tested with two resolutions, to show an error that does not depend on it.
 MESHES = ("fcl", "coal", "bullet", "mujoco", "libigl", "trimesh")
 SETTINGS = [("cylinders", {}), ("cylinders", {"cylinder_length": "6 m"}), ("arcs", {}), ("for_loop", {})]
-SETTINGS += [("axis_frame", {}), ("sdf", {}), ("sdf", {"cell": "40 mm", "interpolation": "linear", "source": "mesh"})]
+SAMPLED_MESH = {"cell": "40 mm", "interpolation": "linear", "source": "mesh"}
+SETTINGS += [("axis_frame", {}), ("sdf", {}), ("sdf", SAMPLED_MESH)]
 SETTINGS += [
     (name, {"facets": facets, "ring_spacing": ring}) for name in MESHES for facets, ring in ((24, 3.0), (96, 1.0))
 ]
@@ -31,7 +34,7 @@ BUILT: dict[str, contact.ContactMethod] = {}
 
 @pytest.fixture(
     params=[
-        pytest.param((key, setting), id=key, marks=pytest.mark.slow if setting[1] == FINE else ())
+        pytest.param((key, setting), id=key, marks=pytest.mark.slow if setting[1] in (FINE, SAMPLED_MESH) else ())
         for key, setting in zip(IDS, SETTINGS, strict=True)
     ]
 )
@@ -45,13 +48,19 @@ def method(request: pytest.FixtureRequest) -> contact.ContactMethod:
     return BUILT[key]
 
 
+@functools.cache
+def exact_hole() -> Wellbore:
+    return build_wellbore(CASE)
+
+
 def truth(points):
-    return find_contacts(build_wellbore(CASE), points, RADIUS)
+    return find_contacts(exact_hole(), points, RADIUS)
 
 
+@functools.cache
 def curvature(region):
     """Curvature of the arcs of the hole [1/m]."""
-    hole = build_wellbore(CASE)
+    hole = exact_hole()
     md = np.linspace(*REGIONS[region], 500)
     turn = np.linalg.norm(np.diff(hole.at(md)[1], axis=0), axis=1)
     return float(turn.max() / (md[1] - md[0]))
