@@ -44,7 +44,7 @@ def place_of_code(root: Path, **environment: str) -> list[str]:
         [sys.executable, "-c", PLACE],
         cwd=root, env={**clean, "PYTHONPATH": str(root), **environment}, capture_output=True, text=True, check=True,
     )  # fmt: skip
-    return done.stdout.split()
+    return done.stdout.splitlines()
 
 
 @pytest.mark.slow
