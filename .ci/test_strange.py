@@ -67,12 +67,14 @@ def strange(checkout: Path, *arguments: str) -> tuple[int, str, list[list[str]]]
 
 def test_each_condition_is_a_row(checkout: Path) -> None:
     """Conditions that no installer sees share one environment; a condition holds for both commands."""
-    code, text, rows = strange(checkout, "time-zone", "busy", "c-locale", "python3.14")
+    code, text, rows = strange(checkout, "time-zone", "busy", "c-locale", "python3.14", "numbers")
     assert code == 0, text
     assert [[*row[:3], *row[4:5]] for row in rows[:3]] == [
         [name, "0", "7/0/1", "0"] for name in ("time-zone", "busy", "c-locale")
     ]  # fmt: skip
     assert rows[3] == ["python3.14", "", "", "", "", "", "absent: no such interpreter starts"]
+    assert rows[4] == ["numbers", "0", "0/0/0", rows[4][3], "", "", ""]
+    assert "TZ=pytest -m" in text
     assert text.count("TZ=Pacific/Chatham") == text.count("LC_ALL=C ") == 2
     assert text.count("\nset-up\n") == 2
 
@@ -125,4 +127,4 @@ def test_a_python_of_an_option_is_used(checkout: Path) -> None:
 def test_an_unknown_condition_is_exit_code_2(checkout: Path) -> None:
     code, text, rows = strange(checkout, "archive", "moon")
     assert (code, rows) == (2, [])
-    assert text.startswith("error: condition moon: expected one of busy x86-64-v2")
+    assert text.startswith("error: condition moon: expected one of numbers busy x86-64-v2")

@@ -45,7 +45,7 @@ def test_another_process_has_them_to_the_last_bit(here: dict[str, list[dict[str,
     assert json.dumps(elsewhere({})) == json.dumps(here)  # as text, where no number equals itself
 
 
-@pytest.mark.slow(seconds=200)  # from an empty cache, as all code is compiled again
+@pytest.mark.compiles
 @pytest.mark.skipif(bool(targets.lacking(TARGET)), reason=f"{TARGET}: {targets.lacking(TARGET)}")
 def test_another_processor_has_them_to_the_stated_digits(here: dict[str, list[dict[str, object]]]) -> None:
     there = elsewhere(targets.environment(TARGET))

@@ -31,8 +31,7 @@ duration = "20 s"
 rpm = 120
 ramp_time = "2 s"
 """
-# The buckled row takes three more minutes: FCTD_LONG=1 asks for it.
-FILES = ("pulled.csv", "buckled.csv") if os.environ.get("FCTD_LONG") else ("pulled.csv",)
+FILES = ("pulled.csv", "buckled.csv")
 CACHE = "cache"
 TABLES = ("history", "profile", "energy", "operations", "segments")
 
@@ -48,8 +47,6 @@ def equilibrium(folder: Path) -> None:
     The buckled one is no row of a batch alone: several entries, each with copies of the same functions, work on it.
     """
     run(folder, "equilibrium", "--operation", "trip_out", "--bit-depth", "800 m", "--out", folder / "pulled.csv")
-    if "buckled.csv" not in FILES:
-        return
     buckled = ("--set", "bit.weight_on_bit=200 kN", "--set", "solver.buckling=resolve")
     run(
         folder, "equilibrium", "--operation", "drill_sliding", "--bit-depth", "800 m", *buckled,
@@ -77,7 +74,7 @@ def bits(file: Path) -> dict[str, bytes]:
     return {name: column.to_numpy().tobytes() for name, column in pd.read_parquet(file).select_dtypes("number").items()}
 
 
-@pytest.mark.slow(seconds=100)
+@pytest.mark.compiles
 def test_numbers_do_not_hang_on_what_was_compiled_before(tmp_path: Path) -> None:
     """The user's kept code, as a rule that of ``fctd compile``, which simulates first; an empty cache and a balance
     first; then a large function compiled anew beside kept code of those that it calls.
