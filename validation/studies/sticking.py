@@ -33,7 +33,7 @@ STIFFNESS, REFERENCE, FALL, LOAD = 1e7, 1e-3, 0.1, 1e4
 # A string on a slope: inclination [deg]; rest before the measurement and its duration [s].
 INCLINATION, QUIET, WATCHED = 75.0, 100.0, 60.0
 # The cost of a step: windows [s] of the curved chain, the laws in turn.
-WINDOWS, WINDOW = 5, 10.0
+WINDOWS, WINDOW = 20, 2.5
 # A string in mud cake: overbalance [Pa], thickness of the cake [m], length of the interval [m], hole and string [m].
 OVERBALANCE, CAKE, INTERVAL, HOLE, COLLAR = 3e6, 2e-3, 60.0, 0.2159, 0.159
 KARNOPP = CODES["karnopp"]
