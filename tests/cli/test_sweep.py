@@ -49,6 +49,11 @@ def test_a_sweep_is_written_and_resumed(tmp_path: Path, monkeypatch: pytest.Monk
     [
         (Summary(2, 0, 1, rows=2, statuses={"timed_out": 2}), 1, "2 samples timed_out: see the column reason"),
         (Summary(1, 0, 1, rows=1, statuses={"converged": 1}), 0, "1 sample; 1 row in 0.0 s on 1 worker "),
+        (
+            Summary(3, 1, 2, rows=2, statuses={"converged": 3}),
+            0,
+            "2 samples, 1 was there; 2 rows in 0.0 s on 2 workers ",
+        ),
         (Summary(1, 1, statuses={"converged": 1}), 0, "The sample is there: "),
     ],
 )

@@ -2,6 +2,10 @@
 
 from dataclasses import replace
 
+import numpy as np
+
+from reports.figures import volve_f4
+from tests.reports import synthetic
 from tests.reports.pages import BLANK, finished, missing, words_of
 
 
@@ -29,6 +33,15 @@ def test_readings_are_judged_by_well_and_a_well_without_torques_is_named(render,
         "An onshore S-well has no recorded torque.",
     )
     assert (tmp_path / "out" / "figures" / "volve_f4-judged.svg").exists()
+
+
+def test_the_chart_of_a_well_has_its_torques_and_each_reading_in_the_middle_of_its_range():
+    tables = synthetic.STUDIES["volve_f4"]()
+    torque, weight = volve_f4.chart(tables).axes
+    curve, *markers = (line.get_xdata() for line in torque.lines)
+    np.testing.assert_allclose(curve, np.arange(1.5, 8.0, 0.6))
+    assert np.concatenate(markers).tolist() == [7.5]
+    assert {1225.0, 1500.0} <= {x for line in weight.lines for x in line.get_xdata()}
 
 
 def test_a_study_that_has_not_been_run_is_named_with_its_command(render, tmp_path):

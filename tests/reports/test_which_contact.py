@@ -74,3 +74,7 @@ def test_the_guide_has_a_row_for_every_need_and_every_method_of_the_suite(guide:
     measured = {row.split("|")[1].partition(",")[0].strip() for row in rows}
     assert {words.name(name) for name in contact.METHODS} <= measured
     assert "not measured yet" not in guide
+
+
+def test_versions_of_python_are_one_or_a_span() -> None:
+    assert [which_contact._span(of) for of in (("3.11",), ("3.11", "3.12", "3.14"))] == ["3.11", "3.11 to 3.14"]
