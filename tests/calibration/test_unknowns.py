@@ -6,6 +6,7 @@ import pytest
 
 from fctd.calibration.setup import Setup
 from fctd.calibration.unknowns import (
+    NO_GRADIENT,
     Prior,
     Unknown,
     find_unknowns,
@@ -35,6 +36,13 @@ def test_defaults_come_from_the_case() -> None:
     mass = section_of(well().string.components[0], 0.0).mass
     collars = one("mass.collars")
     assert (collars.start, collars.low, collars.high) == pytest.approx((mass, 0.3 * mass, 3.0 * mass))
+
+
+def test_a_gradient_has_a_prior_of_none_unless_it_is_given_another() -> None:
+    factor, gradient = parse_fits(["friction.open", "friction.open.gradient"], []), "friction.open.gradient"
+    assert find_unknowns(factor, Setup(), [well()])[1].prior == NO_GRADIENT
+    given = parse_fits(["friction.open", gradient], [f"{gradient}=0.2+-0.1"])
+    assert find_unknowns(given, Setup(), [well()])[1].prior == Prior(0.2, 0.1)
 
 
 def test_bounds_and_priors_of_the_command_line() -> None:

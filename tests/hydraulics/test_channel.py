@@ -6,6 +6,7 @@ import pytest
 from fctd import build_wellbore
 from fctd.case.errors import InputError
 from fctd.hydraulics.channel import Channel, channel_of, flow_curves, has_flow_curve
+from fctd.hydraulics.pressures import check_flows
 from fctd.model.drillstring import lay_out
 from tests.cases import make_case, pipe
 
@@ -54,6 +55,14 @@ def test_each_depth_has_the_flow_curve_of_its_fluid() -> None:
     assert np.unique(inside.consistency) == [0.03]
     assert list(around.consistency) == [0.1] * 5 + [0.03] * 2 + [0.01] * 3
     assert has_flow_curve(case)
+
+
+def test_fluids_with_curves_of_their_own_need_none_of_the_mud() -> None:
+    """A row without one is refused where the mud has none either."""
+    thick, bare = [{"density": 1200.0} | THICK], [{"density": 1200.0}]
+    check_flows(make_case(mud={"density": 1200.0, "viscosity": 0.0, "inside": thick, "outside": thick}))
+    with pytest.raises(InputError, match="mud.fann"):
+        check_flows(make_case(mud={"density": 1200.0, "inside": bare, "outside": thick}))
 
 
 def test_a_plug_closes_the_bore() -> None:

@@ -73,6 +73,8 @@ def test_around_the_hole_the_wall_has_its_extremes_at_the_arms(arms: int, seed: 
         at = wall_around(radii[k : k + 1], first[k : k + 1], first[k] + 2 * np.pi / arms * np.arange(arms))
         np.testing.assert_allclose(at[0], radii[k], atol=1e-12)
         assert radii[k].min() - 1e-12 <= around[k].min() <= around[k].max() <= radii[k].max() + 1e-12
+    just_before = wall_around(radii[:1], first[:1], np.array([-1e-20]))  # a turn less next to nothing is a whole turn
+    assert just_before[0, 0] == pytest.approx(radii[0, 0], abs=1e-12)
 
 
 def test_the_wall_along_a_hole_has_circles_of_the_same_area() -> None:
