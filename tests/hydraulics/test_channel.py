@@ -60,7 +60,7 @@ def test_each_depth_has_the_flow_curve_of_its_fluid() -> None:
 def test_fluids_with_curves_of_their_own_need_none_of_the_mud() -> None:
     """A row without one is refused where the mud has none either."""
     thick, bare = [{"density": 1200.0} | THICK], [{"density": 1200.0}]
-    check_flows(make_case(mud={"density": 1200.0, "viscosity": 0.0, "inside": thick, "outside": thick}))
+    check_flows(make_case(mud={"density": 1200.0, "inside": thick, "outside": thick}))
     with pytest.raises(InputError, match="mud.fann"):
         check_flows(make_case(mud={"density": 1200.0, "inside": bare, "outside": thick}))
 
