@@ -4,6 +4,7 @@ The environment is read when a process begins, so that a target needs a process 
 validation.harness.targets NAME`` prints it as lines KEY=VALUE.
 """
 
+import os
 from collections.abc import Mapping
 
 import llvmlite.binding as llvm
@@ -54,6 +55,7 @@ def environment(name: str) -> dict[str, str]:
         "OPENBLAS_CORETYPE": CORES[name],
     }
     chosen = np.show_config(mode="dicts")["SIMD Extensions"].get("found", [])
+    chosen += os.environ.get("NPY_DISABLE_CPU_FEATURES", "").split()  # what is off in this process need not be there
     if off := [feature for feature in chosen if feature not in NUMPY[name]]:
         found["NPY_DISABLE_CPU_FEATURES"] = " ".join(off)
     if "fma" not in level:
