@@ -61,7 +61,7 @@ def test_fluids_with_curves_of_their_own_need_none_of_the_mud() -> None:
     """A row without one is refused where the mud has none either."""
     thick, bare = [{"density": 1200.0} | THICK], [{"density": 1200.0}]
     check_flows(make_case(mud={"density": 1200.0, "inside": thick, "outside": thick}))
-    with pytest.raises(InputError, match="mud.fann"):
+    with pytest.raises(InputError, match=r"mud\.fann"):
         check_flows(make_case(mud={"density": 1200.0, "inside": bare, "outside": thick}))
 
 
