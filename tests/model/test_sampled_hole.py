@@ -47,6 +47,14 @@ def test_an_oval_hole_is_widest_where_the_caliper_says(reference: str) -> None:
         np.testing.assert_allclose(found, radius, atol=6e-4)  # flattened by cells of 10° around the hole
 
 
+def test_a_hole_that_is_wide_on_its_high_side_is_so_there_alone() -> None:
+    rows = [[md, 0.15, 0.11, 0.11, 0.11] for md in np.arange(FIRST, LAST, 5.0)]
+    hole = build_wellbore(bent_case("sampled", caliper={"rows": rows, "values": "radius"}))
+    md = np.array([560.0, 640.0])
+    up, _ = hole_frame(hole.at(md)[1])
+    np.testing.assert_allclose(hole.radii_towards(md, np.stack([up, -up], axis=1)), [[0.15, 0.11]] * 2, atol=6e-4)
+
+
 def test_casing_and_gaps_keep_the_size_of_their_interval() -> None:
     """The caliper begins in casing, has a gap, and ends above total depth."""
     sizes = [[md, 0.26] for md in (*range(460, 640, 4), *range(700, 900, 4))]
