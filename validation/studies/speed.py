@@ -285,7 +285,7 @@ def real_time(kernel: pd.DataFrame, name: str) -> float:
 
 
 def swap_checks(times: pd.DataFrame) -> list[Check]:
-    """Checks that hold with a wide margin on any machine: ratios within one race."""
+    """Ratios within one race; what an old processor, or code compiled for one, leaves of them is in expected.toml."""
     equal = times[(times["state"] == TOUCHING) & (times["step"] == EQUAL) & (times["segments"] == SEGMENTS[0])]
     ratio = equal.set_index("engine")["ratio_to_fctd"]
     made = []
