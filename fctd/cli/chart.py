@@ -55,7 +55,9 @@ from fctd.cli.pictures import (
     draw_chart,
     draw_profiles,
 )
+from fctd.cli.quantities import DEPTHS, Given, quantity
 from fctd.cli.steady import (
+    DRIVE,
     KIND_HELP,
     Flow,
     ResolveBuckling,
@@ -66,7 +68,6 @@ from fctd.cli.steady import (
     in_units,
     metadata_of,
     print_segments,
-    read_bit_depths,
     read_drive,
     read_kinds,
     row_bar,
@@ -108,10 +109,7 @@ def chart_command(
         list[str],
         typer.Option("--operation", metavar="KINDS", help=f"{KIND_HELP}; several with commas between them, or all."),
     ] = [],  # noqa: B006 (typer copies it)
-    depths: Annotated[
-        str | None,
-        typer.Option("--depths", metavar="FROM:TO:STEP", help=DEPTHS_HELP, show_default=False),
-    ] = None,
+    depths: Annotated[Given | None, quantity(DEPTHS, "FROM:TO:STEP", DEPTHS_HELP, show_default=False)] = None,
     frictions: FrictionFan = [],  # noqa: B006
     speed: Speed = None,
     rpm: Rpm = None,
@@ -192,11 +190,11 @@ class ChartRequest:
     """What a chart is to have; the options of ``chart_command``."""
 
     operations: list[str]
-    depths: str
+    depths: Given
     frictions: list[str]
-    speed: str | None
-    rpm: str | None
-    flow: str | None
+    speed: Given | None
+    rpm: Given | None
+    flow: Given | None
     load: ShownLoad
     side_force: ShownSideForce
     limits: bool
@@ -210,13 +208,19 @@ class ChartRequest:
     @property
     def kept(self) -> dict[str, Any]:
         """All of it as JSON takes it."""
-        return {name: str(value.absolute()) if isinstance(value, Path) else value for name, value in vars(self).items()}
+        files = {name: str(value.absolute()) for name, value in vars(self).items() if isinstance(value, Path)}
+        texts = {name: value.text for name, value in vars(self).items() if isinstance(value, Given)}
+        return vars(self) | files | texts
 
     @classmethod
     def read(cls, kept: Mapping[str, Any]) -> "ChartRequest":
         """The options that ``kept`` gave."""
         files = {name: kept[name] for name in ("out", "plot", "plot_profile", "measured")}
-        return cls(**{**kept, **{name: None if path is None else Path(path) for name, path in files.items()}})
+        rates = {of.name.removeprefix("--"): of for of in (DEPTHS, *DRIVE)}
+        return cls(**{
+            **kept, **{name: None if path is None else Path(path) for name, path in files.items()},
+            **{name: None if kept[name] is None else of.parse(kept[name]) for name, of in rates.items()},
+        })  # fmt: skip
 
 
 def _chart(
@@ -231,7 +235,7 @@ def _chart(
     out, plot = check_targets(asked.out, asked.plot, {"--plot-profile": plot_profile})
     for key, path in {"--out": out, "--plot": plot, "--plot-profile": plot_profile}.items():
         refuse_sources(case, path, key, [asked.measured])
-    bit_depths = read_bit_depths(asked.depths, case, units)
+    bit_depths = asked.depths.depths(case, units)
     points_measured = None if asked.measured is None else _measured(asked.measured, case, plot, units)
     kinds = read_kinds(asked.operations)
     if points_measured is not None:

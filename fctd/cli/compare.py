@@ -30,6 +30,7 @@ from fctd.cli.options import (
     tell,
 )
 from fctd.cli.pictures import PICTURE_HELP, ShownLoad, draw_chart
+from fctd.cli.quantities import DEPTHS, Given, quantity
 from fctd.cli.steady import (
     KIND_HELP,
     Flow,
@@ -39,7 +40,6 @@ from fctd.cli.steady import (
     check_targets,
     file_option,
     metadata_of,
-    read_bit_depths,
     read_drive,
     read_kinds,
     row_bar,
@@ -69,7 +69,7 @@ def compare_command(
             show_default=False,
         ),
     ],
-    depths: Annotated[str, typer.Option("--depths", metavar="FROM:TO:STEP", help=DEPTHS_HELP)],
+    depths: Annotated[Given, quantity(DEPTHS, "FROM:TO:STEP", DEPTHS_HELP)],
     operations: Annotated[
         list[str],
         typer.Option(
@@ -166,7 +166,7 @@ def _with_factors(case: Case, factors: Sequence[FrictionSet]) -> Case:
         return with_friction(case, factors[0] if factors else None)
 
 
-def _depths(text: str, cases: Mapping[str, Case], units: System) -> tuple[dict[str, list[float]], list[str]]:
+def _depths(given: Given, cases: Mapping[str, Case], units: System) -> tuple[dict[str, list[float]], list[str]]:
     """The bit depths [m] of each case that it reaches, and a line for each that does not reach all of them.
 
     Raises InputError, which names the file, for a case that reaches none.
@@ -175,11 +175,11 @@ def _depths(text: str, cases: Mapping[str, Case], units: System) -> tuple[dict[s
     metre = shown("bit_depth_m", units)
     for name, case in cases.items():
         with naming_file(case):
-            wanted = read_bit_depths(text, case, units)
+            wanted = given.depths(case, units)
             found[name] = [depth for depth in wanted if depth <= case.deepest + SAME_DEPTH]
             if not found[name]:
                 expected = f"a depth that its string reaches, at most {case.deepest:g} m"
-                raise InputError(expected, key="--depths", value=text)
+                raise InputError(expected, key="--depths", value=given.text)
         if len(found[name]) < len(wanted):
             end = f"{case.deepest * metre.factor:.10g} {metre.label}"
             deeper = f"{len(wanted) - len(found[name])} of {counted(len(wanted), 'depth')}"

@@ -21,7 +21,6 @@ from fctd.cli.options import (
     Quiet,
     Strict,
     Units,
-    bare_length,
     changes_of,
     finish,
     messages,
@@ -34,6 +33,7 @@ from fctd.cli.options import (
     tell,
 )
 from fctd.cli.pictures import PICTURE_HELP, ShownSideForce, draw_profiles
+from fctd.cli.quantities import BIT_DEPTH, Given, quantity
 from fctd.cli.steady import (
     DEPTH_HELP,
     KIND_HELP,
@@ -49,7 +49,6 @@ from fctd.cli.steady import (
     read_drive,
     read_kinds,
 )
-from fctd.model.depths import read_depth
 from fctd.model.operations import rates_of_all
 from fctd.results.buckling import BUCKLED
 from fctd.results.columns import COLUMNS, LOADS, SHAPES, SHARES
@@ -67,7 +66,7 @@ if TYPE_CHECKING:
 def equilibrium_command(
     case_file: CaseFile,
     operations: Annotated[list[str], typer.Option("--operation", metavar="KIND", help=f"{KIND_HELP}.")],
-    bit_depth: Annotated[str, typer.Option("--bit-depth", metavar="D", help=f"{DEPTH_HELP}.")],
+    bit_depth: Annotated[Given, quantity(BIT_DEPTH, "D", f"{DEPTH_HELP}.")],
     speed: Speed = None,
     rpm: Rpm = None,
     flow: Flow = None,
@@ -94,9 +93,9 @@ def equilibrium_command(
     case = read_case(case_file, changes_of(overrides, friction, resolve_buckling))
     refuse_sources(case, out, "--out")
     refuse_sources(case, plot, "--plot")
-    depth = read_depth(bit_depth, case, "--bit-depth", bare_length(units))
+    depth = bit_depth.depth(case, units)
     with naming_file(case):
-        check_bit_depth(depth, *case.depths, "--bit-depth", bit_depth)
+        check_bit_depth(depth, *case.depths, "--bit-depth", bit_depth.text)
     drive = read_drive(speed, rpm, flow, units)
     check_feeding(plot_feeding, case, rates_of_all(case, [operation], **drive)[operation])
     warnings = warnings_of(case, [operation], **drive)

@@ -8,7 +8,7 @@ import typer
 
 from fctd.case.doubts import warnings_of
 from fctd.case.text import printable
-from fctd.case.units import FORCE, LENGTH, TORQUE, Dimension
+from fctd.case.units import FORCE, LENGTH, TORQUE
 from fctd.cli.base_command import Silent
 from fctd.cli.limits import rows_of
 from fctd.cli.options import (
@@ -17,19 +17,16 @@ from fctd.cli.options import (
     Overrides,
     Strict,
     Units,
-    bare_length,
     changes_of,
     finish,
     print_written,
     read_case,
-    read_load,
-    read_quantity,
     refuse_sources,
     screen,
     tell,
 )
+from fctd.cli.quantities import BIT_DEPTH, TOTAL_DEPTH, Given, QuantityOption, quantity, si
 from fctd.cli.steady import DEPTH_HELP, check_table, file_option, in_units, metadata_of_case
-from fctd.model.depths import read_depth
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, in_words, reworded
 from fctd.steady.free_point import STRETCH, free_point
@@ -38,36 +35,41 @@ if TYPE_CHECKING:
     import pandas as pd
 
 
+NO_TORQUE = QuantityOption("--first-torque", TORQUE).parse("0 N*m")
+
+
 def freepoint_command(
     case_file: CaseFile,
     pull: Annotated[
-        str | None,
-        typer.Option("--pull", metavar="F", help="Difference of the hook loads at two marks, '200 kN' or '40 klbf'."),
+        Given | None,
+        quantity(
+            QuantityOption("--pull", FORCE), "F", "Difference of the hook loads at two marks, '200 kN' or '40 klbf'."
+        ),
     ] = None,
     stretch: Annotated[
-        str | None,
-        typer.Option("--stretch", metavar="L", help="How far the pipe came up between them, '0.6 m' or '24 in'."),
+        Given | None,
+        quantity(
+            QuantityOption("--stretch", LENGTH), "L", "How far the pipe came up between them, '0.6 m' or '24 in'."
+        ),
     ] = None,
     first_hookload: Annotated[
-        str | None,
-        typer.Option(
-            "--first-hookload",
-            metavar="F",
-            help="Hook load of the string at the first mark; default: that of the free string picking up.",
+        Given | None,
+        quantity(
+            QuantityOption("--first-hookload", FORCE),
+            "F",
+            "Hook load of the string at the first mark; default: that of the free string picking up.",
             show_default=False,
         ),
     ] = None,
     torque: Annotated[
-        str | None,
-        typer.Option("--torque", metavar="T", help="By how much the torque grew, '15 kN*m' or '11 kft*lbf'."),
+        Given | None,
+        quantity(QuantityOption("--torque", TORQUE), "T", "By how much the torque grew, '15 kN*m' or '11 kft*lbf'."),
     ] = None,
     turns: Annotated[
         float | None, typer.Option("--turns", metavar="N", help="By how many turns the pipe was wound up.")
     ] = None,
-    first_torque: Annotated[
-        str, typer.Option("--first-torque", metavar="T", help="Torque from which it grew.")
-    ] = "0 N*m",
-    bit_depth: Annotated[str, typer.Option("--bit-depth", metavar="D", help=f"{DEPTH_HELP}.")] = "td",
+    first_torque: Annotated[Given, quantity(NO_TORQUE.option, "T", "Torque from which it grew.")] = NO_TORQUE,
+    bit_depth: Annotated[Given, quantity(BIT_DEPTH, "D", f"{DEPTH_HELP}.")] = TOTAL_DEPTH,
     overrides: Overrides = [],  # noqa: B006 (typer copies it)
     friction: Friction = None,
     out: Annotated[Path | None, file_option("--out", "A row for stretch and twist, .csv, .parquet or .xlsx.")] = None,
@@ -82,17 +84,11 @@ def freepoint_command(
     check_table(out)
     case = read_case(case_file, changes_of(overrides, friction))
     refuse_sources(case, out, "--out")
-
-    def read(text: str | None, dimension: Dimension, key: str) -> float | None:
-        return None if text is None else read_load(text, dimension, key)
-
     measured: dict[str, Any] = {
-        "pull": read(pull, FORCE, "--pull"),
-        "stretch": None if stretch is None else read_quantity(stretch, LENGTH, "--stretch", units),
-        "first_hookload": read(first_hookload, FORCE, "--first-hookload"), "torque": read(torque, TORQUE, "--torque"),
-        "turns": turns, "first_torque": read_load(first_torque, TORQUE, "--first-torque"),
+        "pull": si(pull, units), "stretch": si(stretch, units), "first_hookload": si(first_hookload, units),
+        "torque": si(torque, units), "turns": turns, "first_torque": first_torque.si(units),
     }  # fmt: skip
-    depth = read_depth(bit_depth, case, "--bit-depth", bare_length(units))
+    depth = bit_depth.depth(case, units)
     warnings = warnings_of(case)
     tell(case, warnings, strict=strict, units=units)
     table = free_point(case, depth, **measured)

@@ -13,7 +13,7 @@ from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
 from fctd.case.load import Case, naming_file
 from fctd.case.text import counted, printable
-from fctd.case.units import DENSITY, LENGTH, SPEED, Dimension
+from fctd.case.units import DENSITY, FLOW, LENGTH, MOST_FLOW
 from fctd.cli.chart import DEPTHS_HELP
 from fctd.cli.check import facts_table
 from fctd.cli.limits import rows_of
@@ -27,13 +27,13 @@ from fctd.cli.options import (
     messages,
     print_written,
     read_case,
-    read_quantity,
     refuse_sources,
     screen,
     tell,
 )
 from fctd.cli.pictures import PICTURE_HELP, draw_panels
-from fctd.cli.steady import check_targets, file_option, in_units, metadata_of_case, read_bit_depths, read_flow, row_bar
+from fctd.cli.quantities import DEPTHS, PENETRATION, TO_TOTAL_DEPTH, Bare, Given, QuantityOption, quantity, several
+from fctd.cli.steady import check_targets, file_option, in_units, metadata_of_case, row_bar
 from fctd.hydraulics.cuttings import Cuttings
 from fctd.hydraulics.pressures import SHARE, Circulation, Eccentricity, circulations
 from fctd.results.case_facts import Row, flow_curves
@@ -54,14 +54,16 @@ SHOWN: Final = {
 }  # fmt: skip
 
 Flows = Annotated[
-    list[str],
-    typer.Option(
-        "--flow",
-        metavar="Q",
-        help="Flow of the pumps, '2000 L/min' or '500 gpm', several with commas between them; default: the largest of "
-        "the case's operations.",
+    list[Given],
+    quantity(
+        QuantityOption("--flow", FLOW, above=0.0, at_most=MOST_FLOW),
+        "Q",
+        "Flow of the pumps, '2000 L/min' or '500 gpm', several with commas between them; default: the largest of the "
+        "case's operations.",
     ),
 ]
+SIZE: Final = QuantityOption("--cuttings-size", LENGTH, Bare("m", "in"), above=0.0).parse("6.35 mm")
+ROCK: Final = QuantityOption("--cuttings-density", DENSITY).parse("2.6 sg")
 Beside = Annotated[
     str | None,
     typer.Option(
@@ -76,24 +78,17 @@ def hydraulics_command(
     case_file: CaseFile,
     flows: Flows = [],  # noqa: B006 (typer copies it)
     depths: Annotated[
-        str,
-        typer.Option("--depths", metavar="D or FROM:TO:STEP", help=f"{DEPTHS_HELP} Or one depth, such as shoe."),
-    ] = "td",
+        Given, quantity(DEPTHS, "D or FROM:TO:STEP", f"{DEPTHS_HELP} Or one depth, such as shoe.")
+    ] = TO_TOTAL_DEPTH,
     eccentricity: Beside = None,
     penetration: Annotated[
-        str | None,
-        typer.Option(
-            "--penetration",
-            metavar="V",
-            help="Rate of penetration, '20 m/h', bare in m/h or ft/h; cuttings weigh in the annulus.",
+        Given | None,
+        quantity(
+            PENETRATION, "V", "Rate of penetration, '20 m/h', bare in m/h or ft/h; cuttings weigh in the annulus."
         ),
     ] = None,
-    cuttings_size: Annotated[
-        str, typer.Option("--cuttings-size", metavar="D", help="Size of a piece of rock.")
-    ] = "6.35 mm",
-    cuttings_density: Annotated[
-        str, typer.Option("--cuttings-density", metavar="ρ", help="Density of the rock.")
-    ] = "2.6 sg",
+    cuttings_size: Annotated[Given, quantity(SIZE.option, "D", "Size of a piece of rock.")] = SIZE,
+    cuttings_density: Annotated[Given, quantity(ROCK.option, "ρ", "Density of the rock.")] = ROCK,
     overrides: Overrides = [],  # noqa: B006
     out: Annotated[
         Path | None, file_option("--out", "A row for every flow and depth, .csv, .parquet or .xlsx, or its picture.")
@@ -118,20 +113,13 @@ def hydraulics_command(
     for key, path in (("--out", out), ("--parts", parts), ("--plot", plot)):
         refuse_sources(case, path, key)
     pumped = _flows(flows, case, units)
-    bit_depths = read_bit_depths(depths, case, units)
+    bit_depths = depths.depths(case, units)
     cuttings = None
     if penetration is not None:
-        read: list[tuple[str, Dimension, str]] = [
-            (_with_unit(penetration, "ft/h" if units == "field" else "m/h"), SPEED, "--penetration"),
-            (cuttings_size, LENGTH, "--cuttings-size"),
-            (cuttings_density, DENSITY, "--cuttings-density"),
-        ]  # fmt: skip
-        cuttings = Cuttings(*(read_quantity(text, dimension, key, units) for text, dimension, key in read))
-        if cuttings.size <= 0:
-            raise InputError("a size above 0", key="--cuttings-size", value=cuttings_size)
+        cuttings = Cuttings(penetration.si(units), cuttings_size.si(units), cuttings_density.si(units))
         if cuttings.density <= case.mud.densest:
             heavier = f"a density above the mud's, {case.mud.densest:g} kg/m^3"
-            raise InputError(heavier, key="--cuttings-density", value=cuttings_density)
+            raise InputError(heavier, key="--cuttings-density", value=cuttings_density.text)
     warnings = warnings_of(case, flow=pumped[0])
     told = tell(case, warnings, strict=strict, units=units)
     with naming_file(case), row_bar(quiet) as bar:
@@ -162,11 +150,6 @@ def hydraulics_command(
     print_written(written)
 
 
-def _with_unit(text: str, unit: str) -> str:
-    """A text with a unit where it is a bare number."""
-    return f"{text} {unit}" if text.strip().replace(".", "", 1).isdigit() else text
-
-
 def read_eccentricity(text: str | None, case: Case) -> Eccentricity:
     """The eccentricity of ``--eccentricity``, else that of the case."""
     given = case.mud.eccentricity if text is None else text
@@ -178,13 +161,9 @@ def read_eccentricity(text: str | None, case: Case) -> Eccentricity:
         raise InputError("'string' or a share at least 0 and at most 1", key="--eccentricity", value=given) from None
 
 
-def _flows(texts: Sequence[str], case: Case, units: System) -> list[float]:
-    """The flows of ``--flow`` [m³/s], a bare number in gpm or L/min; else the largest of the operations."""
-    found = []
-    for text in (part.strip() for given in texts for part in given.split(",")):
-        found.append(read_flow(text, units))
-        if not found[-1]:
-            raise InputError("a flow rate above 0", key="--flow", value=text)
+def _flows(given: Sequence[Given], case: Case, units: System) -> list[float]:
+    """The flows of ``--flow`` [m³/s]; else the largest of the operations."""
+    found = several(given, units)
     largest = max((operation.flow for operation in case.operations), default=0.0)
     if not found and not largest:
         raise InputError("a flow such as '2000 L/min', as no operation of the case has one", key="--flow")

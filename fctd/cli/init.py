@@ -48,6 +48,7 @@ def init_command(
         str | None,
         typer.Option(
             "--sheet",
+            metavar="NAME",
             help="Sheet of a workbook, or trajectory of a WITSML file, where it has several.",
             show_default=False,
         ),
@@ -72,12 +73,20 @@ def init_command(
     ] = None,
     string_name: Annotated[
         str | None,
-        typer.Option("--string-name", help="Name or uid of a tubular, where its file has several.", show_default=False),
+        typer.Option(
+            "--string-name",
+            metavar="NAME",
+            help="Name or uid of a tubular, where its file has several.",
+            show_default=False,
+        ),
     ] = None,
     hole_name: Annotated[
         str | None,
         typer.Option(
-            "--hole-name", help="Name or uid of a wbGeometry, where its file has several.", show_default=False
+            "--hole-name",
+            metavar="NAME",
+            help="Name or uid of a wbGeometry, where its file has several.",
+            show_default=False,
         ),
     ] = None,
     out: Annotated[Path, typer.Option("--out", metavar="FILE", help="The case file, .toml.")] = Path("my_well.toml"),

@@ -1,6 +1,5 @@
 """``fctd jar CASE``: forces at a jar of stuck pipe, and the hook loads that they take."""
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -10,7 +9,6 @@ from rich.box import SIMPLE_HEAD
 from rich.table import Column, Table
 
 from fctd.case.doubts import warnings_of
-from fctd.case.operation_names import split_names
 from fctd.case.text import printable
 from fctd.case.units import FORCE
 from fctd.cli.base_command import Silent
@@ -21,16 +19,15 @@ from fctd.cli.options import (
     Overrides,
     Strict,
     Units,
-    bare_length,
     changes_of,
     finish,
     print_written,
     read_case,
-    read_load,
     refuse_sources,
     screen,
     tell,
 )
+from fctd.cli.quantities import BIT_DEPTH, TOTAL_DEPTH, Given, QuantityOption, is_number, quantity, several
 from fctd.cli.steady import (
     DEPTH_HELP,
     StuckAt,
@@ -38,9 +35,7 @@ from fctd.cli.steady import (
     file_option,
     in_units,
     metadata_of_case,
-    read_stuck,
 )
-from fctd.model.depths import read_depth
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, in_words, reworded, shown
 from fctd.steady.jar import UP, jar_forces
@@ -57,7 +52,7 @@ PLACES = {"jar": "jar_md_m", "stuck": "stuck_md_m", "bit": "bit_depth_m"}
 
 
 def _forces(option: str, what: str) -> Any:
-    return typer.Option(option, metavar="F", help=f"{what}; several with commas between them.")
+    return quantity(QuantityOption(option, FORCE), "F", f"{what}; several with commas between them.")
 
 
 def jar_command(
@@ -67,12 +62,13 @@ def jar_command(
         typer.Option("--jar", metavar="MD or NAME", help="Measured depth of the jar, or the name of its component."),
     ],
     stuck_at: StuckAt = None,
-    up: Annotated[list[str], _forces("--up", "Pull at the jar that fires it upwards, '400 kN'")] = [],  # noqa: B006
-    down: Annotated[list[str], _forces("--down", "Push at the jar that fires it downwards")] = [],  # noqa: B006
+    up: Annotated[list[Given], _forces("--up", "Pull at the jar that fires it upwards, '400 kN'")] = [],  # noqa: B006
+    down: Annotated[list[Given], _forces("--down", "Push at the jar that fires it downwards")] = [],  # noqa: B006
     hookload: Annotated[
-        list[str], _forces("--hookload", "Hook load of the string, without the block, whose force at the jar is asked")
+        list[Given],
+        _forces("--hookload", "Hook load of the string, without the block, whose force at the jar is asked"),
     ] = [],  # noqa: B006
-    bit_depth: Annotated[str, typer.Option("--bit-depth", metavar="D", help=f"{DEPTH_HELP}.")] = "td",
+    bit_depth: Annotated[Given, quantity(BIT_DEPTH, "D", f"{DEPTH_HELP}.")] = TOTAL_DEPTH,
     overrides: Overrides = [],  # noqa: B006
     friction: Friction = None,
     out: Annotated[Path | None, file_option("--out", "A row for every load, .csv, .parquet or .xlsx.")] = None,
@@ -87,14 +83,13 @@ def jar_command(
     check_table(out)
     case = read_case(case_file, changes_of(overrides, friction))
     refuse_sources(case, out, "--out")
-    pulls, pushes, hung = (
-        _read(texts, f"--{key}") for key, texts in (("up", up), ("down", down), ("hookload", hookload))
-    )
-    bit = read_depth(bit_depth, case, "--bit-depth", bare_length(units))
+    pulls, pushes, hung = (several(given, units) for given in (up, down, hookload))
+    bit = bit_depth.depth(case, units)
     warnings = warnings_of(case)
     tell(case, warnings, strict=strict, units=units)
-    place = f"{jar} {bare_length(units)}" if _is_number(jar) else jar
-    table = jar_forces(case, place, read_stuck(stuck_at, case, units), bit, up=pulls, down=pushes, hookload=hung)
+    place = f"{jar} {BIT_DEPTH.bare_unit(units)}" if is_number(jar) else jar
+    stuck = None if stuck_at is None else stuck_at.depth(case, units)
+    table = jar_forces(case, place, stuck, bit, up=pulls, down=pushes, hookload=hung)
     written: list[Path] = []
     try:  # written before anything is printed, as the terminal may be closed
         if out is not None:
@@ -106,19 +101,6 @@ def jar_command(
         print_written(written)
     beyond = {*table.loc[table["share_used"] > 1, "limit"], *(["hoist"] if (table["hoist_share"] > 1).any() else [])}
     finish(bool((table["reason"] == "none").all()), beyond, strict)
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
-
-
-def _read(texts: Sequence[str], key: str) -> list[float]:
-    """The forces of an option [N]."""
-    return [read_load(text, FORCE, key) for given in texts for text in split_names(given)]
 
 
 def _print(table: "pd.DataFrame", name: str, units: System) -> None:

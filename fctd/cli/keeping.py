@@ -14,7 +14,8 @@ from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.text import printable
 from fctd.case.units import TIME
-from fctd.cli.options import messages, read_quantity
+from fctd.cli.options import messages
+from fctd.cli.quantities import Given, QuantityOption, quantity, si
 from fctd.mechanics.compile_cache import hash_of_sources
 from fctd.store.limits import Limits
 from fctd.store.origin import changes, origin_of
@@ -27,11 +28,11 @@ OptionalCase = Annotated[
     Path | None, typer.Argument(metavar="CASE", help="Case file (TOML); none with --resume.", show_default=False)
 ]
 CheckpointEvery = Annotated[
-    str | None,
-    typer.Option(
-        "--checkpoint-every",
-        metavar="TIME",
-        help=f"Longest time between two saves; default: '{EVERY_RUN:g} s' for a run, '{EVERY_CHART:g} s' for a chart.",
+    Given | None,
+    quantity(
+        QuantityOption("--checkpoint-every", TIME),
+        "TIME",
+        f"Longest time between two saves; default: '{EVERY_RUN:g} s' for a run, '{EVERY_CHART:g} s' for a chart.",
         show_default=False,
     ),
 ]
@@ -48,9 +49,12 @@ AcceptChanges = Annotated[
     ),
 ]
 TimeLimit = Annotated[
-    str | None,
-    typer.Option(
-        "--time-limit", metavar="TIME", help="Stop after this time, '2 h', and keep the run.", show_default=False
+    Given | None,
+    quantity(
+        QuantityOption("--time-limit", TIME),
+        "TIME",
+        "Stop after this time, '2 h', and keep the run.",
+        show_default=False,
     ),
 ]
 MemoryLimit = Annotated[
@@ -68,15 +72,18 @@ BYTES = {"kB": 1e3, "MB": 1e6, "GB": 1e9, "KiB": 2.0**10, "MiB": 2.0**20, "GiB":
 class SaveOptions:
     """The options of this module as they were given."""
 
-    every: str | None = None
+    every: Given | None = None
     resume: Path | None = None
     restart: bool = False
     accept_changes: bool = False
-    time_limit: str | None = None
+    time_limit: Given | None = None
     memory_limit: str | None = None
 
     def check(self, alone: Mapping[str, Any]) -> None:
-        """Raise InputError where ``--resume`` stands beside options that begin a run, or others without it."""
+        """Raise InputError for a time that cannot be read, and where ``--resume`` stands beside options that begin a
+        run, or others without it."""
+        for given in (self.every, self.time_limit):
+            si(given, "si")
         if self.resume is not None:
             for key, value in ({"--restart": self.restart or None} | dict(alone)).items():
                 if value is not None:
@@ -87,13 +94,15 @@ class SaveOptions:
 
     def interval(self, default: float) -> float:
         """Time between two checkpoints [s]."""
-        return default if self.every is None else read_quantity(self.every, TIME, "--checkpoint-every")
+        return default if self.every is None else self.every.si("si")
 
     @property
     def limits(self) -> Limits:
         """The limits of time and memory, from now on."""
-        most = None if self.time_limit is None else read_quantity(self.time_limit, TIME, "--time-limit")
-        return Limits(most, None if self.memory_limit is None else read_bytes(self.memory_limit, "--memory-limit"))
+        return Limits(
+            si(self.time_limit, "si"),
+            None if self.memory_limit is None else read_bytes(self.memory_limit, "--memory-limit"),
+        )
 
 
 def read_bytes(text: str, key: str) -> float:

@@ -27,6 +27,7 @@ from fctd.cli.options import (
     screen,
     tell,
 )
+from fctd.cli.quantities import DEPTHS, TO_TOTAL_DEPTH, Given, quantity
 from fctd.cli.steady import (
     KIND_HELP,
     Flow,
@@ -37,10 +38,8 @@ from fctd.cli.steady import (
     file_option,
     in_units,
     metadata_of,
-    read_bit_depths,
     read_drive,
     read_kinds,
-    read_stuck,
     row_bar,
 )
 from fctd.results.table_files import write_table
@@ -78,9 +77,8 @@ def limits_command(
         ),
     ] = [],  # noqa: B006 (typer copies it)
     depths: Annotated[
-        str,
-        typer.Option("--depths", metavar="D or FROM:TO:STEP", help=f"{DEPTHS_HELP} Or one depth, such as shoe."),
-    ] = "td",
+        Given, quantity(DEPTHS, "D or FROM:TO:STEP", f"{DEPTHS_HELP} Or one depth, such as shoe.")
+    ] = TO_TOTAL_DEPTH,
     speed: Speed = None,
     rpm: Rpm = None,
     flow: Flow = None,
@@ -101,10 +99,10 @@ def limits_command(
     check_table(out)
     case = read_case(case_file, changes_of(overrides, friction))
     refuse_sources(case, out, "--out")
-    bit_depths = read_bit_depths(depths, case, units)
+    bit_depths = depths.depths(case, units)
     kinds = read_kinds(operations, USUAL)
     drive = read_drive(speed, rpm, flow, units)
-    stuck = read_stuck(stuck_at, case, units)
+    stuck = None if stuck_at is None else stuck_at.depth(case, units)
     warnings = warnings_of(case, kinds, **drive)
     tell(case, warnings, strict=strict, units=units)
     with row_bar(quiet) as bar:

@@ -15,6 +15,7 @@ from fctd.case.friction import parse_frictions
 from fctd.case.load import Case, naming_file
 from fctd.case.tables.headers import parse_choices
 from fctd.case.text import counted, printable
+from fctd.cli import quantities
 from fctd.cli.chart import DEPTHS_HELP
 from fctd.cli.options import (
     CaseFile,
@@ -34,6 +35,7 @@ from fctd.cli.options import (
     tell,
 )
 from fctd.cli.pictures import PICTURE_HELP, check_package, check_pictures
+from fctd.cli.quantities import Given, quantity
 from fctd.cli.roadmap import DEPTHS, Drawing, solved
 from fctd.cli.steady import check_table, file_option, in_units
 from fctd.monitoring.alarm import Alarm
@@ -109,11 +111,11 @@ def monitor_command(
         ),
     ] = None,
     depths: Annotated[
-        str | None,
-        typer.Option(
-            "--depths",
-            metavar="FROM:TO:STEP",
-            help=f"With --chart: {DEPTHS_HELP} Default: {DEPTHS} depths from the last shoe to the end of the hole.",
+        Given | None,
+        quantity(
+            quantities.DEPTHS,
+            "FROM:TO:STEP",
+            f"With --chart: {DEPTHS_HELP} Default: {DEPTHS} depths from the last shoe to the end of the hole.",
         ),
     ] = None,
     frictions: Annotated[

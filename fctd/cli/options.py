@@ -14,7 +14,6 @@ from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case, load_case
 from fctd.case.raw_case import parse_override
 from fctd.case.text import printable, printable_lines
-from fctd.case.units import FORCE, TORQUE, Dimension, typed
 from fctd.results.notes import Note
 from fctd.results.tables import own_files
 from fctd.results.unit_systems import System, reworded
@@ -22,8 +21,6 @@ from fctd.store.tables import table_files
 from fctd.store.whole_file import check_file
 from fctd.store.whole_folder import repair
 
-# Units of bare numbers of options with ``--units field``, by SI unit.
-BARE_FIELD_UNITS = {"m": "ft", "m/s": "ft/min"}
 USUAL_WIDTH = 80  # columns of a terminal
 DONE, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 
@@ -157,30 +154,6 @@ def print_notes(notes: Iterable[Note], units: System = "si") -> None:
     """Print notes, a line each."""
     for note in notes:
         messages.print(f"note: {reworded(str(note), units)}", soft_wrap=True)
-
-
-def bare_length(units: System) -> str:
-    """The unit of a bare length in a system of units."""
-    return BARE_FIELD_UNITS["m"] if units == "field" else "m"
-
-
-LOADS = {FORCE.unit: "'200 kN' or '40 klbf'", TORQUE.unit: "'15 kN*m' or '11 kft*lbf'"}
-
-
-def read_quantity(text: str, dimension: Dimension, key: str, units: System = "si") -> float:
-    """A quantity of at least 0, "1750 m" or a bare "1750" in the system's unit, in SI; InputError names the option."""
-    return typed(text, dimension, key, BARE_FIELD_UNITS.get(dimension.unit, "") if units == "field" else "")
-
-
-def read_load(text: str, dimension: Dimension, key: str) -> float:
-    """A force or a torque in SI.  It must have its unit: who types a bare number seldom means newtons."""
-    try:
-        bare = float(text)
-    except ValueError:
-        return read_quantity(text, dimension, key)
-    if bare != 0:
-        raise InputError(f"{dimension.noun} with its unit, such as {LOADS[dimension.unit]}", key=key, value=text)
-    return 0.0
 
 
 def read_share(text: str, key: str) -> float:

@@ -17,7 +17,6 @@ from fctd.cli.options import (
     Quiet,
     Strict,
     Units,
-    bare_length,
     changes_of,
     check_target,
     finish,
@@ -31,8 +30,8 @@ from fctd.cli.options import (
     screen,
     tell,
 )
+from fctd.cli.quantities import BIT_DEPTH, Given, quantity
 from fctd.cli.steady import DEPTH_HELP, KIND_HELP, Flow, ResolveBuckling, Rpm, Speed, read_drive, read_kinds
-from fctd.model.depths import read_depth
 from fctd.results.unit_systems import System, shown
 from fctd.steady.refine import Refinement, refine
 from fctd.steady.refined_file import survey_from, write_refined
@@ -48,12 +47,7 @@ def refine_command(
         typer.Option("--operation", metavar="KIND", help=f"{KIND_HELP}; may be repeated; default: the case's first."),
     ] = [],  # noqa: B006 (typer copies it)
     bit_depth: Annotated[
-        str | None,
-        typer.Option(
-            "--bit-depth",
-            metavar="D",
-            help=f"{DEPTH_HELP}; default: the end of that operation.",
-        ),
+        Given | None, quantity(BIT_DEPTH, "D", f"{DEPTH_HELP}; default: the end of that operation.")
     ] = None,
     graded: Annotated[
         bool, typer.Option("--graded", help="Short segments only in bends and near the bit, if that saves a tenth.")
@@ -83,7 +77,7 @@ def refine_command(
     refuse_sources(case, out, "--out")
     if out is not None:
         survey_from(out, case)  # raises InputError before the computing
-    depth = None if bit_depth is None else read_depth(bit_depth, case, "--bit-depth", bare_length(units))
+    depth = None if bit_depth is None else bit_depth.depth(case, units)
     drive = read_drive(speed, rpm, flow, units)
     kinds = read_kinds(operations) if operations else []
     tell(case, warnings_of(case, kinds, **drive), strict=strict, units=units)

@@ -15,6 +15,7 @@ from fctd.case.errors import InputError
 from fctd.case.friction import parse_frictions
 from fctd.case.load import Case
 from fctd.case.text import counted, file_name, printable
+from fctd.cli import quantities
 from fctd.cli.chart import DEPTHS_HELP
 from fctd.cli.options import (
     CaseFile,
@@ -34,6 +35,7 @@ from fctd.cli.options import (
     warn,
 )
 from fctd.cli.pictures import ShownLoad
+from fctd.cli.quantities import Given, quantity
 from fctd.cli.steady import (
     KIND_HELP,
     Flow,
@@ -41,7 +43,6 @@ from fctd.cli.steady import (
     Rpm,
     Speed,
     file_option,
-    read_bit_depths,
     read_drive,
     read_kinds,
     row_bar,
@@ -86,11 +87,11 @@ def report_command(
         ),
     ] = [],  # noqa: B006
     depths: Annotated[
-        str | None,
-        typer.Option(
-            "--depths",
-            metavar="FROM:TO:STEP",
-            help=f"{DEPTHS_HELP} Default: about {DEPTHS} from the last shoe to the end of the hole.",
+        Given | None,
+        quantity(
+            quantities.DEPTHS,
+            "FROM:TO:STEP",
+            f"{DEPTHS_HELP} Default: about {DEPTHS} from the last shoe to the end of the hole.",
             show_default=False,
         ),
     ] = None,
@@ -138,7 +139,7 @@ def report_command(
         from fctd.report.logo import read_logo
 
         picture = read_logo(logo)
-    bit_depths = _default_depths(case, units) if depths is None else read_bit_depths(depths, case, units)
+    bit_depths = _default_depths(case, units) if depths is None else depths.depths(case, units)
     rows = None if measured is None else read_measured(measured, case, units, partial(warn, measured))
     kinds = read_kinds(operations, (*USUAL, *([ON_BOTTOM] if case.bit.weight_on_bit else [])))
     factors, drive = parse_frictions(frictions, "--friction"), read_drive(speed, rpm, flow, units)
@@ -207,5 +208,5 @@ def _default_depths(case: Case, units: System) -> list[float]:
     shoes = [shoe for shoe in case.shoes if top < shoe < 0.9 * end]
     start = shoes[-1] if shoes else top + SHALLOWEST * (end - top)
     step = Quantities(units).round_length((end - start) / DEPTHS)
-    unit = "ft" if units == "field" else "m"
-    return read_bit_depths(f"{start:.10g} m:{end:.10g} m:{step} {unit}", case, units)
+    unit = quantities.DEPTHS.bare_unit(units)
+    return quantities.DEPTHS.parse(f"{start:.10g} m:{end:.10g} m:{step} {unit}").depths(case, units)

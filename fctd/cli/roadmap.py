@@ -9,7 +9,8 @@ from fctd.case.load import Case
 from fctd.case.text import printable
 from fctd.cli.options import messages
 from fctd.cli.pictures import draw_chart
-from fctd.cli.steady import read_bit_depths, row_bar
+from fctd.cli.quantities import Given
+from fctd.cli.steady import row_bar
 from fctd.model.depths import usual_depths
 from fctd.monitoring.monitor import Monitor
 from fctd.monitoring.roadmap import Roadmap, roadmap
@@ -49,12 +50,12 @@ class Drawing:
 
 
 def solved(
-    watch: Monitor, path: Path, depths: str | None, factors: Sequence[FrictionSet], limits: bool, units: System,
+    watch: Monitor, path: Path, depths: Given | None, factors: Sequence[FrictionSet], limits: bool, units: System,
     warnings: Sequence[str], quiet: bool,
 ) -> Drawing:  # fmt: skip
     """The roadmap of a monitor's case, with a progress bar; depths : of ``--depths``, or none."""
     case: Case = watch.chart.case
-    bit_depths = usual_depths(case, DEPTHS) if depths is None else read_bit_depths(depths, case, units)
+    bit_depths = usual_depths(case, DEPTHS) if depths is None else depths.depths(case, units)
     with row_bar(quiet) as bar:
         task = bar.add_task("compiling", total=None)
 

@@ -9,13 +9,13 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from fctd.case.errors import InputError
 from fctd.case.input_warnings import InputWarning
-from fctd.case.load import Case, check_bit_depth, naming_file
+from fctd.case.load import Case
 from fctd.case.operation_names import USUAL, kinds_of, split_names
 from fctd.case.operations import KINDS
-from fctd.case.units import FLOW, MOST_FLOW, ROTATION, SPEED, typed
-from fctd.cli.options import bare_length, check_target, messages, read_quantity, screen
+from fctd.case.units import FLOW, LENGTH, MOST_FLOW, ROTATION, SPEED
+from fctd.cli.options import check_target, messages, screen
 from fctd.cli.pictures import PICTURES, check_package, check_pictures
-from fctd.model.depths import read_depth, read_depths
+from fctd.cli.quantities import Given, QuantityOption, quantity, si
 from fctd.model.drillstring import lay_out
 from fctd.model.operations import rates_of_all
 from fctd.model.summary import segments_in_words
@@ -34,35 +34,39 @@ def _defaults(rate: str) -> str:
 
 
 KIND_HELP = f"Kind of operation: {', '.join(KINDS)}, also {', '.join(USUAL)}"
+DRIVE = SPEED_OPTION, RPM_OPTION, FLOW_OPTION = (
+    QuantityOption("--speed", SPEED), QuantityOption("--rpm", ROTATION),
+    QuantityOption("--flow", FLOW, at_most=MOST_FLOW),
+)  # fmt: skip
 Speed = Annotated[
-    str | None,
-    typer.Option(
-        "--speed",
-        metavar="V",
-        help=f"Speed along the hole, '0.3 m/s', bare in m/s, with --units field in ft/min; default: the case's, else "
+    Given | None,
+    quantity(
+        SPEED_OPTION,
+        "V",
+        f"Speed along the hole, '0.3 m/s', bare in m/s, with --units field in ft/min; default: the case's, else "
         f"{_defaults('default_speed')} m/s.",
     ),
 ]
 Rpm = Annotated[
-    str | None,
-    typer.Option("--rpm", metavar="N", help=f"Rev/min; default: the case's, else {_defaults('default_rpm')}."),
+    Given | None,
+    quantity(RPM_OPTION, "N", f"Rev/min; default: the case's, else {_defaults('default_rpm')}."),
 ]
 Flow = Annotated[
-    str | None,
-    typer.Option(
-        "--flow",
-        metavar="Q",
-        help="Flow of the pumps, '2000 L/min' or '500 gpm', bare in L/min, with --units field in gpm; default: the "
+    Given | None,
+    quantity(
+        FLOW_OPTION,
+        "Q",
+        "Flow of the pumps, '2000 L/min' or '500 gpm', bare in L/min, with --units field in gpm; default: the "
         "case's, or 0.",
     ),
 ]
 DEPTH_HELP = "Bit depth, '2450 m', td or shoe; bare in m, with --units field in ft"
 StuckAt = Annotated[
-    str | None,
-    typer.Option(
-        "--stuck-at",
-        metavar="MD",
-        help="Measured depth at which the pipe is stuck, '2700 m', td or shoe; default: the bit.",
+    Given | None,
+    quantity(
+        QuantityOption("--stuck-at", LENGTH),
+        "MD",
+        "Measured depth at which the pipe is stuck, '2700 m', td or shoe; default: the bit.",
     ),
 ]
 ResolveBuckling = Annotated[
@@ -80,26 +84,9 @@ def file_option(option: str, what: str) -> typer.models.OptionInfo:
     return info
 
 
-def read_drive(speed: str | None, rpm: str | None, flow: str | None, units: System = "si") -> dict[str, Any]:
+def read_drive(speed: Given | None, rpm: Given | None, flow: Given | None, units: System) -> dict[str, Any]:
     """The given rates: speed [m/s], rpm and flow [m³/s], None where the case sets them."""
-    return {
-        "speed": None if speed is None else read_quantity(speed, SPEED, "--speed", units),
-        "rpm": None if rpm is None else read_quantity(rpm, ROTATION, "--rpm"),
-        "flow": None if flow is None else read_flow(flow, units),
-    }
-
-
-def read_flow(text: str, units: System) -> float:
-    """A flow of the pumps [m³/s]; a bare number is in L/min, with field units in gpm.  InputError names ``--flow``."""
-    flow = typed(text, FLOW, "--flow", "gpm" if units == "field" else "L/min")
-    if flow > MOST_FLOW:
-        raise InputError(f"a flow rate of at most {MOST_FLOW:g} m^3/s", key="--flow", value=text)
-    return flow
-
-
-def read_stuck(text: str | None, case: Case, units: System) -> float | None:
-    """The depth at which pipe is stuck [m]; raises InputError, which names ``--stuck-at``."""
-    return None if text is None else read_depth(text, case, "--stuck-at", bare_length(units))
+    return {"speed": si(speed, units), "rpm": si(rpm, units), "flow": si(flow, units)}
 
 
 def read_kinds(texts: Sequence[str], usual: Sequence[str] = ()) -> list[str]:
@@ -168,20 +155,3 @@ def metadata_of_case(case: Case, warnings: Sequence[InputWarning]) -> dict[str, 
         "warnings": [warning.as_metadata() for warning in warnings],
         "versions": versions(),
     }
-
-
-def read_bit_depths(text: str, case: Case, units: System) -> list[float]:
-    """One bit depth within the hole, or those of FROM:TO:STEP [m].  Raises InputError, which names ``--depths``."""
-    bare = bare_length(units)
-    if ":" in text:
-        return read_depths(text, case, "--depths", bare)
-    try:
-        found = read_depth(text, case, "--depths", bare)
-    except InputError as error:
-        if text.strip().lower() == "shoe":
-            raise
-        expected = "a bit depth, or FROM:TO:STEP, such as 1750:2450:10, '5000 ft:8000 ft:30 ft' or shoe:td:50"
-        raise InputError(expected, key="--depths", value=text) from error
-    with naming_file(case):
-        check_bit_depth(found, *case.depths, "--depths", text)
-    return [found]

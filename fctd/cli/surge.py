@@ -27,13 +27,13 @@ from fctd.cli.options import (
     changes_of,
     print_written,
     read_case,
-    read_quantity,
     refuse_sources,
     screen,
     tell,
 )
 from fctd.cli.pictures import PICTURE_HELP, draw_panels
-from fctd.cli.steady import check_targets, file_option, in_units, metadata_of_case, read_bit_depths, row_bar
+from fctd.cli.quantities import DEPTHS, TO_TOTAL_DEPTH, Given, QuantityOption, quantity, several
+from fctd.cli.steady import check_targets, file_option, in_units, metadata_of_case, row_bar
 from fctd.hydraulics.surge import ENDS, FASTEST, TRIPS, fastest_trips, surge_pressures
 from fctd.results.case_facts import flow_curves
 from fctd.results.table_files import write_table
@@ -51,6 +51,10 @@ SURGES: Final = {
 TRIPPED: Final = {"bit_depth_m": "bit", "fastest_m_s": "fastest", "md_m": "limit at"}
 
 
+USUAL: Final = QuantityOption("--speed", SPEED).parse("0.5 m/s")
+MOST: Final = QuantityOption("--most", SPEED).parse(f"{FASTEST:g} m/s")
+
+
 def surge_command(
     case_file: CaseFile,
     operations: Annotated[
@@ -63,18 +67,15 @@ def surge_command(
         ),
     ] = [],  # noqa: B006
     speeds: Annotated[
-        list[str],
-        typer.Option(
-            "--speed", metavar="V", help="Speeds of the pipe, '0.5 m/s,1 m/s'; bare with --units field in ft/min."
-        ),
-    ] = ["0.5 m/s"],  # noqa: B006
+        list[Given],
+        quantity(USUAL.option, "V", "Speeds of the pipe, '0.5 m/s,1 m/s'; bare with --units field in ft/min."),
+    ] = [USUAL],  # noqa: B006
     depths: Annotated[
-        str,
-        typer.Option("--depths", metavar="D or FROM:TO:STEP", help=f"{DEPTHS_HELP} Or one depth, such as shoe."),
-    ] = "td",
+        Given, quantity(DEPTHS, "D or FROM:TO:STEP", f"{DEPTHS_HELP} Or one depth, such as shoe.")
+    ] = TO_TOTAL_DEPTH,
     most: Annotated[
-        str, typer.Option("--most", metavar="V", help="Fastest speed of the hoist, of trips within the window.")
-    ] = f"{FASTEST:g} m/s",
+        Given, quantity(MOST.option, "V", "Fastest speed of the hoist, of trips within the window.")
+    ] = MOST,
     eccentricity: Beside = None,
     overrides: Overrides = [],  # noqa: B006
     out: Annotated[
@@ -100,11 +101,10 @@ def surge_command(
         refuse_sources(case, path, key)
     if trips is not None and not case.wellbore.window:
         raise InputError("a case with a [[wellbore.window]], within which trips stay", key="--trips", value=trips)
-    rates = [read_quantity(text, SPEED, "--speed", units) for text in _words(speeds)]
-    hoist = read_quantity(most, SPEED, "--most", units)
+    rates, hoist = several(speeds, units), most.si(units)
     closed = list(ENDS) if _words(ends) == ["all"] else _words(ends)
     asked: dict[str, Any] = {
-        "bit_depths": read_bit_depths(depths, case, units), "operation": _words(operations) or TRIPS,
+        "bit_depths": depths.depths(case, units), "operation": _words(operations) or TRIPS,
         "end": closed, "eccentricity": read_eccentricity(eccentricity, case),
     }  # fmt: skip
     warnings = warnings_of(case)

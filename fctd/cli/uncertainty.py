@@ -12,8 +12,9 @@ from fctd.case.errors import InputError
 from fctd.case.operation_names import kinds_of
 from fctd.case.text import counted, printable
 from fctd.case.units import LENGTH
-from fctd.cli.options import Quiet, Units, check_target, messages, print_written, read_quantity, screen
+from fctd.cli.options import Quiet, Units, check_target, messages, print_written, screen
 from fctd.cli.pictures import DRAWN, check_pictures
+from fctd.cli.quantities import Given, QuantityOption, quantity, si
 from fctd.cli.steady import file_option
 from fctd.cli.sweep import SweepFile
 from fctd.results.table_files import write_table
@@ -46,9 +47,12 @@ def uncertainty_command(
         typer.Option("--out", metavar="FOLDER", help=f"Folder for {', '.join(TABLES)} as CSV.", show_default=False),
     ] = None,
     bit_depth: Annotated[
-        str | None,
-        typer.Option(
-            "--bit-depth", metavar="D", help="Depth of indices and map; default: the last.", show_default=False
+        Given | None,
+        quantity(
+            QuantityOption("--bit-depth", LENGTH),
+            "D",
+            "Depth of indices and map; default: the last.",
+            show_default=False,
         ),
     ] = None,
     operation: Annotated[
@@ -79,7 +83,7 @@ def uncertainty_command(
     spec = read_sweep(sweep_file)
     dataset = dataset_of(spec, folder, "--from")
     operation = None if operation is None else kinds_of([operation])[0]
-    depth = None if bit_depth is None else read_quantity(bit_depth, LENGTH, "--bit-depth", units)
+    depth = si(bit_depth, units)
     found = assess(dataset, spec, depth)
     keys = [] if map_keys is None else [part.strip() for part in map_keys.split(",")]
     if map_keys is not None and len(keys) not in (2, 3):

@@ -11,6 +11,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
 from fctd.case.text import file_name, printable
+from fctd.cli import quantities
 from fctd.cli.chart import DEPTHS_HELP
 from fctd.cli.keeping import case_of, how_far
 from fctd.cli.options import (
@@ -28,6 +29,7 @@ from fctd.cli.options import (
     tell,
 )
 from fctd.cli.pictures import check_package
+from fctd.cli.quantities import Given, quantity
 from fctd.cli.steady import (
     KIND_HELP,
     Flow,
@@ -35,7 +37,6 @@ from fctd.cli.steady import (
     Rpm,
     Speed,
     file_option,
-    read_bit_depths,
     read_drive,
     read_kinds,
 )
@@ -68,11 +69,11 @@ def view_command(
         ),
     ] = [],  # noqa: B006 (typer copies it)
     depths: Annotated[
-        str | None,
-        typer.Option(
-            "--depths",
-            metavar="FROM:TO:STEP",
-            help=f"{DEPTHS_HELP} Default of a case: {DEPTHS} depths from the last shoe to the end of the hole.",
+        Given | None,
+        quantity(
+            quantities.DEPTHS,
+            "FROM:TO:STEP",
+            f"{DEPTHS_HELP} Default of a case: {DEPTHS} depths from the last shoe to the end of the hole.",
         ),
     ] = None,
     colour: Annotated[
@@ -126,7 +127,7 @@ def view_command(
     else:
         case = read_case(source, changes_of(overrides, friction, resolve_buckling))
         kinds = read_kinds(operations, USUAL)
-        wanted = usual_depths(case, DEPTHS) if depths is None else read_bit_depths(depths, case, units)
+        wanted = usual_depths(case, DEPTHS) if depths is None else depths.depths(case, units)
         drive = read_drive(speed, rpm, flow, units)
         told = tell(case, warnings_of(case, kinds, **drive), strict=False, units=units)
         columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn())

@@ -11,7 +11,7 @@ from rich.table import Column, Table
 from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
 from fctd.case.text import counted, printable
-from fctd.case.units import LENGTH, SPEED, TIME, typed
+from fctd.case.units import LENGTH, TIME
 from fctd.cli.chart import DEPTHS_HELP
 from fctd.cli.limits import rows_of
 from fctd.cli.options import (
@@ -25,20 +25,18 @@ from fctd.cli.options import (
     finish,
     print_written,
     read_case,
-    read_quantity,
     refuse_sources,
     screen,
     tell,
 )
 from fctd.cli.pictures import PICTURE_HELP, draw_panels
+from fctd.cli.quantities import DEPTHS, PENETRATION, TO_TOTAL_DEPTH, Bare, Given, QuantityOption, quantity, si
 from fctd.cli.steady import (
     Rpm,
     check_targets,
     file_option,
     in_units,
     metadata_of,
-    read_bit_depths,
-    read_drive,
     row_bar,
 )
 from fctd.results.table_files import write_table
@@ -65,22 +63,24 @@ DIGITS: Final = {
 }  # fmt: skip
 
 
+ROW: Final = QuantityOption("--step", LENGTH).parse(f"{STEP:g} m")
+
+
 def wear_command(
     case_file: CaseFile,
     depths: Annotated[
-        str,
-        typer.Option("--depths", metavar="D or FROM:TO:STEP", help=f"{DEPTHS_HELP} Or one depth, such as td."),
-    ] = "td",
+        Given, quantity(DEPTHS, "D or FROM:TO:STEP", f"{DEPTHS_HELP} Or one depth, such as td.")
+    ] = TO_TOTAL_DEPTH,
     hours: Annotated[
-        str | None,
-        typer.Option("--hours", metavar="T", help="Time in all with the string turning, 100 or '100 h'."),
+        Given | None,
+        quantity(
+            QuantityOption("--hours", TIME, Bare("h", "h")), "T", "Time in all with the string turning, 100 or '100 h'."
+        ),
     ] = None,
     penetration: Annotated[
-        str | None,
-        typer.Option(
-            "--penetration",
-            metavar="V",
-            help="Rate of penetration from FROM to TO, '20 m/h', bare in m/h or ft/h; in place of --hours.",
+        Given | None,
+        quantity(
+            PENETRATION, "V", "Rate of penetration from FROM to TO, '20 m/h', bare in m/h or ft/h; in place of --hours."
         ),
     ] = None,
     rpm: Rpm = None,
@@ -92,8 +92,8 @@ def wear_command(
         str, typer.Option("--operation", metavar="KIND", help=f"Kind of operation: {', '.join(TURNING)}.")
     ] = "drill_rotating",
     step: Annotated[
-        str, typer.Option("--step", metavar="L", help="Length of casing in a row, bare in m, with --units field in ft.")
-    ] = f"{STEP:g} m",
+        Given, quantity(ROW.option, "L", "Length of casing in a row, bare in m, with --units field in ft.")
+    ] = ROW,
     overrides: Overrides = [],  # noqa: B006 (typer copies it)
     friction: Friction = None,
     out: Annotated[
@@ -115,13 +115,10 @@ def wear_command(
     case = read_case(case_file, changes_of(overrides, friction))
     for key, path in (("--out", out), ("--plot", plot)):
         refuse_sources(case, path, key)
-    rate = "ft/h" if units == "field" else "m/h"
     asked: dict[str, Any] = {
-        "bit_depths": read_bit_depths(depths, case, units),
-        "duration": None if hours is None else typed(hours, TIME, "--hours", "h"),
-        "penetration": None if penetration is None else typed(penetration, SPEED, "--penetration", rate),
-        "rpm": read_drive(None, rpm, None)["rpm"], "wear_factor": _read_factors(wear_factor), "operation": operation,
-        "step": read_quantity(step, LENGTH, "--step", units),
+        "bit_depths": depths.depths(case, units),
+        "duration": si(hours, units), "penetration": si(penetration, units), "rpm": si(rpm, units),
+        "wear_factor": _read_factors(wear_factor), "operation": operation, "step": step.si(units),
     }  # fmt: skip
     if operation not in TURNING:
         raise InputError(" or ".join(TURNING), key="--operation", value=operation)

@@ -31,7 +31,7 @@ def test_parts_stand_on_the_screen_and_in_a_file(cli: Command, tmp_path: Path) -
 
 def test_depths_and_flows_in_field_units(cli: Command, tmp_path: Path) -> None:
     out = tmp_path / "losses.parquet"
-    asked = ("--flow", "400,500 gpm", "--depths", "shoe:td:1000", "--units", "field", "--out", out)
+    asked = ("--flow", "400 gpm,500 gpm", "--depths", "shoe:td:1000", "--units", "field", "--out", out)
     said = cli("hydraulics", WELL, *asked)
     rows = pd.read_parquet(out)
     assert rows["flow_gpm"].unique() == pytest.approx([400, 500])
