@@ -10,7 +10,7 @@ from rich.table import Column, Table
 from fctd.case.operations import KINDS
 from fctd.case.text import printable
 from fctd.cli.chart_table import cell, counts_of, exceptions, explain, spread
-from fctd.cli.limits import rows_of
+from fctd.cli.job import rows_of
 from fctd.cli.options import messages, screen
 from fctd.plots.loads import LOAD_COLUMNS, NAMES, TORQUE, Load
 from fctd.results.columns import COLUMNS, DEPTH

@@ -6,29 +6,19 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 import typer
 
-from fctd.case.doubts import warnings_of
-from fctd.case.text import printable
 from fctd.case.units import FORCE, LENGTH, TORQUE
 from fctd.cli.base_command import Silent
-from fctd.cli.limits import rows_of
+from fctd.cli.job import Job, rows_of
 from fctd.cli.options import (
     CaseFile,
     Friction,
     Overrides,
     Strict,
     Units,
-    changes_of,
-    finish,
-    print_written,
-    read_case,
-    refuse_sources,
-    screen,
-    tell,
 )
 from fctd.cli.quantities import BIT_DEPTH, TOTAL_DEPTH, Given, QuantityOption, quantity, si
-from fctd.cli.steady import DEPTH_HELP, check_table, file_option, in_units, metadata_of_case
-from fctd.results.table_files import write_table
-from fctd.results.unit_systems import System, in_words, reworded
+from fctd.cli.steady import DEPTH_HELP, file_option
+from fctd.results.unit_systems import reworded
 from fctd.steady.free_point import STRETCH, free_point
 
 if TYPE_CHECKING:
@@ -81,43 +71,27 @@ def freepoint_command(
 
     The string of the case is laid out, with friction, down to the depth at which it moves as far as was measured.
     """
-    check_table(out)
-    case = read_case(case_file, changes_of(overrides, friction))
-    refuse_sources(case, out, "--out")
+    job = Job(case_file, overrides, friction, units=units, strict=strict, quiet=quiet, out=out, silent=True)
     measured: dict[str, Any] = {
         "pull": si(pull, units), "stretch": si(stretch, units), "first_hookload": si(first_hookload, units),
         "torque": si(torque, units), "turns": turns, "first_torque": first_torque.si(units),
     }  # fmt: skip
-    depth = bit_depth.depth(case, units)
-    warnings = warnings_of(case)
-    tell(case, warnings, strict=strict, units=units)
-    table = free_point(case, depth, **measured)
-    written: list[Path] = []
-    try:  # written before anything is printed, as the terminal may be closed
-        if out is not None:
-            metadata = metadata_of_case(case, warnings) | {"units": units}
-            written += write_table(in_units(units, table), out, metadata)
-    finally:
-        if not quiet:
-            _print(table, case.name, units)
-    if not quiet:
-        print_written(written)
-    finish(bool((table["reason"] == "none").all()), (), strict)
+    depth = bit_depth.depth(job.case, units)
+    job.warn()
+    table = free_point(job.case, depth, **measured)
+    job.end({"--out": table}, lambda: _print(job, table), acceptable=bool((table["reason"] == "none").all()))
 
 
-def _print(table: "pd.DataFrame", name: str, units: System) -> None:
-    screen.print(printable(name), style="bold", soft_wrap=True)
-    for row in rows_of(table):
-        for line in _lines(row, units):
-            screen.print(line, soft_wrap=True)
-    screen.print("hook loads are those of the string alone, without the block", soft_wrap=True)
+def _print(job: Job, table: "pd.DataFrame") -> None:
+    job.say(*(line for row in rows_of(table) for line in _lines(job, row)))
+    job.say("hook loads are those of the string alone, without the block")
 
 
-def _lines(row: dict[str, Any], units: System) -> list[str]:
+def _lines(job: Job, row: dict[str, Any]) -> list[str]:
     """What was measured and what was found, in words."""
 
     def words(column: str) -> str:
-        return in_words(row[column], column, units)
+        return job.words(row, column)
 
     if row["by"] == STRETCH:
         moved, load, first = (words(name) for name in ("stretch_m", "pull_N", "first_hookload_N"))
@@ -127,7 +101,7 @@ def _lines(row: dict[str, Any], units: System) -> list[str]:
         arrived = ("first_arrived_N_m", "last_arrived_N_m")
     lines = [f"{row['by']}: {moved} by {load} more than {first}, bit at {words('bit_depth_m')}"]
     if np.isnan(row["free_point_md_m"]):
-        lines.append(f"  no free point: {reworded(row['reason'], units)}")
+        lines.append(f"  no free point: {reworded(row['reason'], job.units)}")
     else:
         lines.append(f"  free point at {words('free_point_md_m')}, {words('per_percent_m')} deeper for 1 % more of it")
         lines.append(f"  there the load grows from {words(arrived[0])} to {words(arrived[1])}")

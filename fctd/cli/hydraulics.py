@@ -6,39 +6,22 @@ from typing import TYPE_CHECKING, Annotated, Any, Final
 
 import numpy as np
 import typer
-from rich.box import SIMPLE_HEAD
 from rich.table import Column, Table
 
-from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
 from fctd.case.load import Case, naming_file
 from fctd.case.text import counted, printable
 from fctd.case.units import DENSITY, FLOW, LENGTH, MOST_FLOW
-from fctd.cli.chart import DEPTHS_HELP
 from fctd.cli.check import facts_table
-from fctd.cli.limits import rows_of
-from fctd.cli.options import (
-    CaseFile,
-    Overrides,
-    Quiet,
-    Strict,
-    Units,
-    changes_of,
-    messages,
-    print_written,
-    read_case,
-    refuse_sources,
-    screen,
-    tell,
-)
-from fctd.cli.pictures import PICTURE_HELP, draw_panels
-from fctd.cli.quantities import DEPTHS, PENETRATION, TO_TOTAL_DEPTH, Bare, Given, QuantityOption, quantity, several
-from fctd.cli.steady import check_targets, file_option, in_units, metadata_of_case, row_bar
+from fctd.cli.job import Depths, Job, grid, headed, number, numbers, right, rows_of
+from fctd.cli.options import CaseFile, Overrides, Quiet, Strict, Units, messages, screen
+from fctd.cli.pictures import PICTURE_HELP
+from fctd.cli.quantities import PENETRATION, TO_TOTAL_DEPTH, Bare, Given, QuantityOption, quantity, several
+from fctd.cli.steady import file_option
 from fctd.hydraulics.cuttings import Cuttings
 from fctd.hydraulics.pressures import SHARE, Circulation, Eccentricity, circulations
 from fctd.results.case_facts import Row, flow_curves
-from fctd.results.table_files import write_table
-from fctd.results.unit_systems import System, in_words, reworded, shown
+from fctd.results.unit_systems import System, in_words, shown
 from fctd.steady.equilibrium import lie_along
 
 if TYPE_CHECKING:
@@ -51,6 +34,11 @@ SHOWN: Final = {
     "bit_depth_m": "bit", "standpipe_Pa": "standpipe", "surface_drop_Pa": "surface", "bore_drop_Pa": "bore",
     "tool_drop_Pa": "tools", "bit_drop_Pa": "at the bit", "annulus_drop_Pa": "annulus",
     "ecd_shoe_kg_m3": "ECD, shoe", "ecd_bit_kg_m3": "ECD, bit",
+}  # fmt: skip
+
+PARTS: Final = {
+    "from_md_m": "from", "to_md_m": "to", "pressure_drop_Pa": "lost", "speed_m_s": "speed", "regime": "",
+    "ecd_kg_m3": "ECD below",
 }  # fmt: skip
 
 Flows = Annotated[
@@ -77,9 +65,7 @@ Beside = Annotated[
 def hydraulics_command(
     case_file: CaseFile,
     flows: Flows = [],  # noqa: B006 (typer copies it)
-    depths: Annotated[
-        Given, quantity(DEPTHS, "D or FROM:TO:STEP", f"{DEPTHS_HELP} Or one depth, such as shoe.")
-    ] = TO_TOTAL_DEPTH,
+    depths: Depths = TO_TOTAL_DEPTH,
     eccentricity: Beside = None,
     penetration: Annotated[
         Given | None,
@@ -107,47 +93,33 @@ def hydraulics_command(
 
     Friction is that of API RP 13D, steady, of one temperature and without gas.
     """
-    table_out, plot = check_targets(out, plot, {})
-    check_targets(parts, None, {})
-    case = read_case(case_file, changes_of(overrides))
-    for key, path in (("--out", out), ("--parts", parts), ("--plot", plot)):
-        refuse_sources(case, path, key)
-    pumped = _flows(flows, case, units)
-    bit_depths = depths.depths(case, units)
+    job = Job(
+        case_file, overrides, units=units, strict=strict, quiet=quiet, out=out, plot=plot, draws=True,
+        tables={"--parts": parts},
+    )  # fmt: skip
+    case = job.case
+    pumped, bit_depths = _flows(flows, case, units), depths.depths(case, units)
     cuttings = None
     if penetration is not None:
         cuttings = Cuttings(penetration.si(units), cuttings_size.si(units), cuttings_density.si(units))
         if cuttings.density <= case.mud.densest:
             heavier = f"a density above the mud's, {case.mud.densest:g} kg/m^3"
             raise InputError(heavier, key="--cuttings-density", value=cuttings_density.text)
-    warnings = warnings_of(case, flow=pumped[0])
-    told = tell(case, warnings, strict=strict, units=units)
-    with naming_file(case), row_bar(quiet) as bar:
-        task = bar.add_task(printable(case.name), total=None)
-
-        def show(done: int, total: int) -> None:
-            bar.update(task, completed=done, total=total)
-
+    job.warn(flow=pumped[0])
+    with naming_file(case), job.bar() as show:
         found = circulations(case, pumped, bit_depths, read_eccentricity(eccentricity, case), cuttings, show)
     import pandas as pd  # slow to import
 
     solved = [one for one in found if isinstance(one, Circulation)]
     table = pd.DataFrame([one.summary() if isinstance(one, Circulation) else one for one in found])
-    metadata, written = metadata_of_case(case, warnings) | {"units": units}, []
-    try:  # written before anything is printed, as the terminal may be closed
-        if table_out is not None:
-            written += write_table(in_units(units, table), table_out, metadata)
-        if parts is not None:
-            rows = pd.DataFrame([row for one in solved for row in one.parts()])
-            written += write_table(in_units(units, rows), parts, metadata)
-        if plot is not None:
-            from fctd.plots.flow import losses_panels
 
-            lines = [_facts_line(solved[-1], pumped, units), *(f"warning {text}" for text in told)]
-            written += draw_panels(plot, losses_panels(table, solved[-1], units, lines))
-    finally:
-        _print(case, table, solved, units)
-    print_written(written)
+    def draw(told: list[str]) -> Any:
+        from fctd.plots.flow import losses_panels
+
+        return losses_panels(table, solved[-1], units, [_facts_line(solved[-1], pumped, units), *told])
+
+    of_parts = None if parts is None else pd.DataFrame([row for one in solved for row in one.parts()])
+    job.end({"--out": table, "--parts": of_parts}, lambda: _print(job, table, solved), draw)
 
 
 def read_eccentricity(text: str | None, case: Case) -> Eccentricity:
@@ -170,23 +142,20 @@ def _flows(given: Sequence[Given], case: Case, units: System) -> list[float]:
     return found or [largest]
 
 
-def _print(case: Case, table: "pd.DataFrame", found: Sequence[Circulation], units: System) -> None:
-    screen.print(printable(case.name), style="bold", soft_wrap=True)
-    if rows := flow_curves(case.mud, units):
+def _print(job: Job, table: "pd.DataFrame", found: Sequence[Circulation]) -> None:
+    units = job.units
+    if rows := flow_curves(job.case.mud, units):
         screen.print(facts_table(rows))
-    for flow in dict.fromkeys(table["flow_m3_s"].tolist()):
-        of = table[table["flow_m3_s"] == flow]
+    for flow, of in table.groupby("flow_m3_s", sort=False):
         here = [one for one in found if one.flow == flow]
         if not here:
             continue
-        standpipe, bit = here[-1].standpipe, here[-1].laid.string.bit_depth
-        pumped = f"{in_words(flow, 'flow_m3_s', units)}, {in_words(standpipe, 'standpipe_Pa', units)}"
-        screen.print(f"{pumped} at the standpipe with the bit at {in_words(bit, 'bit_depth_m', units)}", soft_wrap=True)
+        last = here[-1].summary()
+        pumped = f"{job.words(last, 'flow_m3_s')}, {job.words(last, 'standpipe_Pa')}"
+        job.say(f"{pumped} at the standpipe with the bit at {job.words(last, 'bit_depth_m')}")
         screen.print(_table(of, units) if len(of) > 1 else _parts(here[0], units))
-        screen.print(facts_table(_bit(here[-1], units)))
-    for reason, of in table[table["reason"] != "none"].groupby("reason", sort=False):
-        depths = ", ".join(f"{depth * shown('bit_depth_m', units).factor:.0f}" for depth in of["bit_depth_m"].unique())
-        screen.print(f"at {depths} {shown('bit_depth_m', units).label}: {reworded(str(reason), units)}", soft_wrap=True)
+        screen.print(facts_table(_bit(last, units)))
+    job.say_reasons(table)
     if (off := max((one.circuit.too_high for one in found), default=0.0)) > WORTH_SAYING:
         messages.print(
             f"RP 13D may be {100 * off:.0f} % high in the annulus, where much of the stress at the wall is yield "
@@ -202,43 +171,27 @@ def _print(case: Case, table: "pd.DataFrame", found: Sequence[Circulation], unit
 
 def _table(of: "pd.DataFrame", units: System) -> Table:
     """A row for every depth, evenly spread where they are many."""
-    unit = {name: shown(name, units) for name in SHOWN}
-    table = Table(
-        *(Column(f"{words}\n{unit[name].label}", justify="right") for name, words in SHOWN.items()), box=SIMPLE_HEAD,
-        collapse_padding=True, pad_edge=False,
-    )  # fmt: skip
-    rows = rows_of(of)
-    for k in np.unique(np.linspace(len(rows) - 1, 0, min(SCREEN_ROWS, len(rows))).round().astype(int)):
-        table.add_row(*(number(rows[k].get(name, np.nan) * unit[name].factor) for name in SHOWN))
+    table = grid(*headed(SHOWN, units))
+    for row in rows_of(of, SCREEN_ROWS):
+        table.add_row(*numbers(row, SHOWN, units))
     return table
 
 
 def _parts(one: Circulation, units: System) -> Table:
     """A row for every part of the circuit."""
-    metre, bar, speed, density = (shown(name, units) for name in ("md_m", "a_drop_Pa", "speed_m_s", "ecd_kg_m3"))
-    headings = [
-        f"from\n{metre.label}", f"to\n{metre.label}", f"lost\n{bar.label}", f"speed\n{speed.label}", "regime",
-        f"ECD below\n{density.label}", "cuttings\nrise at",
-    ]  # fmt: skip
-    table = Table(
-        Column("part", overflow="fold"), *(Column(text, justify="right") for text in headings), box=SIMPLE_HEAD,
-        collapse_padding=True, pad_edge=False,
-    )  # fmt: skip
+    heads = (f"{words}\n{shown(name, units).label}" if words else "regime" for name, words in PARTS.items())
+    table = grid(Column("part", overflow="fold"), *right(*heads, "cuttings\nrise at"))
     for row in one.parts():
         of = f" {printable(row['name'])}" if row["name"] else ""
         hole = f" in {row['interval']}" if row["interval"] else ""
-        table.add_row(
-            row["part"] + of + hole, *(number(row[name] * metre.factor) for name in ("from_md_m", "to_md_m")),
-            number(row["pressure_drop_Pa"] * bar.factor), number(row["speed_m_s"] * speed.factor), row["regime"],
-            number(row["ecd_kg_m3"] * density.factor),
-            "" if np.isnan(row["transport_ratio"]) else f"{100 * row['transport_ratio']:.0f} %",
-        )  # fmt: skip
+        cells = [numbers(row, [name], units)[0] if words else row[name] for name, words in PARTS.items()]
+        rise = "" if np.isnan(row["transport_ratio"]) else f"{100 * row['transport_ratio']:.0f} %"
+        table.add_row(row["part"] + of + hole, *cells, rise)
     return table
 
 
-def _bit(one: Circulation, units: System) -> list[Row]:
+def _bit(row: dict[str, Any], units: System) -> list[Row]:
     """What the jets do, and what the flow does to the hook load."""
-    row = one.summary()
     rows: list[Row] = []
     if not np.isnan(row["jet_speed_m_s"]):
         share = f"{100 * row['bit_drop_Pa'] / row['standpipe_Pa']:.0f} % of the standpipe pressure"
@@ -262,8 +215,3 @@ def _facts_line(one: Circulation, flows: Sequence[float], units: System) -> str:
     listed = f"{', '.join(pumped)} {shown('flow_m3_s', units).label}"
     nozzles = counted(len(one.laid.case.bit.nozzles), "nozzle")
     return f"{listed}, bit at {in_words(depth, 'bit_depth_m', units)}, {nozzles}; API RP 13D"
-
-
-def number(value: float) -> str:
-    """A number in four digits; nothing for NaN."""
-    return "" if np.isnan(value) else f"{value:.0f}" if abs(value) >= 1000 else f"{value:z.4g}"

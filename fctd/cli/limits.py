@@ -2,48 +2,27 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Final, cast
+from typing import TYPE_CHECKING, Annotated, Any, Final
 
 import numpy as np
 import typer
-from rich.box import SIMPLE_HEAD
 from rich.table import Column, Table
 
-from fctd.case.doubts import warnings_of
 from fctd.case.text import printable
-from fctd.cli.chart import DEPTHS_HELP
-from fctd.cli.options import (
-    CaseFile,
-    Friction,
-    Overrides,
-    Quiet,
-    Strict,
-    Units,
-    changes_of,
-    finish,
-    print_written,
-    read_case,
-    refuse_sources,
-    screen,
-    tell,
-)
-from fctd.cli.quantities import DEPTHS, TO_TOTAL_DEPTH, Given, quantity
+from fctd.cli.job import Depths, Job, grid, rows_of
+from fctd.cli.options import CaseFile, Friction, Overrides, Quiet, Strict, Units, screen
+from fctd.cli.quantities import TO_TOTAL_DEPTH
 from fctd.cli.steady import (
     KIND_HELP,
     Flow,
     Rpm,
     Speed,
     StuckAt,
-    check_table,
     file_option,
-    in_units,
-    metadata_of,
     read_drive,
     read_kinds,
-    row_bar,
 )
-from fctd.results.table_files import write_table
-from fctd.results.unit_systems import System, in_words, reworded, shown
+from fctd.results.unit_systems import System, reworded, shown
 from fctd.steady.margin_table import AT_STUCK, USUAL, limits_of
 from fctd.steady.margins import FATIGUE, LACKING, MEANINGS, OVERPULL, SET_DOWN, SLIPS, TORQUE
 
@@ -76,9 +55,7 @@ def limits_command(
             help=f"{KIND_HELP}; several with commas between them, or all; default: {', '.join(USUAL)}.",
         ),
     ] = [],  # noqa: B006 (typer copies it)
-    depths: Annotated[
-        Given, quantity(DEPTHS, "D or FROM:TO:STEP", f"{DEPTHS_HELP} Or one depth, such as shoe.")
-    ] = TO_TOTAL_DEPTH,
+    depths: Depths = TO_TOTAL_DEPTH,
     speed: Speed = None,
     rpm: Rpm = None,
     flow: Flow = None,
@@ -96,32 +73,19 @@ def limits_command(
     is set in `limits` of the case, and what the rig bears in `rig`.  Of pipe that is stuck above its bit, loads grow at
     the stuck point.
     """
-    check_table(out)
-    case = read_case(case_file, changes_of(overrides, friction))
-    refuse_sources(case, out, "--out")
-    bit_depths = depths.depths(case, units)
-    kinds = read_kinds(operations, USUAL)
+    job = Job(case_file, overrides, friction, units=units, strict=strict, quiet=quiet, out=out)
+    bit_depths, kinds = depths.depths(job.case, units), read_kinds(operations, USUAL)
     drive = read_drive(speed, rpm, flow, units)
-    stuck = None if stuck_at is None else stuck_at.depth(case, units)
-    warnings = warnings_of(case, kinds, **drive)
-    tell(case, warnings, strict=strict, units=units)
-    with row_bar(quiet) as bar:
-        task = bar.add_task("compiling", total=None)
-
-        def show(done: int, total: int) -> None:
-            bar.update(task, description=printable(case.name), completed=done, total=total)
-
-        table = limits_of(case, kinds, bit_depths, **drive, stuck_at=stuck, progress=show)
-    written: list[Path] = []
-    try:  # written before anything is printed, as the terminal may be closed
-        if out is not None:
-            metadata = metadata_of(case, units, kinds, drive, warnings) | {"stuck_at_m": stuck}
-            metadata["limits"] = {code: MEANINGS[code] for code in table["limit"].unique() if code in MEANINGS}
-            written += write_table(in_units(units, table), out, metadata)
-    finally:
-        _print(table, case.name, units)
-    print_written(written)
-    finish(bool((table["margin"] != "none").all()), _beyond(table), strict)
+    stuck = None if stuck_at is None else stuck_at.depth(job.case, units)
+    job.warn(kinds, **drive)
+    with job.bar() as show:
+        table = limits_of(job.case, kinds, bit_depths, **drive, stuck_at=stuck, progress=show)
+    meanings = {code: MEANINGS[code] for code in table["limit"].unique() if code in MEANINGS}
+    job.end(
+        {"--out": table}, lambda: _print(job, table), rates=(kinds, drive),
+        more={"stuck_at_m": stuck, "limits": meanings}, acceptable=bool((table["margin"] != "none").all()),
+        codes=_beyond(table),
+    )  # fmt: skip
 
 
 def _beyond(table: "pd.DataFrame") -> list[str]:
@@ -132,29 +96,26 @@ def _beyond(table: "pd.DataFrame") -> list[str]:
     return sorted(beyond)
 
 
-def _print(table: "pd.DataFrame", name: str, units: System) -> None:
+def _print(job: Job, table: "pd.DataFrame") -> None:
     """Print a table for each operation and margin, and the reasons of rows without a number."""
-    screen.print(printable(name), style="bold", soft_wrap=True)
+    units, stuck = job.units, "stuck_md_m" in table
     metre = shown("bit_depth_m", units)
-    stuck = "stuck_md_m" in table
     for (operation, margin), of in table.groupby(["operation", "margin"], sort=False):
         if margin in SHOWN:
             words, *columns = STUCK[margin] if stuck else SHOWN[margin]
             screen.print(f"{operation}: {words}, {shown(columns[1], units).label}")
             screen.print(_table(of, columns, units))
     if stuck:
-        where = in_words(table["stuck_md_m"].iloc[0], "stuck_md_m", units)
-        screen.print(f"stuck at {where}: what is left counts from the free string with its bit below", soft_wrap=True)
-    screen.print("hook loads are those of the string alone, without the block", soft_wrap=True)
-    for line in _bending(table, units):
-        screen.print(line, soft_wrap=True)
+        where = job.words(rows_of(table)[0], "stuck_md_m")
+        job.say(f"stuck at {where}: what is left counts from the free string with its bit below")
+    job.say("hook loads are those of the string alone, without the block", *_bending(job, table))
     said = table[table["reason"] != "none"]
     for (operation, limit, reason), of in said.groupby(["operation", "limit", "reason"], sort=False):
         depths = [f"{depth * metre.factor:.0f}" for depth in of["bit_depth_m"]]
         span = depths[0] if len(depths) == 1 else f"{depths[0]} to {depths[-1]}"
         at = f"{operation} at {span} {metre.label} ({len(of)} of {table['bit_depth_m'].nunique()})"
         what = "" if limit == "none" else f", {limit}"
-        screen.print(f"{at}{what}: {reworded(str(reason), units)}", soft_wrap=True)
+        job.say(f"{at}{what}: {reworded(str(reason), units)}")
 
 
 def _table(of: "pd.DataFrame", columns: Sequence[str], units: System) -> Table:
@@ -166,10 +127,10 @@ def _table(of: "pd.DataFrame", columns: Sequence[str], units: System) -> Table:
     limits = [row.replace("_", " ") for row in of["limit"]]
     below = "at stuck point" if "stuck_md_m" in of else "at bit"
     numbers = [f"bit, {metre.label}", "used, %", below, "at surface", "left"]
-    table = Table(
+    table = grid(
         Column("until", no_wrap=True, min_width=max(map(len, limits))),
         *(Column(name, justify="right", no_wrap=True, min_width=len(name)) for name in numbers),
-        Column("where", no_wrap=True, overflow="ellipsis"), box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
+        Column("where", no_wrap=True, overflow="ellipsis"),
     )  # fmt: skip
     for row in rows_of(of[of["bit_depth_m"].isin(picked)]):
         place = "" if np.isnan(row["md_m"]) else f"{row['md_m'] * metre.factor:.0f} {metre.label}"
@@ -183,21 +144,16 @@ def _table(of: "pd.DataFrame", columns: Sequence[str], units: System) -> Table:
     return table
 
 
-def rows_of(table: "pd.DataFrame") -> list[dict[str, Any]]:
-    """The rows of a table by column."""
-    return cast("list[dict[str, Any]]", table.to_dict("records"))
-
-
 def _cell(row: dict[str, Any], column: str, units: System) -> str:
     if not column or np.isnan(row[column]):
         return "–"
     return f"{row[column] * shown(column, units).factor:z.{1 if column.endswith('_N_m') else 0}f}"
 
 
-def _bending(table: "pd.DataFrame", units: System) -> list[str]:
+def _bending(job: Job, table: "pd.DataFrame") -> list[str]:
     """The largest bending to and fro of each operation, as lines."""
     lines = []
-    metre, stress = shown("bit_depth_m", units), shown("bending_stress_Pa", units)
+    metre, stress = shown("bit_depth_m", job.units), shown("bending_stress_Pa", job.units)
     for operation, of in table[table["margin"] == FATIGUE].groupby("operation", sort=False):
         worst = max(rows_of(of), key=lambda row: row["bending_stress_Pa"])
         amplitude, often = worst["bending_stress_Pa"] * stress.factor, worst["cycles_per_hour"]

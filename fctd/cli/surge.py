@@ -6,37 +6,19 @@ from typing import TYPE_CHECKING, Annotated, Any, Final
 
 import numpy as np
 import typer
-from rich.box import SIMPLE_HEAD
 from rich.table import Column, Table
 
-from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
-from fctd.case.load import Case
-from fctd.case.text import printable
 from fctd.case.units import SPEED
-from fctd.cli.chart import DEPTHS_HELP
 from fctd.cli.check import facts_table
-from fctd.cli.hydraulics import Beside, number, read_eccentricity
-from fctd.cli.limits import rows_of
-from fctd.cli.options import (
-    CaseFile,
-    Overrides,
-    Quiet,
-    Strict,
-    Units,
-    changes_of,
-    print_written,
-    read_case,
-    refuse_sources,
-    screen,
-    tell,
-)
-from fctd.cli.pictures import PICTURE_HELP, draw_panels
-from fctd.cli.quantities import DEPTHS, TO_TOTAL_DEPTH, Given, QuantityOption, quantity, several
-from fctd.cli.steady import check_targets, file_option, in_units, metadata_of_case, row_bar
+from fctd.cli.hydraulics import Beside, read_eccentricity
+from fctd.cli.job import Depths, Job, grid, headed, numbers, rows_of
+from fctd.cli.options import CaseFile, Overrides, Quiet, Strict, Units, screen
+from fctd.cli.pictures import PICTURE_HELP
+from fctd.cli.quantities import TO_TOTAL_DEPTH, Given, QuantityOption, quantity, several
+from fctd.cli.steady import file_option
 from fctd.hydraulics.surge import ENDS, FASTEST, TRIPS, fastest_trips, surge_pressures
 from fctd.results.case_facts import flow_curves
-from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, reworded, shown
 
 if TYPE_CHECKING:
@@ -70,9 +52,7 @@ def surge_command(
         list[Given],
         quantity(USUAL.option, "V", "Speeds of the pipe, '0.5 m/s,1 m/s'; bare with --units field in ft/min."),
     ] = [USUAL],  # noqa: B006
-    depths: Annotated[
-        Given, quantity(DEPTHS, "D or FROM:TO:STEP", f"{DEPTHS_HELP} Or one depth, such as shoe.")
-    ] = TO_TOTAL_DEPTH,
+    depths: Depths = TO_TOTAL_DEPTH,
     most: Annotated[
         Given, quantity(MOST.option, "V", "Fastest speed of the hoist, of trips within the window.")
     ] = MOST,
@@ -94,43 +74,30 @@ def surge_command(
 
     The string moves at constant speed, with its end open, closed, or with a float.
     """
-    table_out, plot = check_targets(out, plot, {})
-    check_targets(trips, None, {})
-    case = read_case(case_file, changes_of(overrides))
-    for key, path in (("--out", out), ("--trips", trips), ("--plot", plot)):
-        refuse_sources(case, path, key)
+    job = Job(
+        case_file, overrides, units=units, strict=strict, quiet=quiet, out=out, plot=plot, draws=True,
+        tables={"--trips": trips},
+    )  # fmt: skip
+    case = job.case
     if trips is not None and not case.wellbore.window:
         raise InputError("a case with a [[wellbore.window]], within which trips stay", key="--trips", value=trips)
     rates, hoist = several(speeds, units), most.si(units)
-    closed = list(ENDS) if _words(ends) == ["all"] else _words(ends)
     asked: dict[str, Any] = {
         "bit_depths": depths.depths(case, units), "operation": _words(operations) or TRIPS,
-        "end": closed, "eccentricity": read_eccentricity(eccentricity, case),
+        "end": list(ENDS) if _words(ends) == ["all"] else _words(ends),
+        "eccentricity": read_eccentricity(eccentricity, case),
     }  # fmt: skip
-    warnings = warnings_of(case)
-    told = tell(case, warnings, strict=strict, units=units)
-    with row_bar(quiet) as bar:
-        task = bar.add_task(printable(case.name), total=None)
-
-        def show(done: int, total: int) -> None:
-            bar.update(task, completed=done, total=total)
-
+    job.warn()
+    with job.bar() as show:
         surges = surge_pressures(case, rates, **asked, progress=show)
         fastest = fastest_trips(case, **asked, most=hoist, progress=show) if case.wellbore.window else None
-    metadata, written = metadata_of_case(case, warnings) | {"units": units}, []
-    try:  # written before anything is printed, as the terminal may be closed
-        if table_out is not None:
-            written += write_table(in_units(units, surges), table_out, metadata)
-        if trips is not None and fastest is not None:
-            written += write_table(in_units(units, fastest), trips, metadata)
-        if plot is not None:
-            from fctd.plots.flow import surge_panels
 
-            lines = ["constant speed; API RP 13D", *(f"warning {text}" for text in told)]
-            written += draw_panels(plot, surge_panels(case, surges, fastest, units, lines))
-    finally:
-        _print(case, surges, fastest, units)
-    print_written(written)
+    def draw(told: list[str]) -> Any:
+        from fctd.plots.flow import surge_panels
+
+        return surge_panels(case, surges, fastest, units, ["constant speed; API RP 13D", *told])
+
+    job.end({"--out": surges, "--trips": fastest}, lambda: _print(job, surges, fastest), draw)
 
 
 def _words(texts: Sequence[str]) -> list[str]:
@@ -138,20 +105,17 @@ def _words(texts: Sequence[str]) -> list[str]:
     return [part.strip() for text in texts for part in text.split(",")]
 
 
-def _print(case: Case, surges: "pd.DataFrame", fastest: "pd.DataFrame | None", units: System) -> None:
-    screen.print(printable(case.name), style="bold", soft_wrap=True)
-    screen.print(facts_table(flow_curves(case.mud, units)))
+def _print(job: Job, surges: "pd.DataFrame", fastest: "pd.DataFrame | None") -> None:
+    units = job.units
+    screen.print(facts_table(flow_curves(job.case.mud, units)))
     for (kind, end), of in surges[surges["reason"] == "none"].groupby(["operation", "end"], sort=False):
         screen.print(f"{kind}, {end} end")
         screen.print(_table(of, SURGES, "regime", units))
         if fastest is not None:
             trip = fastest[(fastest["operation"] == kind) & (fastest["end"] == end)]
             screen.print(_table(trip, TRIPPED, "reason", units))
-            screen.print(_duration(trip, units), soft_wrap=True)
-    metre = shown("bit_depth_m", units)
-    for reason, of in surges[surges["reason"] != "none"].groupby("reason", sort=False):
-        depths = ", ".join(f"{depth * metre.factor:.0f}" for depth in of["bit_depth_m"].unique())
-        screen.print(f"at {depths} {metre.label}: {reworded(str(reason), units)}", soft_wrap=True)
+            job.say(_duration(trip, units))
+    job.say_reasons(surges)
 
 
 def _duration(trip: "pd.DataFrame", units: System) -> str:
@@ -167,14 +131,8 @@ def _duration(trip: "pd.DataFrame", units: System) -> str:
 
 def _table(of: "pd.DataFrame", columns: dict[str, str], last: str, units: System) -> Table:
     """Columns of a table and a last one of words, at evenly spread rows where they are many."""
-    unit = {name: shown(name, units) for name in columns}
-    table = Table(
-        *(Column(f"{words}\n{unit[name].label}", justify="right") for name, words in columns.items()),
-        Column("" if last == "reason" else last, overflow="fold"), box=SIMPLE_HEAD, collapse_padding=True,
-        pad_edge=False,
-    )  # fmt: skip
-    rows = rows_of(of)
-    for k in np.unique(np.linspace(len(rows) - 1, 0, min(SCREEN_ROWS, len(rows))).round().astype(int)):
-        words = "" if rows[k][last] == "none" else reworded(str(rows[k][last]), units)
-        table.add_row(*(number(rows[k][name] * unit[name].factor) for name in columns), words)
+    table = grid(*headed(columns, units), Column("" if last == "reason" else last, overflow="fold"))
+    for row in rows_of(of, SCREEN_ROWS):
+        words = "" if row[last] == "none" else reworded(str(row[last]), units)
+        table.add_row(*numbers(row, columns, units), words)
     return table

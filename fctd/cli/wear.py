@@ -5,41 +5,15 @@ from typing import TYPE_CHECKING, Annotated, Any, Final
 
 import numpy as np
 import typer
-from rich.box import SIMPLE_HEAD
-from rich.table import Column, Table
 
-from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
 from fctd.case.text import counted, printable
 from fctd.case.units import LENGTH, TIME
-from fctd.cli.chart import DEPTHS_HELP
-from fctd.cli.limits import rows_of
-from fctd.cli.options import (
-    CaseFile,
-    Friction,
-    Overrides,
-    Quiet,
-    Strict,
-    Units,
-    changes_of,
-    finish,
-    print_written,
-    read_case,
-    refuse_sources,
-    screen,
-    tell,
-)
-from fctd.cli.pictures import PICTURE_HELP, draw_panels
-from fctd.cli.quantities import DEPTHS, PENETRATION, TO_TOTAL_DEPTH, Bare, Given, QuantityOption, quantity, si
-from fctd.cli.steady import (
-    Rpm,
-    check_targets,
-    file_option,
-    in_units,
-    metadata_of,
-    row_bar,
-)
-from fctd.results.table_files import write_table
+from fctd.cli.job import Job, depths_option, grid, right, rows_of
+from fctd.cli.options import CaseFile, Friction, Overrides, Quiet, Strict, Units, screen
+from fctd.cli.pictures import PICTURE_HELP
+from fctd.cli.quantities import PENETRATION, TO_TOTAL_DEPTH, Bare, Given, QuantityOption, quantity, si
+from fctd.cli.steady import Rpm, file_option
 from fctd.results.unit_systems import System, in_words, reworded, shown
 from fctd.steady.wear import STEP, TURNING, USUAL_FACTORS, casing_wear
 
@@ -68,9 +42,7 @@ ROW: Final = QuantityOption("--step", LENGTH).parse(f"{STEP:g} m")
 
 def wear_command(
     case_file: CaseFile,
-    depths: Annotated[
-        Given, quantity(DEPTHS, "D or FROM:TO:STEP", f"{DEPTHS_HELP} Or one depth, such as td.")
-    ] = TO_TOTAL_DEPTH,
+    depths: Annotated[Given, depths_option("td")] = TO_TOTAL_DEPTH,
     hours: Annotated[
         Given | None,
         quantity(
@@ -111,42 +83,29 @@ def wear_command(
     The casing is a `casing` of an interval of the hole.  Its groove is V = WF·F·s for every metre: wear factor, side
     force, sliding distance.
     """
-    table_out, plot = check_targets(out, plot, {})
-    case = read_case(case_file, changes_of(overrides, friction))
-    for key, path in (("--out", out), ("--plot", plot)):
-        refuse_sources(case, path, key)
+    job = Job(case_file, overrides, friction, units=units, strict=strict, quiet=quiet, out=out, plot=plot, draws=True)
     asked: dict[str, Any] = {
-        "bit_depths": depths.depths(case, units),
+        "bit_depths": depths.depths(job.case, units),
         "duration": si(hours, units), "penetration": si(penetration, units), "rpm": si(rpm, units),
         "wear_factor": _read_factors(wear_factor), "operation": operation, "step": step.si(units),
     }  # fmt: skip
     if operation not in TURNING:
         raise InputError(" or ".join(TURNING), key="--operation", value=operation)
-    warnings = warnings_of(case, [operation], rpm=asked["rpm"])
-    told = tell(case, warnings, strict=strict, units=units)
-    with row_bar(quiet) as bar:
-        task = bar.add_task(printable(case.name), total=None)
+    job.warn([operation], rpm=asked["rpm"])
+    with job.bar() as show:
+        table = casing_wear(job.case, **asked, progress=show)
+    lines = _facts(table, units)
 
-        def show(done: int, total: int) -> None:
-            bar.update(task, completed=done, total=total)
+    def draw(told: list[str]) -> Any:
+        from fctd.plots.wear import wear_panels
 
-        table = casing_wear(case, **asked, progress=show)
-    lines, written = _facts(table, units), list[Path]()
-    try:  # written before anything is printed, as the terminal may be closed
-        if table_out is not None:
-            metadata = metadata_of(case, units, [operation], {"rpm": asked["rpm"]}, warnings)
-            metadata |= {key: table.attrs[key] for key in ("turns", "time_s", "wear_factors", "doubted")}
-            written += write_table(in_units(units, table), table_out, metadata)
-        if plot is not None:
-            from fctd.plots.wear import wear_panels
+        return wear_panels(job.case, table, units, [*lines, *told])
 
-            written += draw_panels(
-                plot, wear_panels(case, table, units, [*lines, *(f"warning {text}" for text in told)])
-            )
-    finally:
-        _print(table, case.name, lines, units)
-    print_written(written)
-    finish(not table.attrs["doubted"], ["worn_through"] if (table["high_worn"] >= 1).any() else [], strict)
+    job.end(
+        {"--out": table}, lambda: _print(job, table, lines), draw, rates=([operation], {"rpm": asked["rpm"]}),
+        more={key: table.attrs[key] for key in ("turns", "time_s", "wear_factors", "doubted")},
+        acceptable=not table.attrs["doubted"], codes=["worn_through"] if (table["high_worn"] >= 1).any() else [],
+    )  # fmt: skip
 
 
 def _read_factors(text: str) -> list[float]:
@@ -195,29 +154,17 @@ def _unit(column: str, units: System) -> tuple[float, str]:
     return (100.0, "%") if column in WORN else shown(column, units)
 
 
-def _print(table: "pd.DataFrame", name: str, lines: list[str], units: System) -> None:
-    screen.print(printable(name), style="bold", soft_wrap=True)
+def _print(job: Job, table: "pd.DataFrame", lines: list[str]) -> None:
+    """Rows of each casing, with that of its deepest groove, and the lines."""
+    unit = {name: _unit(name, job.units) for name in SHOWN}
     for casing, of in table.groupby("casing", sort=False):
-        screen.print(printable(str(casing)), soft_wrap=True)
-        screen.print(_table(of, units))
-    for line in lines:
-        screen.print(printable(line), soft_wrap=True)
-    screen.print(
+        job.say(printable(str(casing)))
+        found = grid(*right(*(f"{words}\n{unit[name][1]}" for name, words in SHOWN.items()), no_wrap=True))
+        for row in rows_of(of, SCREEN_ROWS, [int(np.argmax(of["high_groove_m"].to_numpy()))]):
+            found.add_row(*(f"{row[name] * unit[name][0]:.{DIGITS[name][job.units == 'field']}f}" for name in SHOWN))
+        screen.print(found)
+    job.say(
+        *map(printable, lines),
         "side forces are those on 30 ft of string; burst is 0.875·2Yt/D of the wall t that is left, which a groove "
         "weakens all around",
-        soft_wrap=True,
     )
-
-
-def _table(of: "pd.DataFrame", units: System) -> Table:
-    """The rows of a casing, at evenly spread depths where they are many, with that of the deepest groove."""
-    unit = {name: _unit(name, units) for name in SHOWN}
-    table = Table(
-        *(Column(f"{words}\n{unit[name][1]}", justify="right", no_wrap=True) for name, words in SHOWN.items()),
-        box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
-    )  # fmt: skip
-    rows = rows_of(of)
-    picked = np.linspace(0, len(rows) - 1, min(SCREEN_ROWS, len(rows))).round().astype(int)
-    for k in np.unique(np.append(picked, np.argmax(of["high_groove_m"].to_numpy()))):
-        table.add_row(*(f"{rows[k][name] * unit[name][0]:.{DIGITS[name][units == 'field']}f}" for name in SHOWN))
-    return table
