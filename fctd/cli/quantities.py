@@ -67,7 +67,8 @@ class QuantityOption:
         return value
 
 
-class Given(NamedTuple):
+@dataclass(frozen=True)
+class Given:
     """The text of an option that takes a quantity."""
 
     text: str

@@ -89,6 +89,13 @@ def test_options_without_a_quantity_are_named() -> None:
     assert len(QUANTITIES) > 50
 
 
+@pytest.mark.parametrize(("command", "default"), [("surge", "0.5 m/s"), ("hydraulics", "2.6 sg"), ("jar", "td")])
+def test_help_has_the_default_as_it_may_be_typed(command: str, default: str) -> None:
+    said = CliRunner().invoke(app, [command, "--help"], env={"COLUMNS": "200"}).output
+    assert f"[default: {default}]" in said
+    assert "QuantityOption" not in said
+
+
 def test_loads_have_their_unit() -> None:
     loads = {option.name for _, option in QUANTITIES if option.dimension in (FORCE, TORQUE)}
     assert {"--pull", "--torque", "--up", "--down", "--hookload", "--first-torque", "--first-hookload"} == loads
