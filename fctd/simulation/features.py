@@ -132,9 +132,7 @@ def _bows(run: Run) -> Use:
 
 
 def _bit_loads(run: Run) -> Use:
-    if run.laws.rock.law == NO_ROCK:
-        return None
-    return ("bit.rock", "a table") if run.case.bit.rock is not None else ("bit", "weight on bit and torque")
+    return None if run.laws.rock.law == NO_ROCK else ("bit.rock", "a table")
 
 
 def _stands(run: Run) -> Use:

@@ -56,6 +56,12 @@ def test_every_key_belongs_to_a_feature_or_works_everywhere() -> None:
     assert featured & EVERYWHERE == set()
 
 
+def test_loads_at_the_bit_are_refused_by_the_key_that_the_case_has() -> None:
+    with pytest.raises(InputError) as caught:
+        refuse(prepare(CROSSED["bit_loads"].make(True))[0], {UNKNOWN_KEYS, *FEATURES} - {"bit_loads"}, "another")
+    assert (caught.value.key, caught.value.value) == ("bit.rock", "a table")
+
+
 def test_every_feature_has_a_case() -> None:
     assert set(CROSSED) == set(FEATURES)
 
