@@ -42,6 +42,7 @@ for law in ("viscous", "paper"):
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("keys", "feature"), [("", "friction_law"), (', ("static_friction",)', "sticking")])
 def test_the_line_of_a_law_says_whether_it_sticks(keys: str, feature: str, copy: Path) -> None:
     """Then a static factor may stand beside it, and other engines and contact methods treat it as such a law."""
@@ -88,6 +89,7 @@ for make in (
 ROTATE = '[[operations]]\nkind = "rotate_off_bottom"\nat_md = 700\nduration = 60\nrpm = 60\nramp_time = 5\n'
 
 
+@pytest.mark.slow
 def test_a_key_of_a_case_is_one_line(copy: Path) -> None:
     """It is in schema, table of keys and overrides; a stepper that was not made for it refuses it."""
     pytest.importorskip("elastica")

@@ -90,6 +90,7 @@ def test_without_a_cache_folder_code_is_kept_for_one_run(name: str, copy: Path, 
     assert [path.name for path in here.iterdir()] == ["file"]
 
 
+@pytest.mark.slow
 def test_the_engine_needs_none_of_the_suite() -> None:
     """Importing the engine loads nothing of the other packages or of what only they need."""
     others = {

@@ -110,6 +110,7 @@ def test_a_document_type_is_refused(content: bytes, tmp_path: Path) -> None:
         from_upload("survey.xml", content, "si", tmp_path)
 
 
+@pytest.mark.slow
 def test_a_packed_file_is_not_unpacked_beyond_its_limit() -> None:
     bomb = zipped({f"xl/{k}.xml": bytes(9 * 2**20) for k in range(6)})
     assert len(bomb) < 2**17

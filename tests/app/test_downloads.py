@@ -31,6 +31,7 @@ def of(well: Well, name: str, **given: Any) -> dict[str, str]:
     return file(well, name, **(usual | given))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FILES)
 def test_a_file_is_made_and_not_kept(name: str, well: Well) -> None:
     found = of(well, name)

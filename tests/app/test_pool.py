@@ -97,6 +97,7 @@ def test_scratch_of_a_pool_that_was_killed_goes(tmp_path: Path, monkeypatch: pyt
         assert [path.name for path in tmp_path.iterdir()] == [pool.folder.name]
 
 
+@pytest.mark.slow
 def test_a_real_process_reads_and_refuses(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Also from the folder of the user's state, in which there is one named fctd."""
     (tmp_path / "fctd" / "app").mkdir(parents=True)

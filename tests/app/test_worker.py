@@ -70,6 +70,7 @@ def test_it_is_ready_and_then_answers_line_by_line(tmp_path: Path, monkeypatch: 
     assert limits == [2**30]
 
 
+@pytest.mark.slow
 def test_memory_has_a_limit() -> None:
     pytest.importorskip("resource")
     program = (

@@ -52,6 +52,7 @@ def test_the_factor_is_linear_in_depth() -> None:
     assert multipliers(CASE, {"friction.open.gradient": 0.5}) == [1.0, 1.0]
 
 
+@pytest.mark.slow
 def test_days_left_out_choose() -> None:
     found = calibrate(CASE, rows_at(0.8), NAMES, starts=1)
     assert found.scores["linear in depth"] > found.scores["constant"]
@@ -71,6 +72,7 @@ def test_a_gradient_needs_its_factor_and_its_kind() -> None:
         calibrate(well(), rows_at(0.0), ["friction.lined.gradient", "friction.open"])
 
 
+@pytest.mark.slow
 def test_a_case_with_a_gradient_is_written_and_predicts(tmp_path: Path) -> None:
     file = tmp_path / "well.toml"
     file.write_text(

@@ -58,6 +58,7 @@ def test_values_go_to_their_keys() -> None:
     assert (alone.friction, alone.rotational_friction) == (0.3, 0.1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("days", [False, True])
 def test_both_factors_are_found(days: bool) -> None:
     found = calibrate(CASE, rows(days=days), [*TRUE], starts=1)

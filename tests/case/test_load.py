@@ -172,6 +172,7 @@ def test_a_folder_is_no_case(tmp_path: Path) -> None:
 # --- any case --------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @given(raw=cases())
 def test_a_valid_case_loads_and_round_trips(raw: dict[str, Any], tmp_path_factory: pytest.TempPathFactory) -> None:
     path = tmp_path_factory.mktemp("valid") / "well.toml"
@@ -181,6 +182,7 @@ def test_a_valid_case_loads_and_round_trips(raw: dict[str, Any], tmp_path_factor
     assert Case.model_validate(copy.deepcopy(raw)).operations == case.operations
 
 
+@pytest.mark.slow
 @settings(max_examples=100)
 @given(raw=corrupted_cases())
 def test_a_corrupted_case_is_accepted_or_refused(raw: dict[str, Any], tmp_path_factory: pytest.TempPathFactory) -> None:

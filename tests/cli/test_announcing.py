@@ -55,6 +55,7 @@ def test_a_command_says_plainly_what_is_wrong_with_the_cache(capsys: pytest.Capt
     assert capsys.readouterr().err == "warning: x[b] is damaged\n"
 
 
+@pytest.mark.slow
 def test_a_chart_as_csv_imports_no_package_that_it_does_not_use(tmp_path: Path) -> None:
     """Nor SciPy's linear algebra, which numba's own sums and extremes of arrays import: a fifth of a second."""
     asked = "import sys; from fctd.cli.main import main; sys.argv[1:] = {}\ntry: main()\nexcept SystemExit: pass\n"

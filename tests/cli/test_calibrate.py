@@ -26,6 +26,7 @@ def files(tmp_path: Path) -> tuple[Path, Path]:
     return case, rows
 
 
+@pytest.mark.slow
 def test_a_calibration_and_its_files(files: tuple[Path, Path], tmp_path: Path, cli: Command) -> None:
     out, table, plot = tmp_path / "new.toml", tmp_path / "rows_fitted.csv", tmp_path / "fit.png"
     options = ("--fit", "rig.block_weight", "--fit", "rig.torque_offset", "--starts", "1", "--quiet")

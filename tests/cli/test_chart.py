@@ -24,6 +24,7 @@ CHART_COLUMNS = [
 ]  # fmt: skip
 
 
+@pytest.mark.slow
 def test_a_chart_reads_its_survey_once(tmp_path: Path, cli: Command) -> None:
     """Whatever the number of operations and friction factors, and with pictures and tables."""
     survey, case_file = tmp_path / "survey.csv", tmp_path / "tiny.toml"
@@ -155,6 +156,7 @@ def test_a_chart_goes_on_below_the_hole(case_file: Path, tmp_path: Path, cli: Co
     assert all(picture.exists() for picture in pictures)
 
 
+@pytest.mark.slow
 def test_a_warning_is_on_screen_once_in_the_files_and_on_the_picture(
     case_file: Path, tmp_path: Path, cli: Command
 ) -> None:
@@ -203,6 +205,7 @@ def test_friction_by_kind_is_a_line_of_its_own(case_file: Path, tmp_path: Path, 
     assert table["0.2"] < table["cased 0.20, open 0.30"] < table["0.3"]
 
 
+@pytest.mark.slow
 def test_rates_go_to_the_operations_that_have_them(case_file: Path, tmp_path: Path, cli: Command) -> None:
     out, picture = tmp_path / "chart.csv", tmp_path / "profiles.svg"
     rates = ("--speed", "0.7 m/s", "--rpm", "80", "--plot-profile", picture)

@@ -41,6 +41,7 @@ def test_exit_code_of_a_legal_answer(
     assert profile.exists()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("units", "foot"), [("si", 1.0), ("field", FOOT)])
 def test_a_buckled_string_shows_in_row_screen_and_picture(
     units: str, foot: float, case_file: Path, tmp_path: Path, cli: Command,

@@ -48,6 +48,7 @@ def test_cases_of_another_depth_end_there(case_file: Path, other_file: Path, cli
     assert deepest.to_dict() == {"short": 600.0, "tiny": 800.0}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", ["png", "html", "xlsx"])
 def test_a_file_of_each_kind(suffix: str, case_file: Path, cli: Command) -> None:
     out = case_file.with_name(f"both.{suffix}")

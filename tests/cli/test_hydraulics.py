@@ -40,6 +40,7 @@ def test_depths_and_flows_in_field_units(cli: Command, tmp_path: Path) -> None:
     assert f"{rows['standpipe_psi'].iloc[0]:.0f}" in said.out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("depths", "suffix"), [("td", "html"), ("shoe:td:500", "png")])
 def test_pictures(cli: Command, tmp_path: Path, depths: str, suffix: str) -> None:
     picture = tmp_path / f"flow.{suffix}"

@@ -170,6 +170,7 @@ def test_ctrl_c_stops_what_a_script_has_started_in_the_background() -> None:
         signal.signal(signal.SIGINT, before)
 
 
+@pytest.mark.slow
 def test_a_run_in_the_background_of_a_script_keeps_what_it_has(small_file: Path, tmp_path: Path) -> None:
     """Stopped as scripts do."""
     out, going = tmp_path / "out", tmp_path / ".out-run" / "progress.json"
@@ -204,6 +205,7 @@ IMPORTING = (
 )
 
 
+@pytest.mark.slow
 def test_between_the_imports_and_the_command() -> None:
     """While the package is imported and nothing has begun, Ctrl-C leaves no traceback."""
     done = subprocess.run(

@@ -99,6 +99,7 @@ def test_limits_of_a_chart_need_a_picture(cli: Command, well: Path) -> None:
     assert "--limits = true: expected --plot beside it" in said.err
 
 
+@pytest.mark.slow
 def test_stuck_pipe_is_loaded_at_its_stuck_point(cli: Command, well: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """In a straight hole what hangs below is missing there; the surface loads at the limit stay."""
     monkeypatch.setattr(screen, "_width", 100)

@@ -52,6 +52,7 @@ def series_file(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_a_table_a_picture_and_an_alarm(case_file: Path, series_file: Path, cli: Command) -> None:
     out, plot = case_file.with_name("found.csv"), case_file.with_name("found.png")
     printed = cli("monitor", case_file, series_file, "--out", out, "--plot", plot, "--units", "field").out

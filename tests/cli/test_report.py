@@ -30,6 +30,7 @@ def sheet(path: Path, name: str) -> list[list[object]]:
     return calamine.CalamineWorkbook.from_filelike(io.BytesIO(path.read_bytes())).get_sheet_by_name(name).to_python()
 
 
+@pytest.mark.slow
 def test_without_a_name_all_three_files_are_written(
     case_file: Path, cli: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -109,6 +110,7 @@ def test_a_missing_package_is_named(
     assert f"expected the package {package} for {suffix} (pip install {package}, or the extra fctd[report])" in message
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("blank_pictures")
 def test_rows_without_an_answer_are_exit_code_1_and_notes_only_where_strict(
     case_file: Path, cli: Command, tmp_path: Path

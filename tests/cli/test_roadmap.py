@@ -29,6 +29,7 @@ def series_file(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "units"), [("road.png", "field"), ("road.html", "si")])
 def test_readings_over_a_fan(name: str, units: str, case_file: Path, series_file: Path, cli: Command) -> None:
     path = case_file.with_name(name)
@@ -74,6 +75,7 @@ def test_it_grows_with_the_series_and_is_whole_after_a_stop(
     assert not list(path.parent.glob(".road*"))
 
 
+@pytest.mark.slow
 def test_a_picture_that_cannot_be_written_now_does_not_end_the_watch(
     case_file: Path, series_file: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
 ) -> None:

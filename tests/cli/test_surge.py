@@ -52,6 +52,7 @@ def test_all_ends_in_field_units(cli: Command) -> None:
     assert "trip_out" not in said
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", ["png", "html"])
 def test_pictures(cli: Command, tmp_path: Path, suffix: str) -> None:
     picture = tmp_path / f"surge.{suffix}"

@@ -21,6 +21,7 @@ from validation.parts.small_sweep import sweep_file
 NOTHING = (None, None, None)
 
 
+@pytest.mark.slow
 def test_a_sweep_is_written_and_resumed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Its segments of 25 and 50 m are too long for waves of 60 m: exit code 1, however often it is asked."""
     monkeypatch.chdir(tmp_path)

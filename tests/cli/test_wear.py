@@ -34,6 +34,7 @@ def test_field_units_and_a_range(cli: Command, monkeypatch: pytest.MonkeyPatch) 
     assert max(map(len, said.split("turns")[0].splitlines())) <= 80
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", ["png", "html"])
 def test_pictures(cli: Command, tmp_path: Path, suffix: str) -> None:
     picture = tmp_path / f"wear.{suffix}"

@@ -177,11 +177,13 @@ def run_command(command: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> 
         assert (folder / target).exists()
 
 
+@pytest.mark.slow(seconds=32)
 @pytest.mark.parametrize(("document", "command"), RUN, ids=name)
 def test_a_command_runs(document: Path, command: str, checkout: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     run_command(command, checkout, monkeypatch)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("document", [pytest.param(d, marks=slow(d)) for d in CHAINED], ids=name)
 def test_commands_build_on_each_other(
     document: Path, fewer: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
@@ -225,6 +227,7 @@ WITH_SURVEYS = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("document", "suffix"), WITH_SURVEYS, ids=name)
 def test_commands_run_one_after_the_other(
     document: Path, suffix: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -275,6 +278,7 @@ def run_blocks(document: Path, capsys: pytest.CaptureFixture[str]) -> None:
         assert part in printed
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "document",
     [pytest.param(d, marks=slow(d)) for d in GUIDES if blocks(d, "python") and d not in CHAINED],

@@ -53,6 +53,7 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return out
 
 
+@pytest.mark.slow
 def test_equations_are_mathml_and_names_lead_to_their_functions(site: Path) -> None:
     text = (site / "index.html").read_text(encoding="utf-8")
     assert text.count("<math ") == 2

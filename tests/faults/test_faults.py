@@ -33,6 +33,7 @@ def wanted(tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, bytes]:
     return Ground(tmp_path_factory.mktemp("undisturbed")).wanted
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in FAULTS if name not in {*SLOW, *SECONDS}])
 def test_a_fault_is_told_and_loses_nothing(name: str, tmp_path: Path, wanted: Mapping[str, bytes]) -> None:
     tried = FAULTS[name](Ground(tmp_path / "ground", wanted=wanted))

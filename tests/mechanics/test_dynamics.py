@@ -251,6 +251,7 @@ def test_the_largest_step_is_stable_and_hardly_more_is_not() -> None:
         pulled("largest", 1.02).check()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", [3e-3, 0.1, 10.0])
 @pytest.mark.parametrize("length", [0.3, 1.0, 10.0, 25.0])
 def test_the_largest_step_holds_with_shape_damping_of_any_size(shape: float, length: float) -> None:
@@ -278,6 +279,7 @@ def test_the_largest_step_holds_with_shape_damping_of_any_size(shape: float, len
     assert run.energy().kinetic < before
 
 
+@pytest.mark.slow
 def test_boundary_layers_drag_a_swinging_body_as_stokes_says_and_a_sliding_one_not_at_all() -> None:
     """At the layers' rate ω drag and mass are those of a plane wall, c/2 and c/2ω: work and phase of a forced swing."""
     drag, rate, dt = 40.0, 3.0, 4e-4

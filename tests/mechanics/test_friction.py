@@ -151,6 +151,7 @@ def test_no_impulse_clear_of_the_wall(depth: float) -> None:
     np.testing.assert_allclose(body.moment, 0, atol=1e-11)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", [coulomb.impulse, paper.impulse])
 @pytest.mark.parametrize("limit", [1e-3, 1e9])
 def test_friction_opposes_sliding_and_at_most_stops_it(law, limit: float) -> None:

@@ -123,6 +123,7 @@ def test_the_first_guess_has_the_same_shares(law, along, around, psi) -> None:
     assert climbs == (0.0 if law == "paper" else about)
 
 
+@pytest.mark.slow
 @given(ratio=st.floats(0.05, 20.0))
 def test_the_law_of_components_lies_on_the_same_ellipse_and_takes_less(ratio) -> None:
     along, around = 0.3, 0.3 * ratio
@@ -284,6 +285,7 @@ def test_friction_falls_with_the_size_of_the_sliding(speed, phi) -> None:
     assert taken == pytest.approx(factor * NORMAL * (1 + more / (1 + (speed / decay) ** 2)), rel=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ONE_FORCE)
 @given(velocity=vector, spin=vector)
 def test_one_factor_may_be_zero(law, velocity, spin) -> None:

@@ -106,6 +106,7 @@ def test_a_string_turning_clockwise_climbs_to_the_right_and_its_offset_says_so()
     np.testing.assert_allclose(inner.offset_high_m / clearance, -np.cos(np.arctan(0.2)), rtol=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("operation", ["trip_out", "trip_in", "rotate_off_bottom"])
 @pytest.mark.parametrize("law", ["coulomb", "paper"])
 def test_a_pipe_in_a_gentle_well_is_a_soft_string(operation: str, law: str) -> None:

@@ -47,6 +47,7 @@ def test_fittings_are_laid_at_equal_distances_and_add_no_mass() -> None:
     assert (fitted.contact_radius()[contacts(case(centralisers=RIGID))] == 0.115).all()
 
 
+@pytest.mark.slow  # it compiles what nothing else here needs
 def test_rigid_centralisers_bear_the_liner_and_turn_with_their_own_radius() -> None:
     of = case(centralisers=RIGID)
     point = equilibrium(of, "rotate_off_bottom", DEPTH)
@@ -105,6 +106,7 @@ def test_the_starting_force_acts_also_where_the_liner_hangs_on_the_axis() -> Non
     assert turned.hookload == pytest.approx(weight, rel=1e-6)
 
 
+@pytest.mark.slow  # it compiles what nothing else here needs
 def test_bows_that_the_hole_does_not_compress_have_no_starting_force() -> None:
     """In a vertical hole whose upper part is wider: those below 250 m alone drag, in both solvers."""
     upright = [[0, 0, 0], [400, 0, 0]]
@@ -153,6 +155,7 @@ FITTED: dict[str, dict[str, Any]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FITTED)
 @pytest.mark.parametrize("geometry", ["arcs", "cylinders"])
 def test_the_stepper_agrees_with_the_steady_string(name: str, geometry: str) -> None:

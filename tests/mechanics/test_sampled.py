@@ -25,6 +25,7 @@ def beside(hole: Wellbore, seed: int, count: int = 300) -> tuple[Array, Array]:
     return md, hole.off_axis(md, rng.uniform(0, 2 * np.pi, count), rng.uniform(0.03, 0.06, count))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("arms", [1, 2, 8])
 def test_of_a_round_caliper_it_is_that_of_arcs(arms: int) -> None:
     """In bends and at the shoe, above and below the caliper, beyond both ends of the hole."""
@@ -37,6 +38,7 @@ def test_of_a_round_caliper_it_is_that_of_arcs(arms: int) -> None:
     assert not hole.pieces[:, sampled.AROUND_CELLS].any()
 
 
+@pytest.mark.slow
 def test_the_force_of_a_rough_wall_is_the_gradient_of_its_energy() -> None:
     """Also along the hole: −K d n of the stored wall against differences of ½ K d²."""
     hole = sampled_hole(rough(2))
@@ -49,6 +51,7 @@ def test_the_force_of_a_rough_wall_is_the_gradient_of_its_energy() -> None:
     assert along.max() > 0.01
 
 
+@pytest.mark.slow
 def test_slope_and_deviation_are_continuous_between_cells() -> None:
     hole = sampled_hole(rough(5))
     ends = hole.md[(hole.md > FIRST + 1) & (hole.md < LAST - 1)][::40]
@@ -63,6 +66,7 @@ def test_slope_and_deviation_are_continuous_between_cells() -> None:
     np.testing.assert_allclose(found, before, atol=2e-6)
 
 
+@pytest.mark.slow
 def test_the_wall_that_was_measured_is_found_at_second_order() -> None:
     """A smooth wall that winds along the hole: cells of four lengths, from the high side in bends."""
 

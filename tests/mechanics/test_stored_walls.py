@@ -47,6 +47,7 @@ def slopes_of_energy(hole: Wellbore, points: Array, radius: float, h: float = 1e
     return np.column_stack([(ahead - behind) / (2 * h) for ahead, behind in ends])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
 @pytest.mark.parametrize("direction", [1, -1])
 def test_bodies_carried_along_see_the_walls_that_free_points_see(geometry: str, direction: int) -> None:

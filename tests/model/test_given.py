@@ -368,6 +368,7 @@ def spoilt_holes(draw: st.DrawFn) -> list[Element]:
     return found
 
 
+@pytest.mark.slow
 @settings(max_examples=100)
 @given(spoilt_strings(), spoilt_holes(), st.sampled_from(["si", "field"]))
 def test_a_case_lacks_what_it_says_and_nothing_else(

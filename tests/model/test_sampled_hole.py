@@ -15,6 +15,7 @@ from fctd.model.wellbore import build_wellbore
 from tests.calipers import BORE, FIRST, LAST, bent_case, bent_hole, rough, sampled_hole
 
 
+@pytest.mark.slow
 def test_the_reference_direction_goes_with_the_hole_without_turning_about_it() -> None:
     """From piece to piece it is the same vector; a step along the hole turns it about the hole by nothing."""
     hole = sampled_hole(rough(1))
@@ -29,6 +30,7 @@ def test_the_reference_direction_goes_with_the_hole_without_turning_about_it() -
     np.testing.assert_allclose(ends[:-1], starts[1:], atol=1e-7)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("reference", ["high_side", "north"])
 def test_an_oval_hole_is_widest_where_the_caliper_says(reference: str) -> None:
     """40° clockwise from the high side, or from north, in hole that builds and turns."""
@@ -85,6 +87,7 @@ def test_around_the_hole_the_wall_has_its_extremes_at_the_arms(arms: int, seed: 
     assert just_before[0, 0] == pytest.approx(radii[0, 0], abs=1e-12)
 
 
+@pytest.mark.slow
 def test_the_wall_along_a_hole_has_circles_of_the_same_area() -> None:
     """π a b of an oval."""
     hole = build_wellbore(bent_case("sampled", caliper={"rows": [[FIRST, 0.30, 0.24], [LAST, 0.30, 0.24]]}))
@@ -115,6 +118,7 @@ def test_a_caliper_that_measured_no_open_hole_leaves_the_hole_round() -> None:
         assert hole.narrowest == pytest.approx(0.5 * BORE)
 
 
+@pytest.mark.slow
 def test_points_of_any_radius_are_asked() -> None:
     """Radii that no component has get tables of their own."""
     hole = sampled_hole(rough(3))
@@ -126,6 +130,7 @@ def test_points_of_any_radius_are_asked() -> None:
     assert bent_hole("arcs").with_radii(np.array([0.05])).sampling is None
 
 
+@pytest.mark.slow
 def test_memory_of_a_kilometre() -> None:
     """Of one radius beside the wall itself, in cells of 0.1 m."""
     hole = sampled_hole(rough(4))

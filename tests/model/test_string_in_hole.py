@@ -200,6 +200,7 @@ def test_an_operation_that_is_over_before_it_begins_is_refused(operation: dict) 
         prepare(make_case(operations=[operation]))
 
 
+@pytest.mark.slow
 def test_cost_counts_the_steps_of_every_segment() -> None:
     """A number of steps that is accepted for twenty segments is refused for five thousand."""
     schedule, solver = [rotation(1000, 3600)], {"step": 2e-6}

@@ -69,6 +69,7 @@ def tubing(mud: dict[str, Any], **more: Any) -> Equilibrium:
     return equilibrium(case, "trip_out", LENGTH)
 
 
+@pytest.mark.slow
 def test_the_tubing_of_lubinski_althouse_and_logan() -> None:
     """Piston −67.92, ballooning −34.74, temperature −16.56 in by the engine; the helix −46.24 in by its closed form.
 

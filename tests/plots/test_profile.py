@@ -80,6 +80,7 @@ def test_a_string_without_a_balance_is_only_named() -> None:
     assert texts_that_overlap(figure) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["trip_in", "drill_sliding"])
 def test_labels_of_ticks_stay_beside_their_panel(kind: str) -> None:
     """Half way to the next panel, where the labels of that one begin."""

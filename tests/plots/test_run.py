@@ -25,6 +25,7 @@ def result() -> SimulationResult:
     )
 
 
+@pytest.mark.slow
 def test_the_history_is_drawn_in_the_units_of_the_axes() -> None:
     history = result().history
     for units, newton, metre in (("si", 1e3, 1.0), ("field", 1e3 * LBF, FOOT)):
@@ -65,6 +66,7 @@ def drilled() -> SimulationResult:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("units", ["si", "field"])
 def test_a_run_that_drills_shows_its_weight_on_bit(units: Literal["si", "field"]) -> None:
     figure = plots.run_figure(drilled(), units)

@@ -12,6 +12,7 @@ from fctd.results.notes import MEANINGS
 from tests.plots.made import chart, legend_of, texts_that_overlap
 
 
+@pytest.mark.slow
 def test_files_are_as_their_suffix_says_and_the_same_each_time(tmp_path: Path) -> None:
     figure = plots.chart_figure(chart(["trip_in"], [0.2]))
     for suffix, start in ((".png", b"\x89PNG"), (".svg", b"<?xml"), (".pdf", b"%PDF")):
@@ -51,6 +52,7 @@ def test_entries_of_the_legend_read_from_left_to_right() -> None:
     assert set(legend_of(sheet.figure)) == set(names)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("title", ["a well with a long name and $x^2$ " * 4, "W" * 80, "word " * 210, "x" * 1001])
 def test_a_long_title_stays_in_the_picture(title: str) -> None:
     sheet = Sheet(6.0, 2.0, title, ["a fact", "a note"], [])

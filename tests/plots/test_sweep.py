@@ -48,6 +48,7 @@ def made(
     return assess(dataset, spec)
 
 
+@pytest.mark.slow
 def test_bands_are_those_of_the_percentiles(tmp_path: Path) -> None:
     found = made(tmp_path)
     figure = plots.bands_figure(found)

@@ -40,6 +40,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@pytest.mark.slow  # it compiles what nothing else here needs
 def test_a_contact_method_is_one_class_and_one_line(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (folder / "toy_method.py").write_text(textwrap.dedent(METHOD))
     monkeypatch.setitem(contact.METHODS, "toy", "toy_method:Toy")

@@ -1,8 +1,11 @@
 """What a package costs its user."""
 
+import pytest
+
 from references import packages
 
 
+@pytest.mark.slow
 def test_the_size_is_that_of_what_a_package_brings_alone() -> None:
     """numpy and scipy are FCTD's own; coal brings its library, a package by another name."""
     coal, own, trimesh = (packages.about(name) for name in ("coal", "fctd", "trimesh"))

@@ -13,6 +13,7 @@ from fctd.steady.margin_table import limits_of
 from tests.report.conftest import DEPTHS, KINDS, WELL
 
 
+@pytest.mark.slow
 def test_the_chart_is_that_of_torque_drag(well: Case, answers: Answers) -> None:
     pd.testing.assert_frame_equal(answers.chart, fctd.torque_drag(well, list(KINDS), list(DEPTHS)))
     assert answers.acceptable

@@ -3,6 +3,8 @@
 from collections.abc import Callable
 from dataclasses import replace
 
+import pytest
+
 from fctd.report.answers import Answers
 from fctd.report.content import Cover, report_of
 from fctd.report.tables import Report
@@ -11,6 +13,7 @@ from fctd.results.unit_systems import System
 ALWAYS = ["Well", "Hole", "String", "Fluids", "Friction", "Rig and limits", "Assumptions", "Torque and drag"]
 
 
+@pytest.mark.slow
 def test_all_sections_stand_in_their_order(made: Callable[[System], Report]) -> None:
     titles = [section.title for section in made("si").sections]
     assert titles == [*ALWAYS, "Margins", "Profiles", "Hydraulics", "Notes", "Versions", "Profiles in numbers"]

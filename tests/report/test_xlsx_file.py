@@ -23,6 +23,7 @@ def same(row: list[Any], cells: tuple[Cell, ...]) -> bool:
     return [cell for cell in row if cell != ""] == expected
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("units", UNITS)
 def test_every_cell_is_that_of_its_table(
     units: System, made: Callable[[System], Report], files: Callable[[System, str], bytes]

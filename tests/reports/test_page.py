@@ -20,6 +20,7 @@ from validation.harness import store, study
 from validation.harness.store import Judged
 
 
+@pytest.mark.slow
 def test_finished_study_has_question_checks_figure_notes_and_origin(render, tmp_path):
     run, tables = finished("overlap", checks=(judged(5e-7),), notes=("Mind the gap.",))
     html, problems = render((run, tables), studies=["overlap"])
@@ -141,6 +142,7 @@ def test_result_that_cannot_be_read_leaves_the_page(render, claims, tmp_path):
     assert words_of(html).count("cannot be read") == 2 + 5  # pages, claims that rest on jumps
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("key", "value"),
     [("status", 3), ("display", None), ("display", {"gone": "A table"}), ("date", 3), ("wall_s", "long"),
@@ -197,6 +199,7 @@ def test_tags_are_balanced(render, claims):
         assert parser.open == []
 
 
+@pytest.mark.slow
 def test_command_prints_where_the_page_is(tmp_path, monkeypatch):
     monkeypatch.setattr(command_line, "STUDIES", {"overlap": command_line.STUDIES["overlap"]})
     monkeypatch.setattr(study, "RESULTS", tmp_path / "results")
@@ -241,6 +244,7 @@ def test_two_runs_of_the_pages_are_the_same(render, tmp_path, claims):
     assert len(kept[0]) > 5
 
 
+@pytest.mark.slow
 def test_results_for_programs_fit_their_schema(render, tmp_path, claims):
     checks = (judged(5e-7), judged(float("nan"), name="lost"))
     run, tables = finished("overlap", checks=checks)

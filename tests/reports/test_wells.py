@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from reports.figures import volve_f4
 from tests.reports import synthetic
@@ -13,6 +14,7 @@ def page(tmp_path):
     return words_of((tmp_path / "out" / "wells.html").read_text(encoding="utf-8"))
 
 
+@pytest.mark.slow
 def test_readings_are_judged_by_well_and_a_well_without_torques_is_named(render, tmp_path):
     """They have their range, their bands, and in or out."""
     run, tables = finished("volve_f4")

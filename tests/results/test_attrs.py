@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 
 import pandas as pd
+import pytest
 
 from fctd import limits_of, load_case, torque_drag
 from fctd.results.attrs import attrs_of
@@ -12,6 +13,7 @@ EXAMPLE = Path(__file__).parents[2] / "examples" / "my_well.toml"
 ROUGH = {"wellbore.intervals[1].friction": 1.2}
 
 
+@pytest.mark.slow
 def test_a_table_keeps_its_attrs_in_a_parquet_file(tmp_path: Path) -> None:
     case = load_case(EXAMPLE, ROUGH)
     table = torque_drag(case, "trip_in", ["shoe", "1600 m"], speed="100 m/h")

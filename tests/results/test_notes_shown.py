@@ -107,6 +107,7 @@ RAISED: dict[str, tuple[set[str], dict[str, Any]]] = {
 SHOWN = ("a soft wall and weak steel", "picked up at once")  # before the run, and of its records
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in RAISED if name not in SHOWN])
 def test_a_note_is_raised(name: str) -> None:
     codes, raw = RAISED[name]
@@ -116,6 +117,7 @@ def test_a_note_is_raised(name: str) -> None:
         assert notes[code].remedy == MEANINGS[code].remedy
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SHOWN)
 def test_a_note_is_shown_everywhere(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]

@@ -78,6 +78,7 @@ def test_resolved_joints_are_refused_where_contact_at_the_middle_is_left_out() -
         refuse(run, OWN - {"middle_contact"}, "the engine")
 
 
+@pytest.mark.slow(seconds=13)
 @pytest.mark.parametrize("name", CROSSED)
 def test_a_feature_has_its_effect_with_another_contact_method_or_is_refused(
     name: str, own: Callable[[Case], SimulationResult]

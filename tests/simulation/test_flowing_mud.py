@@ -26,6 +26,7 @@ def case(
     )  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("feed", ["long_segment", "stands"])
 @pytest.mark.parametrize("viscosity", [0.02, 0.1])
 def test_a_trip_with_a_closed_end_has_the_loads_of_the_steady_string(feed: str, viscosity: float) -> None:

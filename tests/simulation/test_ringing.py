@@ -45,6 +45,7 @@ def test_the_tilt_is_a_sawtooth(overlap: float) -> None:
         assert share == pytest.approx(bend * length / (np.pi * n) * blended, rel=0.03)
 
 
+@pytest.mark.slow
 def test_ringing_is_expected_where_a_harmonic_meets_the_string() -> None:
     swing, frequency, depth = ringing(well_b()).largest()
     assert swing > 8e3

@@ -65,6 +65,7 @@ def weight_of(case: Case, string: String) -> float:
     return sum(WEIGHT[parts[k].outer_diameter] * length for k, length in enumerate(metres(string)))
 
 
+@pytest.mark.slow
 @settings(max_examples=40)
 @given(components=strings(), moves=operations(), top_md=st.sampled_from([0.0, 37.0]))
 def test_a_run_starts_and_ends_with_the_string_of_the_steady_solver(

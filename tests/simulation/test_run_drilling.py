@@ -147,6 +147,7 @@ def test_an_autodriller_drills_over_a_connection() -> None:
     assert last["hole_made_m"] > before["hole_made_m"]
 
 
+@pytest.mark.slow
 def test_a_bit_that_stands_still_ends_the_run_of_an_autodriller() -> None:
     simulation = Simulation(over_a_connection(drive="speed_control", control={"torque_limit": 10.0}))
     for _ in simulation:

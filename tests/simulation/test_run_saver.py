@@ -65,6 +65,7 @@ def at(record: int) -> float:
     return float(undisturbed().history["time_s"].iloc[record - 1])
 
 
+@pytest.mark.slow
 def test_a_run_goes_on_in_another_process(folder: RunFolder, tmp_path: Path) -> None:
     """Every record is a chunk; the progress that is reported and the times are those of the whole run."""
     before = killed_after(folder, 25)
@@ -82,6 +83,7 @@ def test_a_run_goes_on_in_another_process(folder: RunFolder, tmp_path: Path) -> 
     assert found.run["checkpoints_s"] == again.interval.spent[1] > before.interval.spent[1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("damage", ["cut", "flipped", "gone"])
 def test_a_damaged_checkpoint_costs_what_came_after_the_one_before(folder: RunFolder, damage: str) -> None:
     killed_after(folder, 25)
@@ -94,6 +96,7 @@ def test_a_damaged_checkpoint_costs_what_came_after_the_one_before(folder: RunFo
     assert said[-1] == f"the run goes on from {at(24):.4g} s"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("damage", ["cut", "flipped", "gone"])
 def test_a_damaged_chunk_is_never_read_as_another(folder: RunFolder, damage: str) -> None:
     """An early one is part of both checkpoints: the run begins anew, and says so."""

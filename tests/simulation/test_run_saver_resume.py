@@ -27,6 +27,7 @@ def undisturbed(name: str, geometry: str) -> SimulationResult:
     return finished(Simulation(CASES[name](geometry)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "geometry", "share"),
     [(name, "arcs", share) for name in CASES for share in (0.0, 0.4, 0.75, 1.0)] + [("trip", "cylinders", 0.4)],
@@ -48,6 +49,7 @@ def test_waves_within_a_long_segment_go_on_bitwise_the_same() -> None:
     same(finished(again), finished(Simulation(case)))
 
 
+@pytest.mark.slow
 def test_the_shifts_of_an_autodriller_are_made_again() -> None:
     """Stopped before and after the first and the last shift, and in the slips; the schedule is the same one too."""
     whole, case = Simulation(drilling_on()), drilling_on()
@@ -76,6 +78,7 @@ def short() -> Case:
     return make_case(BUILD, [pipe(None, 12)], [rotation(500, 3, ramp=1)], record={"interval": 0.25})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["fcl", "arcs"])
 def test_with_the_contact_of_others(method: str) -> None:
     """FCL's triangle mesh, and the paper's search through its own interface."""

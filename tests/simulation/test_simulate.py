@@ -130,6 +130,7 @@ def test_mud_resists_all_of_a_long_segment(operation: dict) -> None:
     assert steady.profile.torque_N_m.iloc[0] == pytest.approx(steady.surface_torque, abs=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("operation", "damping"), [(ROTATE, 1e-5), (trip(1000, 995, ramp=5), 1e-3)])
 def test_energy_error_falls_with_the_step(operation: dict, damping: float) -> None:
     """At first order to zero, also with a damper at the clamp that pulls on the pipe fed in."""

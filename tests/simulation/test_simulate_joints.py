@@ -18,6 +18,7 @@ def well(operation: dict[str, Any], cut: dict[str, Any], **more: Any) -> Case:
     return make_case(stations, components, [operation], wellbore=hole, mud={"density": 1200.0}, **more)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("operation", "rig", "at"),
     [

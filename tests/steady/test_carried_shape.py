@@ -34,6 +34,7 @@ def alone(case: Case, depth: float) -> dict[str, Any]:
     return chart_rows(case, KIND, [depth])[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("times_onset", "friction", "shape"),
     [(1.25, 0.1, "snaking"), (1.25, 0.0, "snaking"), (1.9, 0.1, "helix"), (1.9, 0.0, "helix")],

@@ -16,6 +16,7 @@ def resolved(case: Case, length: float = 150.0, **tables: dict[str, object]) -> 
     return fctd.equilibrium(with_tables(case, **({"solver": {"buckling": "feed"}} | tables)), "drill_sliding", length)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("times_onset", [1.3, 2.5])
 def test_every_mesh_has_the_same_answer(times_onset: float) -> None:
     points = [
@@ -26,6 +27,7 @@ def test_every_mesh_has_the_same_answer(times_onset: float) -> None:
     assert np.ptp(loads) < 0.01 * max(np.abs(loads))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("times_onset", [1.3, 1.6, 2.5])
 def test_damping_does_not_decide_the_row(times_onset: float, monkeypatch: pytest.MonkeyPatch) -> None:
     """The pseudo-time with which a string comes to rest, three values."""
@@ -64,6 +66,7 @@ def test_a_string_that_locks_up_says_how_feeding_ended() -> None:
     assert "slack-off is spent" in point.message
 
 
+@pytest.mark.slow
 def test_the_friction_of_the_case_is_the_limit_of_a_fed_string() -> None:
     """More friction, more push; with as much along the hole and less around it, hardly another."""
     loads = [

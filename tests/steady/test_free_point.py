@@ -59,6 +59,7 @@ def test_a_tapered_string_goes_on_with_its_next_section() -> None:
         assert table[name].to_numpy() == pytest.approx(840.0, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_friction_round_a_bend_makes_the_formula_too_shallow() -> None:
     """A rope that keeps e^(-μβ) of its pull below 60°: its stretch below is that of so much less pull."""
     light = pipe(None, None, segment_length=12.0, density=1201.0)

@@ -49,6 +49,7 @@ def normal_forces(problem: Problem) -> Array:
     return np.asarray(problem.reactions(Share(1.0, 0.0)).contacts[:, 3])
 
 
+@pytest.mark.slow  # it compiles what nothing else here needs
 @pytest.mark.parametrize("geometry", ["cylinders", "arcs"])
 @pytest.mark.parametrize("around", [None, AROUND])
 @pytest.mark.parametrize("slides", [False, True])

@@ -51,6 +51,7 @@ def test_the_example_of_1962_is_a_row_like_any_other(inclination: float) -> None
         assert point.total_contact_force == pytest.approx(204.11e3, rel=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("friction", [0.0, 0.2])
 @pytest.mark.parametrize("torque", [1.5e3, 5e3])
 def test_a_torque_at_the_bit_winds_the_helix_its_own_way(friction: float, torque: float) -> None:

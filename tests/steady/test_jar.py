@@ -39,6 +39,7 @@ def test_in_a_straight_hole_the_pipe_above_the_jar_hangs_from_the_hook() -> None
     assert between.to_numpy() == pytest.approx(below, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_a_push_beyond_the_helix_is_met_within_what_is_known_of_it() -> None:
     """Some loads on the way have no steady string."""
     (row,) = jar_forces(well(), "jar", 880.0, 900.0, down=[1e5]).itertuples()

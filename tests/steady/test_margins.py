@@ -74,6 +74,7 @@ def test_the_weaker_lower_section_gives_way_first() -> None:
     assert 290 <= margin.md <= 331
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("turn", [30.0, 60.0, 90.0])
 def test_overpull_grows_round_a_bend_as_a_rope_does(turn: float) -> None:
     """Nearly weightless pipe of no stiffness to speak of: at the hook e^(μβ) times what arrives at the bit."""

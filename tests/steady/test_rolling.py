@@ -69,6 +69,7 @@ def test_a_string_rolls_only_where_it_turns_in_vertical_hole_with_mud_and_fricti
     assert not problem_of(rolling_case(drag=0.0)).can_roll
 
 
+@pytest.mark.slow
 def test_a_row_says_that_and_how_fast_the_string_rolls() -> None:
     """Without mud the same string has no steady motion that the solver looks for."""
     point = equilibrium(rolling_case(), "drill_rotating", DEPTH)
@@ -92,6 +93,7 @@ def test_a_row_whose_slow_roll_ends_before_its_loads_says_where() -> None:
     assert point.message.endswith(" % of the friction")
 
 
+@pytest.mark.slow
 def test_a_resolved_string_rolls_on_segments_that_can_bend_as_it_does() -> None:
     """From long and from short segments at the same rate."""
     rates = []

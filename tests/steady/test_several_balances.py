@@ -56,6 +56,7 @@ def test_the_draws_are_the_rows_of_their_seeds() -> None:
     assert draw() == tuple(solved(case_of(seed=seed)).hookload for seed in (1, 2))
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("coarse_noise")
 def test_chart_sweep_page_and_equilibrium_pick_one_balance_and_say_one_note() -> None:
     case = case_of()

@@ -173,6 +173,7 @@ def test_a_push_leads_out_of_the_balance() -> None:
     assert 0.009 * clearance < moved < 0.7 * clearance
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("operation", "weight_on_bit"),
     [("drill_sliding", 9e3), ("drill_sliding", 12e3), ("drill_sliding", 23.8e3), ("drill_rotating", 9e3)],

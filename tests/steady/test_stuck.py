@@ -39,6 +39,7 @@ def test_in_a_straight_hole_the_pull_arrives_less_the_weight(md: float, pull: fl
         assert found[0] == pytest.approx(pull, rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("turn", [30.0, 60.0, 90.0])
 def test_round_a_bend_a_rope_keeps_its_share(turn: float) -> None:
     """Of a pull at the hook e^(-μβ) arrives, and of a pull at the stuck point e^(μβ) is at the hook."""

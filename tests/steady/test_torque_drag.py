@@ -47,6 +47,7 @@ def test_the_rows_of_a_chart_do_not_depend_on_the_number_of_threads(depths: set[
     pd.testing.assert_frame_equal(alone, together, check_exact=True)
 
 
+@pytest.mark.slow
 def test_rows_that_need_other_methods_are_the_same_on_several_threads() -> None:
     asked = level_case(), ["drill_sliding", "trip_in"], [float(depth) for depth in range(0, 151, 30)], [0.2, 0.5]
     alone, together = (torque_drag(*asked, threads=count) for count in (1, 3))

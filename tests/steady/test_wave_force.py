@@ -183,6 +183,7 @@ def spent(case: Case, **tables: dict[str, object]) -> Case:
     return with_tables(case, solver={"buckling": "resolve", "resolve_work": 50.0}, rig={"block_weight": 1e7}, **tables)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("times_onset", [1.25, 2.0])
 @pytest.mark.parametrize("operation", ["drill_sliding", "trip_in"])
 def test_homogenised_waves_have_the_loads_of_resolved_ones(times_onset: float, operation: str) -> None:
@@ -223,6 +224,7 @@ def test_a_homogenised_helix_that_no_push_moves_is_locked_up() -> None:
     assert point.message.endswith(f"{TOO_MUCH}, {HOMOGENISED}")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("work", [50.0, 1e5])
 def test_a_row_whose_work_is_spent_before_it_is_fed_says_so(work: float) -> None:
     length = 1.2 * lock_up_length()

@@ -38,6 +38,7 @@ def test_it_is_due_as_often_as_wanted(machine: Machine) -> None:
     assert kept == pytest.approx([10.0 + 10.02 * k for k in range(10)], abs=0.1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("cost", "busy"),
     [((0.05, 0.05), 1.0), ((0.5, 0.01), 1.0), ((0.03, 0.03), 5.0), ((0.019, 0.019), 1.0)],

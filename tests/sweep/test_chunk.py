@@ -80,6 +80,7 @@ def hang(sender: Any, holding: bool) -> None:
         sleep(3600)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("holding", [False, True])
 def test_a_process_ends_over_a_sample_that_does_not_come_back(holding: bool) -> None:
     context = multiprocessing.get_context("spawn")

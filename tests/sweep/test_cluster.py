@@ -27,6 +27,7 @@ from validation.parts import clusters
 from validation.parts.small_sweep import sweep_file
 
 
+@pytest.mark.slow
 def test_a_local_sweep_listens_on_the_loopback_alone() -> None:
     import psutil
 
@@ -66,6 +67,7 @@ def test_workers_with_more_threads_than_one_are_refused(tmp_path: Path) -> None:
             pass
 
 
+@pytest.mark.slow
 def test_workers_of_another_version_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """The client, whose version is another than that of the workers, is this process."""
     from distributed import versions

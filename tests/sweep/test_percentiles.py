@@ -20,6 +20,7 @@ def rows(values: list[float], depth: float = 100.0) -> pd.DataFrame:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("share", [0.5, 0.95])
 def test_an_error_bar_holds_the_true_percentile_in_95_of_100_cases(share: float) -> None:
     """Of 600 draws of 200 samples, within four standard errors; the binomial steps make it a little wider."""

@@ -24,6 +24,7 @@ from validation.parts.small_sweep import PARAMETERS, WORK, about, sweep_file
 ONE = ClusterChoice(workers=1)
 
 
+@pytest.mark.slow
 def test_a_sweep_has_the_rows_of_its_samples_and_a_second_call_computes_nothing(tmp_path: Path) -> None:
     spec = read_sweep(sweep_file(tmp_path))
     out, seen = tmp_path / "out", list[int]()

@@ -28,6 +28,7 @@ def ends(errors: SurveyErrors, count: int) -> np.ndarray:
     return np.array(found) - true
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["random", "systematic"])
 def test_the_position_spread_of_a_straight_well_is_that_of_the_closed_form(kind: str) -> None:
     """A station turns half of the courses on its sides: their lengths add, or for random errors their squares.

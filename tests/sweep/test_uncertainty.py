@@ -73,6 +73,7 @@ def of_friction(spec: SweepSpec, dataset: Dataset) -> tuple[float, float]:
     return 900.0 * pipe.weight * np.cos(np.radians(60)), 895.0 * pipe.weight * np.sin(np.radians(60))
 
 
+@pytest.mark.slow
 def test_the_hook_load_of_a_straight_inclined_string_is_normal_with_its_friction(tmp_path: Path) -> None:
     from scipy import stats
 

@@ -25,6 +25,7 @@ def test_small_waves_have_the_stiffness_of_a_beam_on_a_foundation() -> None:
     assert stiffness(shape, 0.25) == pytest.approx((k**4 - 2 * ratio * k**2 + 1).min(), rel=0.02)
 
 
+@pytest.mark.slow
 def test_band_encloses_the_least_energy() -> None:
     force = 1.25 * PIPE.onset
     shortest, longest = band(PIPE, force)

@@ -46,6 +46,7 @@ def energy(shape: Shape, angle: Angle) -> float:
     return float(np.trapezoid(density, s))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ratio", [1.1, 1.4, 1.7])
 @pytest.mark.parametrize("name", SHAPES)
 def test_shape_is_stationary(name: str, ratio: float) -> None:

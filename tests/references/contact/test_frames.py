@@ -22,6 +22,7 @@ def built(stored: Path) -> dict[str, Wellbore]:
     return {name: build_wellbore(case) for name, case in frames.read(stored)[1].items()}
 
 
+@pytest.mark.slow
 def test_the_file_alone_gives_the_contacts_again(stored: Path, built: dict[str, Wellbore]) -> None:
     points, _ = frames.read(stored)
     assert len(built) == 4
@@ -47,6 +48,7 @@ def test_points_are_in_random_order(stored: Path) -> None:
         assert abs(np.corrcoef(np.arange(len(rows)), rows["md_m"])[0, 1]) < 0.2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["arcs", "sdf"])
 def test_a_method_answers_the_frames(name: str, stored: Path) -> None:
     points, cases = frames.read(stored)

@@ -34,6 +34,7 @@ def test_the_error_falls_with_a_power_of_the_cell(interpolation: str, order: flo
     assert np.polyfit(np.log(CELLS), np.log(turns), 1)[0] > 0.95 * (order - 1)
 
 
+@pytest.mark.slow
 def test_distance_of_a_mesh_is_that_of_the_mesh() -> None:
     """The error that is left is the kink between two facets, over a cell."""
     points, radii = near_wall(300), np.full(300, RADIUS)
@@ -65,6 +66,7 @@ def test_a_hole_past_90_degrees_whose_points_jump() -> None:
         np.testing.assert_allclose(hits.md, md, atol=0.01)
 
 
+@pytest.mark.slow
 def test_a_washed_out_hole_is_sampled_from_its_mesh() -> None:
     """A washout of four metres, 30 % wider one way: a caliper's wall gives its mesh, and the mesh the distance."""
     rows = [[md, *2 * [HOLE * (1.3 if 6 <= md <= 10 else 1.0), HOLE]] for md in range(3, 14)]

@@ -15,6 +15,7 @@ from tests.simulation.test_external_contact import turning
 EXTENT = [column.name for column in BUCKLED]  # NaN where the string is not buckled
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "geometry"), [("cylinders", "cylinders"), ("arcs", "arcs"), ("for_loop", "cylinders")]
 )

@@ -29,6 +29,7 @@ def own() -> EngineRun:
     return engines.build("fctd").run(turning(), WINDOW)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CONTACT)
 def test_the_same_string_gives_the_same_loads(name: str, own: EngineRun) -> None:
     """Hook load within 0.5 %, torque within 2 %: Bullet's friction, of two fixed directions, is 1.1 % low."""

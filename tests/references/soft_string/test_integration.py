@@ -62,6 +62,7 @@ def scaled_difference(a: SoftString, b: SoftString) -> float:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("survey_method", ["minimum_curvature", "average_angle"])
 @pytest.mark.parametrize("operation", MOTIONS)
 def test_the_recursion_converges_to_the_differential_form_at_second_order(operation: str, survey_method: str) -> None:

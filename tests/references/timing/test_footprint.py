@@ -12,6 +12,7 @@ from references.timing.footprint import peak, resident
 PROGRAM = "from references.timing.footprint import peak; print(peak())"
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="no /proc")
 def test_the_peak_of_a_process_is_not_that_of_its_parent() -> None:
     held = np.ones(300 * 2**20, np.uint8)

@@ -85,6 +85,7 @@ def verdict(answer):
     return answer.finding.verdict
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("value", "more", "found"),
     [

@@ -66,6 +66,7 @@ def test_names_run_those(invoke):
     assert results() == ["overlap"]
 
 
+@pytest.mark.slow
 def test_the_claims_are_judged_after_all_studies_and_by_their_name(invoke):
     answer = invoke("claims")
     assert "claims: 1 not yet run" in answer.output
@@ -78,6 +79,7 @@ def test_the_claims_are_judged_after_all_studies_and_by_their_name(invoke):
     assert "studies run" not in invoke("claims").output
 
 
+@pytest.mark.slow
 def test_another_verdict_than_recorded_is_exit_code_1(invoke, register):
     ledger.CLAIMS.write_text(CLAIM.replace("at_most = 1.0", "at_most = 0.1"))
     assert invoke("paper_well").exit_code == 0

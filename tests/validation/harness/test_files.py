@@ -49,6 +49,7 @@ def test_a_case_is_read_with_its_survey() -> None:
     assert {path.name for path in read.files} == {"paper_well.toml"}
 
 
+@pytest.mark.slow
 def test_what_another_process_reads_counts_too(tmp_path: Path) -> None:
     paths = [tmp_path / f"{k}.toml" for k in range(3)]
     for path in paths:

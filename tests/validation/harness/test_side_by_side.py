@@ -98,6 +98,7 @@ def test_ctrl_c_ends_all_and_keeps_what_is_finished(register, run, tmp_path, mon
     assert not ended.exists()
 
 
+@pytest.mark.slow
 def test_parts_keep_their_order_in_other_processes():
     assert side_by_side.apart(operator.neg, [3.0, 1.0, 2.0]) == [-3.0, -1.0, -2.0]
 
@@ -113,6 +114,7 @@ def test_parts_of_the_engines_join_as_one_table():
     ]
 
 
+@pytest.mark.slow
 def test_two_runs_differ_in_times_only(tmp_path, sources):
     """Real studies, one after the other and side by side."""
     names, tables = ("overlap", "ownership"), []
@@ -160,6 +162,7 @@ with as_interrupts():
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="no /proc")
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
 def test_no_process_outlives_the_first_one(number):

@@ -66,6 +66,7 @@ def test_what_this_processor_lacks_is_said(host: dict[str, bool], monkeypatch: p
     assert "targets are of x86-64" in targets.lacking("no-fma")
 
 
+@pytest.mark.slow
 @runs_it
 def test_the_command_prints_lines_that_a_script_reads() -> None:
     def ask(name: str) -> subprocess.CompletedProcess[str]:
@@ -80,6 +81,7 @@ def test_the_command_prints_lines_that_a_script_reads() -> None:
     assert wrong.stderr == "error: target = 'x86-65': expected one of x86-64-v2, x86-64-v3, x86-64-v4, no-fma\n"
 
 
+@pytest.mark.slow
 @runs_it
 @pytest.mark.skipif(not llvm.get_host_cpu_features().get("fma"), reason="this processor has no fused multiply-add")
 def test_code_of_a_target_has_no_fused_multiply_add(tmp_path) -> None:

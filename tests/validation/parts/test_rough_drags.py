@@ -4,6 +4,7 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
+import pytest
 
 from fctd.arrays import Array
 from fctd.mechanics import contact, sampled
@@ -26,6 +27,7 @@ def changed(made: Rough, rows: slice, columns: slice | int, change: float) -> Ro
     return made._replace(hole=replace(made.hole, pieces=pieces))
 
 
+@pytest.mark.slow
 def test_no_point_leaves_a_rough_hole_or_jumps() -> None:
     found = dragged(rough(7))
     assert found.wrong_wall.max() < ALLOWED

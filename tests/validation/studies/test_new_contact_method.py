@@ -92,6 +92,7 @@ def test_it_is_raced_and_turns_the_chain(toy, monkeypatch):
     assert {"toy, from Python", "toy"} <= written("contact_swap", tables)
 
 
+@pytest.mark.slow
 def test_it_is_among_the_engines_of_the_study_of_speed(toy):
     assert "toy in our loop" in speed.available(quick=True)[0]
     step = moving(speed_kernel.chain(60), 0.0)[0].step

@@ -37,6 +37,7 @@ def small(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(rival_contact, "COUNTS", (1, 100))
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("small")
 def test_rivals_that_are_not_installed_have_a_row_in_every_table(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(contact, "installed_version", lambda name: None if name in METHODS else "1")
@@ -52,6 +53,7 @@ def test_rivals_that_are_not_installed_have_a_row_in_every_table(monkeypatch: py
     assert [check.verdict for check in outcome.checks] == ["met", "met"]
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("small")
 def test_a_plugin_has_its_rows_and_a_broken_one_its_reason(tmp_path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "toy_plugin.py").write_text(textwrap.dedent(GOOD))
