@@ -8,38 +8,33 @@ from typing import Annotated, Any
 import numpy as np
 import pandas as pd
 import typer
-from rich.box import SIMPLE_HEAD
 from rich.markup import escape
 from rich.table import Column, Table
 
+from fctd import plots
 from fctd.calibration.calibrate import Order, calibrate
 from fctd.calibration.calibrated_file import write_calibrated
 from fctd.calibration.fit import Loss
 from fctd.calibration.predict import coverage, posterior_file
 from fctd.calibration.result import Calibration
 from fctd.calibration.unknowns import NAMES
-from fctd.case.doubts import warnings_of
 from fctd.case.text import counted, printable
 from fctd.case.units import conversion
+from fctd.cli.job import Job, grid, right, rows_of
 from fctd.cli.options import (
     CaseFile,
     Friction,
     Overrides,
     Quiet,
     Strict,
-    changes_of,
     check_target,
-    finish,
     messages,
-    print_written,
-    read_case,
     refuse_sources,
     screen,
-    tell,
     units_option,
     warn,
 )
-from fctd.cli.pictures import DRAWN, check_pictures
+from fctd.cli.pictures import DRAWN, TABLES
 from fctd.cli.steady import file_option, metadata_of_case
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, reworded, shown_unit
@@ -100,51 +95,36 @@ def calibrate_command(
     strict: Strict = False,
 ) -> None:
     """Find friction, constants of the rig and unknown masses from measured hook loads and torques."""
-    check_target(out, "--out", (".toml",))
+    job = Job(
+        case_file, overrides, friction, units=units, strict=strict, quiet=quiet, reads=[measured, setup],
+        files={"--out": (out, (".toml",)), "--table": (table, TABLES), "--plot": (plot, DRAWN)},
+    )  # fmt: skip
     if out is not None:
         check_target(posterior_file(out), "--out", (".json",))
-    check_target(table, "--table", (".csv", ".parquet", ".xlsx"))
-    check_pictures({"--plot": plot}, DRAWN)
-    changes = changes_of(overrides, friction)
-    case = read_case(case_file, changes)
-    for key, path in {"--out": out, "--table": table, "--plot": plot}.items():
-        refuse_sources(case, path, key, [measured, setup])
-    if out is not None:
-        refuse_sources(case, posterior_file(out), "--out", [measured, setup])
-    warnings = warnings_of(case)
-    tell(case, warnings, strict=strict, units=units)
-    with messages.status("fitting") as status:
-        if quiet:
-            status.stop()
+        refuse_sources(job.case, posterior_file(out), "--out", [measured, setup])
+    job.warn()
+    with job.status("fitting") as show:
         doing = "fitting"
-
-        def show(solved: int) -> None:
-            status.update(f"{doing}: {counted(solved, 'string')} solved")
-
         found = calibrate(
-            case, measured, fits, priors=priors, setup=setup, loss=loss, order=order, starts=starts, seed=seed,
-            overrides=changes, scatter=scatter, units=units, tell=partial(warn, measured), progress=show,
+            job.case, measured, fits, priors=priors, setup=setup, loss=loss, order=order, starts=starts, seed=seed,
+            overrides=job.changes, scatter=scatter, units=units, tell=partial(warn, measured),
+            progress=lambda solved: show(f"{doing}: {counted(solved, 'string')} solved"),
         )  # fmt: skip
         doing = "intervals"
         _ = found.intervals
         doing = "leaving out each row"
         _ = found.leave_one_out
-    written: list[Path] = []
     notes = [*notes_of(found)]
-    try:
-        if out is not None:
-            written += write_calibrated(found, case_file, changes, out)
-        if table is not None:
-            metadata = metadata_of_case(found.case, warnings) | {"notes": [sentence for _, sentence in notes]}
-            written += write_table(found.residuals, table, metadata)
-        if plot is not None:
-            from fctd import plots  # needs matplotlib
-
-            written += plots.save(plots.calibration_figure(found, units), plot)
-    finally:
-        print_calibration(found, units)
-    print_written(written)
-    finish(True, [code for code, _ in notes], strict)
+    about = metadata_of_case(found.case, *job.warnings.values()) | {"notes": [sentence for _, sentence in notes]}
+    job.end(
+        {
+            "--out": partial(write_calibrated, found, case_file, job.changes),
+            "--table": lambda path: write_table(found.residuals, path, about),
+            "--plot": lambda path: plots.save(plots.calibration_figure(found, units), path),
+        },
+        lambda: print_calibration(found, units), codes=[code for code, _ in notes],
+        title=f"{found.base.name}: {counted(len(found.fit.used), 'row')} fitted",
+    )  # fmt: skip
 
 
 def notes_of(found: Calibration) -> Iterator[tuple[str, str]]:
@@ -175,11 +155,8 @@ def notes_of(found: Calibration) -> Iterator[tuple[str, str]]:
 
 def print_calibration(found: Calibration, units: System) -> None:
     """Print unknowns, strong correlations, residuals, rows left out, and predictions of deeper sections."""
-    screen.print(
-        printable(f"{found.base.name}: {counted(len(found.fit.used), 'row')} fitted"), style="bold", soft_wrap=True
-    )
     unknowns = _table(["unknown", ""], ["value", "95 %", "interval"], ["interval from"])
-    for row in found.table.to_dict("records"):
+    for row in rows_of(found.table):
         factor, label = shown_unit(str(row["unit"]), units)
         numbers = [f"{row[key] * factor:.4g}" for key in ("value", "low", "high")]
         unknowns.add_row(str(row["name"]), label, *numbers, f"{row['how']}{', at a bound' if row['at_bound'] else ''}")
@@ -193,7 +170,7 @@ def print_calibration(found: Calibration, units: System) -> None:
     rows = _table(["row", "load"], ["measured", "fitted", "off", "off/noise", "left out"], [])
     table = found.leave_one_out
     without = dict(zip(zip(table["id"], table["load"], strict=True), table["predicted"], strict=True))
-    for row in found.residuals.to_dict("records"):
+    for row in rows_of(found.residuals):
         factor, label = shown_unit(LOADS[str(row["load"])], units)
         key = str(row["id"]), str(row["load"])
         numbers = [_span(row["low"] * factor, row["high"] * factor)]
@@ -226,7 +203,7 @@ def print_factors(found: Calibration) -> None:
     if not len(table):
         return
     rows = _table(["hole", "motion"], ["friction factor", "95 %", "interval"], ["from rows"])
-    for row in table.to_dict("records"):
+    for row in rows_of(table):
         names = [*row["rows"]]
         listed = ", ".join(names[:_MOST_ROWS]) + (
             f" and {len(names) - _MOST_ROWS} more" if len(names) > _MOST_ROWS else ""
@@ -248,7 +225,7 @@ def _pumps(row: Mapping[Any, Any], units: System) -> str:
 def print_prediction(table: pd.DataFrame, units: System) -> None:
     """Print predicted readings with their bands, and how many measured ones lie inside."""
     rows = _table(["row", "load"], ["predicted", "50 %", "95 %", "measured"], ["inside"])
-    for row in table.to_dict("records"):
+    for row in rows_of(table):
         factor, label = shown_unit(str(row["unit"]), units)
         if row["reason"] != "none":
             rows.add_row(str(row["id"]), f"{row['load']}, {label}", *["–"] * 4, "")
@@ -283,9 +260,5 @@ def _span(low: float, high: float) -> str:
 
 
 def _table(texts: list[str], numbers: list[str], last: list[str]) -> Table:
-    return Table(
-        *(Column(heading, overflow="fold") for heading in texts),
-        *(Column(heading, justify="right", overflow="fold", no_wrap=screen.keeps_numbers) for heading in numbers),
-        *(Column(heading, overflow="fold") for heading in last),
-        box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
-    )  # fmt: skip
+    before, after = ([Column(heading, overflow="fold") for heading in of] for of in (texts, last))
+    return grid(*before, *right(*numbers, overflow="fold", no_wrap=screen.keeps_numbers), *after)

@@ -7,51 +7,41 @@ from typing import Annotated, Any
 
 import typer
 
-from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionSet, parse_frictions
-from fctd.case.input_warnings import InputWarning
 from fctd.case.load import SAME_DEPTH, Case, naming_file, with_friction
 from fctd.case.raw_case import parse_override
-from fctd.case.text import counted, printable
-from fctd.cli.chart import DEPTHS_HELP, FrictionFan
+from fctd.case.text import counted
 from fctd.cli.compare_table import print_comparison
+from fctd.cli.job import Job
 from fctd.cli.options import (
     Overrides,
     Quiet,
     Strict,
     Units,
     changes_of,
-    finish,
-    print_written,
     read_case,
-    refuse_sources,
-    screen,
-    tell,
 )
 from fctd.cli.pictures import PICTURE_HELP, ShownLoad, draw_chart
 from fctd.cli.quantities import DEPTHS, Given, quantity
 from fctd.cli.steady import (
-    KIND_HELP,
+    DEPTHS_HELP,
     Flow,
+    FrictionFan,
     ResolveBuckling,
     Rpm,
     Speed,
-    check_targets,
     file_option,
-    metadata_of,
+    kinds_option,
     read_drive,
     read_kinds,
-    row_bar,
 )
 from fctd.plots.loads import ChartLook, usual_load
 from fctd.plots.palette import CASES
-from fctd.results.differences import differences, in_a_row
-from fctd.results.notes import meanings_of
+from fctd.results.differences import differences
 from fctd.results.status import SteadyStatus
-from fctd.results.table_files import write_table
-from fctd.results.unit_systems import System, reworded, shown
-from fctd.steady.chart import Chart, chart
+from fctd.results.unit_systems import System, shown
+from fctd.steady.chart import chart
 from fctd.steady.comparison import FEWEST, compare, names_of
 from fctd.steady.margin_table import USUAL
 
@@ -72,11 +62,7 @@ def compare_command(
     depths: Annotated[Given, quantity(DEPTHS, "FROM:TO:STEP", DEPTHS_HELP)],
     operations: Annotated[
         list[str],
-        typer.Option(
-            "--operation",
-            metavar="KINDS",
-            help=f"{KIND_HELP}; several with commas between them, or all; default: {', '.join(USUAL)}.",
-        ),
+        kinds_option(f"; default: {', '.join(USUAL)}"),
     ] = [],  # noqa: B006 (typer copies it)
     frictions: FrictionFan = [],  # noqa: B006
     speed: Speed = None,
@@ -96,51 +82,32 @@ def compare_command(
     strict: Strict = False,
 ) -> None:
     """Compare cases: what differs between their inputs, and their charts in one table and one picture."""
-    out, plot = check_targets(out, plot, {})
     cases = _read(sources, changes_of(overrides, resolve=resolve_buckling))
-    if plot is not None and len(cases) > len(CASES):
+    job = Job(cases, units=units, strict=strict, quiet=quiet, out=out, plot=plot, draws=True)
+    if (plot := job.paths["--plot"]) is not None and len(cases) > len(CASES):
         raise InputError(f"at most {len(CASES)} cases, each with a colour of its own", key="--plot", value=plot)
-    for name, path in {"--out": out, "--plot": plot}.items():
-        for case in cases.values():
-            refuse_sources(case, path, name)
     kinds, factors = read_kinds(operations, USUAL), parse_frictions(frictions, "--friction")
     drive = read_drive(speed, rpm, flow, units)
     bit_depths, ends = _depths(depths, cases, units)
     compared = [_with_factors(case, factors) for case in cases.values()]
     lines = [found.sentence(list(cases), units) for found in differences(compared, units)]
-    for line in [*_shortened(lines, ON_SCREEN), *ends]:
-        screen.print(line, soft_wrap=True)
-    indicator = (load or usual_load(list(cases.values()))) == "indicator"
-    warnings = {
-        name: warnings_of(case, kinds, **drive, frictions=factors, indicator=indicator) for name, case in cases.items()
-    }
-    told = _tell(cases, warnings, strict, units)
-
-    charts: dict[str, Chart] = {}
-    with row_bar(quiet) as bar:
-        task = bar.add_task("compiling", total=None)
-
-        def show(name: str, done: int, total: int) -> None:
-            bar.update(task, description=printable(name), completed=done, total=total)
-
-        for name, case in cases.items():
-            progress = partial(show, name)
-            charts[name] = chart(case, kinds, bit_depths[name], factors or None, **drive, progress=progress)
+    job.say(*_shortened(lines, ON_SCREEN), *ends)
+    shown_load = load or usual_load(list(cases.values()))
+    job.warn(kinds, **drive, frictions=factors, indicator=shown_load == "indicator")
+    with job.bar("compiling") as show:
+        charts = {
+            name: chart(case, kinds, bit_depths[name], factors or None, **drive, progress=partial(show, name))
+            for name, case in cases.items()
+        }
     found = compare(charts, units)
-    meanings = meanings_of(found.rows["notes"])
-    written: list[Path] = []
-    try:  # written before the tables are printed, as the terminal may be closed
-        if out is not None:
-            of_cases = {name: metadata_of(case, units, kinds, drive, warnings[name]) for name, case in cases.items()}
-            metadata = {"units": units, "differences": lines, "notes": meanings, "cases": of_cases}
-            written += write_table(found.table, out, metadata)
-        if plot is not None:
-            look = ChartLook(load, told=[*_shortened(lines, IN_PICTURE), *ends], warnings=told)
-            written += draw_chart(plot, found.rows, units, charts, look)
-    finally:
-        print_comparison(found, units, load or usual_load(list(cases.values())))
-    print_written(written)
-    finish(all(SteadyStatus(status).acceptable for status in found.rows["status"].unique()), meanings, strict)
+    look = ChartLook(load, told=[*_shortened(lines, IN_PICTURE), *ends], warnings=job.told)
+
+    job.end(
+        {"--out": found.rows, "--plot": lambda path: draw_chart(path, found.rows, units, charts, look)},
+        lambda: print_comparison(found, units, shown_load), title="", rates=(kinds, drive),
+        more={"differences": lines}, notes=found.rows["notes"],
+        acceptable=all(SteadyStatus(status).acceptable for status in found.rows["status"].unique()),
+    )  # fmt: skip
 
 
 def _read(sources: Sequence[str], shared: Mapping[str, Any]) -> dict[str, Case]:
@@ -193,18 +160,3 @@ def _shortened(lines: Sequence[str], most: int) -> list[str]:
         return ["no key of the cases differs"]
     more = [f"and {counted(len(lines) - most, 'key')} more, which a file of --out lists"] if len(lines) > most else []
     return [*lines[:most], *more]
-
-
-def _tell(
-    cases: Mapping[str, Case], warnings: Mapping[str, Sequence[InputWarning]], strict: bool, units: System
-) -> list[str]:
-    """Print the warnings of all cases, those of a file once; returns their texts with the cases that have them."""
-    said: set[tuple[Path | None, str]] = set()
-    owners: dict[str, list[str]] = {}
-    for name, case in cases.items():
-        new = [warning for warning in warnings[name] if (case.file, str(warning)) not in said]
-        tell(case, new, strict=strict, units=units)
-        for warning in warnings[name]:
-            said.add((case.file, str(warning)))
-            owners.setdefault(reworded(str(warning), units), []).append(name)
-    return [text if len(of) == len(cases) else f"{text} ({in_a_row(of)})" for text, of in owners.items()]

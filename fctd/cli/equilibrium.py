@@ -2,18 +2,15 @@
 
 from itertools import groupby
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 import typer
-from rich.box import SIMPLE_HEAD
-from rich.table import Table
 
-from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
 from fctd.case.load import check_bit_depth, naming_file
-from fctd.case.text import printable
-from fctd.cli.feeding import OPTION, PlotFeeding, check_feeding, check_feeding_file, draw_feeding
+from fctd.cli.feeding import OPTION, PlotFeeding, check_feeding, draw_feeding
+from fctd.cli.job import Job, grid
 from fctd.cli.options import (
     CaseFile,
     Friction,
@@ -21,18 +18,12 @@ from fctd.cli.options import (
     Quiet,
     Strict,
     Units,
-    changes_of,
-    finish,
     messages,
     print_notes,
     print_status,
-    print_written,
-    read_case,
-    refuse_sources,
     screen,
-    tell,
 )
-from fctd.cli.pictures import PICTURE_HELP, ShownSideForce, draw_profiles
+from fctd.cli.pictures import DRAWN, PICTURE_HELP, ShownSideForce, draw_profiles
 from fctd.cli.quantities import BIT_DEPTH, Given, quantity
 from fctd.cli.steady import (
     DEPTH_HELP,
@@ -41,10 +32,7 @@ from fctd.cli.steady import (
     ResolveBuckling,
     Rpm,
     Speed,
-    check_targets,
     file_option,
-    in_units,
-    metadata_of,
     print_segments,
     read_drive,
     read_kinds,
@@ -54,8 +42,7 @@ from fctd.results.buckling import BUCKLED
 from fctd.results.columns import COLUMNS, LOADS, SHAPES, SHARES
 from fctd.results.notes import as_metadata
 from fctd.results.profile import place_in_words
-from fctd.results.table_files import write_table
-from fctd.results.unit_systems import System, shown
+from fctd.results.unit_systems import shown
 from fctd.steady.equilibrium import equilibrium
 from fctd.steady.steady_string import Equilibrium
 
@@ -84,44 +71,43 @@ def equilibrium_command(
     strict: Strict = False,
 ) -> None:
     """Solve the steady string of one operation and bit depth: its loads, and its profile from top to bit."""
-    check_feeding_file(plot_feeding)
-    out, plot = check_targets(out, plot, {OPTION: plot_feeding})
     kinds = read_kinds(operations)
     if len(kinds) > 1:
         raise InputError("one kind of operation (fctd chart takes several)", key="--operation", value=operations)
-    (operation,) = kinds
-    case = read_case(case_file, changes_of(overrides, friction, resolve_buckling))
-    refuse_sources(case, out, "--out")
-    refuse_sources(case, plot, "--plot")
-    depth = bit_depth.depth(case, units)
-    with naming_file(case):
-        check_bit_depth(depth, *case.depths, "--bit-depth", bit_depth.text)
+    job = Job(
+        case_file, overrides, friction, resolve_buckling, units=units, strict=strict, quiet=quiet, out=out, plot=plot,
+        draws=True, files={OPTION: (plot_feeding, DRAWN)},
+    )  # fmt: skip
+    depth = bit_depth.depth(job.case, units)
+    with naming_file(job.case):
+        check_bit_depth(depth, *job.case.depths, "--bit-depth", bit_depth.text)
     drive = read_drive(speed, rpm, flow, units)
-    check_feeding(plot_feeding, case, rates_of_all(case, [operation], **drive)[operation])
-    warnings = warnings_of(case, [operation], **drive)
-    told = tell(case, warnings, strict=strict, units=units)
-    point = equilibrium(case, operation, depth, **drive)
-    written = []
-    try:  # written before anything is printed, as the terminal may be closed; printed also where writing fails
-        if point.answered and out is not None:
-            metadata = metadata_of(case, units, [operation], drive, warnings)
-            metadata |= {"bit_depth_m": depth, "bit_md_m": float(point.profile["md_m"].iloc[-1])}
-            metadata |= {"status": point.status, "message": point.message} | _loads(point)
-            metadata |= {"buckling": str(point.buckling), "shape": point.shape}
-            metadata |= _found(point) | {"notes": as_metadata(point.notes)}
-            written += write_table(in_units(units, point.profile), out, metadata)
-        if point.answered and plot is not None:
-            written += draw_profiles(plot, [point], units=units, force=side_force, warnings=told)
-        if plot_feeding is not None:
-            written += draw_feeding(plot_feeding, point, units, told)
-    finally:
-        _print_point(point, units)
-        print_segments(case, depth, units)
+    check_feeding(plot_feeding, job.case, rates_of_all(job.case, kinds, **drive)[kinds[0]])
+    job.warn(kinds, **drive)
+    point = equilibrium(job.case, kinds[0], depth, **drive)
     lacking = not point.answered and (out is not None or plot is not None)
-    if lacking:
-        messages.print("No profile is written: no equilibrium was found.")
-    print_written(written)
-    finish(point.status.acceptable and not lacking, (note.code for note in point.notes), strict)
+
+    def draw(path: Path) -> list[Path]:
+        return draw_profiles(path, [point], units=units, force=side_force, warnings=job.told)
+
+    job.end(
+        {
+            "--out": point.profile if point.answered else None, "--plot": draw if point.answered else None,
+            OPTION: lambda path: draw_feeding(path, point, units, job.told),
+        },
+        lambda: _print(job, point, lacking=lacking), title=f"{job.case.name}: {kinds[0]}, bit at {job.depth(depth)}",
+        rates=(kinds, drive), more=_about(point) if point.answered else None,
+        acceptable=point.status.acceptable and not lacking, codes=(note.code for note in point.notes),
+    )  # fmt: skip
+
+
+def _about(point: Equilibrium) -> dict[str, Any]:
+    """Metadata of a profile."""
+    return {
+        "bit_depth_m": point.bit_depth, "bit_md_m": float(point.profile["md_m"].iloc[-1]),
+        "status": point.status, "message": point.message, **_loads(point),
+        "buckling": str(point.buckling), "shape": point.shape, **_found(point), "notes": as_metadata(point.notes),
+    }  # fmt: skip
 
 
 def _loads(point: Equilibrium) -> dict[str, float]:
@@ -135,12 +121,13 @@ def _found(point: Equilibrium) -> dict[str, float]:
     return {name: value for name, value in values.items() if np.isfinite(value)}
 
 
-def _print_point(point: Equilibrium, units: System) -> None:
-    """Print the loads of a string, its extreme tension, side force and stress, and how it is buckled."""
-    metre = shown("bit_depth_m", units)
-    depth = f"{point.bit_depth * metre.factor:.1f} {metre.label}"
-    screen.print(f"{printable(point.case.name)}: {point.operation}, bit at {depth}", style="bold")
-    table = Table(box=SIMPLE_HEAD, show_header=False)
+def _print(job: Job, point: Equilibrium, *, lacking: bool) -> None:
+    """Print the loads of a string, its extreme tension, side force and stress, and how it is buckled.
+
+    lacking : whether a profile was asked for that there is not.
+    """
+    units, metre = job.units, shown("bit_depth_m", job.units)
+    table = grid(show_header=False, collapse_padding=False, pad_edge=True)
     for name, value in _loads(point).items():
         unit = shown(name, units)
         text = f"{value * unit.factor:z.3f}" if point.answered else "–"
@@ -169,6 +156,9 @@ def _print_point(point: Equilibrium, units: System) -> None:
     if point.message:
         print_status(point.status, point.message, units)
     print_notes(point.notes, units)
+    print_segments(job.case, point.bit_depth, units)
+    if lacking:
+        messages.print("No profile is written: no equilibrium was found.")
 
 
 def stretches(profile: "pd.DataFrame", mode: str) -> list[tuple[float, float]]:

@@ -4,12 +4,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Final
 
+from fctd import plots
 from fctd.case.errors import InputError
 from fctd.case.friction import pairs_of
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
-from fctd.cli.options import refuse_source_files
-from fctd.cli.pictures import DRAWN, check_pictures
 from fctd.cli.steady import file_option
 from fctd.model.operations import SteadyRates
 from fctd.results.buckling import NOT_BUCKLED
@@ -32,7 +31,6 @@ def check_feeding(path: Path | None, case: Case, rates: SteadyRates) -> None:
     """
     if path is None:
         return
-    refuse_source_files(case, [path], OPTION)
     lacking = ""
     if rates.speed <= 0:
         lacking = f"a string that slides down without rotation ({SLIDING}), which the block feeds"
@@ -46,15 +44,8 @@ def check_feeding(path: Path | None, case: Case, rates: SteadyRates) -> None:
         raise InputError(lacking, key=OPTION, value=path)
 
 
-def check_feeding_file(path: Path | None) -> None:
-    """Raise InputError for a file that is no picture, or that cannot be written."""
-    check_pictures({OPTION: path}, DRAWN)
-
-
 def draw_feeding(path: Path, point: Equilibrium, units: System, warnings: Sequence[str]) -> list[Path]:
     """Write the picture of a string that was fed; returns the file.  Raises InputError for one that was not."""
-    from fctd import plots
-
     if not point.fed:
         raise InputError(reworded(_lacking(point), units), key=OPTION, value=path)
     return plots.save(plots.feeding_figure(point, units, warnings=warnings), path)

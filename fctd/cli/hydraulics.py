@@ -15,7 +15,7 @@ from fctd.case.units import DENSITY, FLOW, LENGTH, MOST_FLOW
 from fctd.cli.check import facts_table
 from fctd.cli.job import Depths, Job, grid, headed, number, numbers, right, rows_of
 from fctd.cli.options import CaseFile, Overrides, Quiet, Strict, Units, messages, screen
-from fctd.cli.pictures import PICTURE_HELP
+from fctd.cli.pictures import PICTURE_HELP, TABLES, draw_panels
 from fctd.cli.quantities import PENETRATION, TO_TOTAL_DEPTH, Bare, Given, QuantityOption, quantity, several
 from fctd.cli.steady import file_option
 from fctd.hydraulics.cuttings import Cuttings
@@ -95,7 +95,7 @@ def hydraulics_command(
     """
     job = Job(
         case_file, overrides, units=units, strict=strict, quiet=quiet, out=out, plot=plot, draws=True,
-        tables={"--parts": parts},
+        files={"--parts": (parts, TABLES)},
     )  # fmt: skip
     case = job.case
     pumped, bit_depths = _flows(flows, case, units), depths.depths(case, units)
@@ -113,13 +113,14 @@ def hydraulics_command(
     solved = [one for one in found if isinstance(one, Circulation)]
     table = pd.DataFrame([one.summary() if isinstance(one, Circulation) else one for one in found])
 
-    def draw(told: list[str]) -> Any:
+    def draw(path: Path) -> list[Path]:
         from fctd.plots.flow import losses_panels
 
-        return losses_panels(table, solved[-1], units, [_facts_line(solved[-1], pumped, units), *told])
+        lines = _facts_line(solved[-1], pumped, units), *job.lines
+        return draw_panels(path, losses_panels(table, solved[-1], units, lines))
 
     of_parts = None if parts is None else pd.DataFrame([row for one in solved for row in one.parts()])
-    job.end({"--out": table, "--parts": of_parts}, lambda: _print(job, table, solved), draw)
+    job.end({"--out": table, "--parts": of_parts, "--plot": draw}, lambda: _print(job, table, solved))
 
 
 def read_eccentricity(text: str | None, case: Case) -> Eccentricity:

@@ -6,30 +6,34 @@ Options that several of them have stand here too, and the one table that a scree
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, cast
+from typing import TYPE_CHECKING, Annotated, Any, Union, cast
 
 import numpy as np
 from rich.box import SIMPLE_HEAD
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Column, Table
 
 from fctd.case.doubts import warnings_of
+from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.text import printable
-from fctd.cli.chart import DEPTHS_HELP
-from fctd.cli.options import changes_of, finish, print_written, read_case, refuse_sources, screen, tell
-from fctd.cli.pictures import draw_panels
+from fctd.cli.options import changes_of, finish, messages, print_written, read_case, refuse_sources, screen, tell
+from fctd.cli.pictures import PICTURES, TABLES, File, check_files
 from fctd.cli.quantities import DEPTHS, Given, quantity
-from fctd.cli.steady import check_table, check_targets, in_units, metadata_of, metadata_of_case, row_bar
+from fctd.cli.steady import DEPTHS_HELP, in_units, metadata_of, metadata_of_case
+from fctd.results.differences import in_a_row
+from fctd.results.notes import meanings_of
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, in_words, reworded, shown
+from fctd.store.tables import Rows
 
 if TYPE_CHECKING:
     import pandas as pd
 
-    from fctd.plots.depth_panels import Panels
-
-Show = Callable[[int, int], None]
+Show = Callable[..., None]
 Row = dict[str, Any]
+# A table, or what writes to a path and returns the files; None of a file without content.
+Written = Union["pd.DataFrame", Rows, Callable[[Path], list[Path]], None]
 
 
 def depths_option(example: str) -> Any:
@@ -41,68 +45,120 @@ Depths = Annotated[Given, depths_option("shoe")]
 
 
 class Job:
-    """A case, and what a command does with it.
+    """A case, or several by name, and what a command does with it.
 
-    tables : files of tables by option; out is a picture where its suffix is that of one, and the command draws.
+    files : further files by option, with their suffixes; reads : files that the command reads beside the case.
+    out is a picture where its suffix is that of one, and the command draws.
     """
 
     def __init__(
-        self, case_file: Path, overrides: Sequence[str], friction: str | None = None, *, units: System, strict: bool,
-        quiet: bool, out: Path | None, plot: Path | None = None, draws: bool = False, silent: bool = False,
-        tables: Mapping[str, Path | None] = {},
+        self, source: Path | Case | Mapping[str, Case], overrides: Sequence[str] = (), friction: str | None = None,
+        resolve: bool | None = None, *, units: System, strict: bool = False, quiet: bool, out: Path | None = None,
+        plot: Path | None = None, draws: bool = False, silent: bool = False, files: Mapping[str, File] = {},
+        reads: Iterable[Path | None] = (),
     ) -> None:  # fmt: skip
-        if draws:
-            table, self.plot = check_targets(out, plot, {})
-        else:
-            check_table(out)
-            table, self.plot = out, None
-        for path in tables.values():
-            check_targets(path, None, {})
-        self.case: Case = read_case(case_file, changes_of(overrides, friction))
-        for key, path in {"--out": out, **tables, "--plot": plot}.items():
-            refuse_sources(self.case, path, key)
-        self.tables = {"--out": table, **tables}
+        drawn = draws and out is not None and out.suffix.lower() in PICTURES
+        if drawn and plot is not None:
+            raise InputError(f"a table, {' or '.join(TABLES)}, beside the picture of --plot", key="--out", value=out)
+        table = {"--out": (out, (*TABLES, *PICTURES) if draws else TABLES), "--plot": (plot, PICTURES)}
+        check_files(wanted := {**table, **files})
+        self.changes = changes_of(overrides, friction, resolve)
+        if isinstance(source, Path):
+            source = read_case(source, self.changes)
+        self.cases = {source.name: source} if isinstance(source, Case) else dict(source)
+        self.case = next(iter(self.cases.values()))
+        self.paths = {key: path for key, (path, _) in wanted.items()}
+        for case in self.cases.values():
+            for key, path in self.paths.items():
+                refuse_sources(case, path, key, reads)
+        if drawn:
+            self.paths |= {"--out": None, "--plot": out}
         self.units, self.strict, self.quiet, self.silent = units, strict, quiet, silent and quiet
 
     def warn(self, *asked: Any, **options: Any) -> None:
-        """Print what is probably not meant; the arguments are those of ``warnings_of``."""
-        self.warnings = warnings_of(self.case, *asked, **options)
-        self.told = [f"warning {text}" for text in tell(self.case, self.warnings, strict=self.strict, units=self.units)]
+        """Print what is probably not meant, of a file once; the arguments are those of ``warnings_of``."""
+        self.warnings = {name: warnings_of(case, *asked, **options) for name, case in self.cases.items()}
+        known: set[tuple[Path | None, str]] = set()
+        owners: dict[str, list[str]] = {}
+        for name, case in self.cases.items():
+            found = self.warnings[name]
+            new = [warning for warning in found if (case.file, str(warning)) not in known]
+            tell(case, new, strict=self.strict, units=self.units)
+            known.update((case.file, str(warning)) for warning in found)
+            for text in dict.fromkeys(reworded(str(warning), self.units) for warning in found):
+                owners.setdefault(text, []).append(name)
+        every = len(self.cases)
+        self.told = [text if len(of) == every else f"{text} ({in_a_row(of)})" for text, of in owners.items()]
+
+    @property
+    def lines(self) -> list[str]:
+        """The warnings as lines of a picture."""
+        return [f"warning {text}" for text in self.told]
 
     @contextmanager
-    def bar(self) -> Iterator[Show]:
-        """A bar of rows, and what moves it."""
+    def bar(self, first: str | None = None) -> Iterator[Show]:
+        """A bar of rows, and what moves it; first : what it says first; default: the name of the case.
+
+        What moves it takes what it says from then on, if that changes, the rows that are done, and all of them.
+        """
         with row_bar(self.quiet) as bar:
-            task = bar.add_task(printable(self.case.name), total=None)
-            yield lambda done, total: bar.update(task, completed=done, total=total)
+            task = bar.add_task(printable(first or self.case.name), total=None)
+
+            def show(*of: Any) -> None:
+                *what, done, total = of
+                bar.update(task, completed=done, total=total, description=printable(what[0]) if what else None)
+
+            yield show
+
+    @contextmanager
+    def status(self, doing: str) -> Iterator[Callable[[str], None]]:
+        """What is being done, on a terminal, and what changes the words."""
+        with messages.status(doing) as status:
+            if self.quiet:
+                status.stop()
+            yield status.update
+
+    def _about(self, rates: tuple[Sequence[str], Row] | None, more: Row) -> Row:
+        """Metadata of a table."""
+        of: dict[str, Row] = {}
+        for name, case in self.cases.items():
+            if rates is None:
+                of[name] = metadata_of_case(case, self.warnings[name]) | {"units": self.units}
+            else:
+                of[name] = metadata_of(case, self.units, *rates, self.warnings[name])
+        return of[self.case.name] | more if len(of) == 1 else {"units": self.units, **more, "cases": of}
 
     def end(
-        self, tables: Mapping[str, "pd.DataFrame | None"], show: Callable[[], None],
-        draw: Callable[[list[str]], "Panels"] | None = None, *, rates: tuple[Sequence[str], Row] | None = None,
-        more: Row | None = None, acceptable: bool = True, codes: Iterable[str] = (),
+        self, files: Mapping[str, Written], show: Callable[[], None], *, title: str | None = None,
+        rates: tuple[Sequence[str], Row] | None = None, more: Row | None = None, notes: Iterable[str] | None = None,
+        then: Callable[[], object] = lambda: None, acceptable: bool = True, codes: Iterable[str] = (),
     ) -> None:  # fmt: skip
-        """Write tables and picture, print, and end the command.
+        """Write files, print, and end the command.
 
-        rates : operations and their drive, of which tables tell; more : metadata; codes : of notes.
+        files : by option, a table or what writes to a path.  title : above what is printed; default: the case's name.
+        rates : operations and their drive, of which tables tell; more : metadata.  notes : cells of codes, whose
+        meanings tables have too; codes : of other notes.  then : called once all is written.
         """
-        if rates is None:
-            metadata = metadata_of_case(self.case, self.warnings) | {"units": self.units}
-        else:
-            metadata = metadata_of(self.case, self.units, *rates, self.warnings)
+        meanings = {} if notes is None else meanings_of(notes)
+        about = (more or {}) | ({} if notes is None else {"notes": meanings})
         written: list[Path] = []
-        try:  # written before anything is printed, as the terminal may be closed
-            for key, table in tables.items():
-                if (path := self.tables[key]) is not None and table is not None:
-                    written += write_table(in_units(self.units, table), path, metadata | (more or {}))
-            if self.plot is not None and draw is not None:
-                written += draw_panels(self.plot, draw(self.told))
+        try:  # written before anything is printed, as the terminal may be closed; printed also where writing fails
+            for key, content in files.items():
+                if (path := self.paths[key]) is None or content is None:
+                    continue
+                if callable(content):
+                    written += content(path)
+                else:
+                    written += write_table(in_units(self.units, content), path, self._about(rates, about))
+            then()
         finally:
             if not self.silent:
-                screen.print(printable(self.case.name), style="bold", soft_wrap=True)
+                if title is None or title:
+                    screen.print(printable(title or self.case.name), style="bold", soft_wrap=True)
                 show()
         if not self.silent:
             print_written(written)
-        finish(acceptable, codes, self.strict)
+        finish(acceptable, [*codes, *meanings], self.strict)
 
     def say(self, *lines: str) -> None:
         """Print lines."""
@@ -112,6 +168,11 @@ class Job:
     def words(self, row: Row, column: str) -> str:
         """A number of a row with its unit."""
         return in_words(row[column], column, self.units)
+
+    def depth(self, depth: float) -> str:
+        """A bit depth [m] with its unit, to a tenth."""
+        unit = shown("bit_depth_m", self.units)
+        return f"{depth * unit.factor:.1f} {unit.label}"
 
     def depths_in_words(self, table: "pd.DataFrame", column: str = "bit_depth_m") -> str:
         """The different depths of a table."""
@@ -124,6 +185,12 @@ class Job:
             self.say(f"at {self.depths_in_words(of)}: {reworded(str(reason), self.units)}")
 
 
+def row_bar(quiet: bool) -> Progress:
+    """The progress of rows on the terminal."""
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    return Progress(*columns, console=messages, disable=quiet, transient=True)
+
+
 def rows_of(table: "pd.DataFrame", most: int = 0, also: Iterable[int] = ()) -> list[Row]:
     """The rows of a table by column; of many, ``most`` at even distances from the last, and the ``also``."""
     rows = cast("list[Row]", table.to_dict("records"))
@@ -133,14 +200,14 @@ def rows_of(table: "pd.DataFrame", most: int = 0, also: Iterable[int] = ()) -> l
     return [rows[k] for k in np.unique([*ends, *also])]
 
 
-def grid(*columns: Column) -> Table:
-    """An empty table of a screen."""
-    return Table(*columns, box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False)
+def grid(*columns: Column, **options: Any) -> Table:
+    """An empty table of a screen; options : of rich, in place of the usual ones."""
+    return Table(*columns, **{"box": SIMPLE_HEAD, "collapse_padding": True, "pad_edge": False, **options})
 
 
-def right(*heads: str, no_wrap: bool = False) -> list[Column]:
+def right(*heads: str, **options: Any) -> list[Column]:
     """Columns of numbers."""
-    return [Column(head, justify="right", no_wrap=no_wrap) for head in heads]
+    return [Column(head, justify="right", **options) for head in heads]
 
 
 def headed(columns: Mapping[str, str], units: System, **options: bool) -> list[Column]:

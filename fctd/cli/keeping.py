@@ -72,17 +72,17 @@ BYTES = {"kB": 1e3, "MB": 1e6, "GB": 1e9, "KiB": 2.0**10, "MiB": 2.0**20, "GiB":
 class SaveOptions:
     """The options of this module as they were given."""
 
-    every: Given | None = None
-    resume: Path | None = None
-    restart: bool = False
-    accept_changes: bool = False
-    time_limit: Given | None = None
-    memory_limit: str | None = None
+    checkpoint_every: CheckpointEvery = None
+    resume: Resume = None
+    restart: Restart = False
+    accept_changes: AcceptChanges = False
+    time_limit: TimeLimit = None
+    memory_limit: MemoryLimit = None
 
     def check(self, alone: Mapping[str, Any]) -> None:
         """Raise InputError for a time that cannot be read, and where ``--resume`` stands beside options that begin a
         run, or others without it."""
-        for given in (self.every, self.time_limit):
+        for given in (self.checkpoint_every, self.time_limit):
             si(given, "si")
         if self.resume is not None:
             for key, value in ({"--restart": self.restart or None} | dict(alone)).items():
@@ -94,7 +94,7 @@ class SaveOptions:
 
     def interval(self, default: float) -> float:
         """Time between two checkpoints [s]."""
-        return default if self.every is None else self.every.si("si")
+        return default if self.checkpoint_every is None else self.checkpoint_every.si("si")
 
     @property
     def limits(self) -> Limits:

@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Final
 
 import numpy as np
-import typer
 from rich.table import Column, Table
 
 from fctd.case.text import printable
@@ -13,12 +12,12 @@ from fctd.cli.job import Depths, Job, grid, rows_of
 from fctd.cli.options import CaseFile, Friction, Overrides, Quiet, Strict, Units, screen
 from fctd.cli.quantities import TO_TOTAL_DEPTH
 from fctd.cli.steady import (
-    KIND_HELP,
     Flow,
     Rpm,
     Speed,
     StuckAt,
     file_option,
+    kinds_option,
     read_drive,
     read_kinds,
 )
@@ -49,11 +48,7 @@ def limits_command(
     case_file: CaseFile,
     operations: Annotated[
         list[str],
-        typer.Option(
-            "--operation",
-            metavar="KINDS",
-            help=f"{KIND_HELP}; several with commas between them, or all; default: {', '.join(USUAL)}.",
-        ),
+        kinds_option(f"; default: {', '.join(USUAL)}"),
     ] = [],  # noqa: B006 (typer copies it)
     depths: Depths = TO_TOTAL_DEPTH,
     speed: Speed = None,

@@ -5,39 +5,31 @@ from time import sleep
 from typing import Annotated, NoReturn
 
 import numpy as np
-import pandas as pd
 import typer
-from rich.box import SIMPLE_HEAD
-from rich.table import Column, Table
+from rich.table import Column
 
+from fctd import plots
 from fctd.case.errors import InputError, naming
 from fctd.case.friction import parse_frictions
-from fctd.case.load import Case, naming_file
+from fctd.case.load import naming_file
 from fctd.case.tables.headers import parse_choices
 from fctd.case.text import counted, printable
 from fctd.cli import quantities
-from fctd.cli.chart import DEPTHS_HELP
+from fctd.cli.job import Job, grid, right, rows_of
 from fctd.cli.options import (
     CaseFile,
     Overrides,
     Quiet,
     Strict,
     Units,
-    changes_of,
-    check_target,
-    finish,
     messages,
-    print_written,
-    read_case,
     read_share,
-    refuse_sources,
     screen,
-    tell,
 )
-from fctd.cli.pictures import PICTURE_HELP, check_package, check_pictures
+from fctd.cli.pictures import DRAWN, PICTURE_HELP, PICTURES
 from fctd.cli.quantities import Given, quantity
 from fctd.cli.roadmap import DEPTHS, Drawing, solved
-from fctd.cli.steady import check_table, file_option, in_units
+from fctd.cli.steady import DEPTHS_HELP, file_option, in_units
 from fctd.monitoring.alarm import Alarm
 from fctd.monitoring.chart import Fit
 from fctd.monitoring.friction import parse_uncertainty
@@ -50,7 +42,6 @@ from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, reworded, shown
 from fctd.store.origin import versions
 
-PICTURES = (".png", ".svg", ".pdf")
 SCREEN_ROWS = 30
 LONGEST_POLL = 3600.0  # [s]
 
@@ -135,43 +126,36 @@ def monitor_command(
     strict: Strict = False,
 ) -> None:
     """Infer friction factors over depth from the rig's readings, and say where they change."""
-    check_table(out)
-    if plot is not None:
-        check_target(plot, "--plot", PICTURES)
-        check_package(plot, "--plot")
-    check_pictures({"--plot": plot, "--chart": chart})
     for key, value in {"--depths": depths, "--friction": frictions, "--limits": limits}.items():
         if value and chart is None:
             raise InputError("--chart beside it, the picture that shows it", key=key, value=value)
     factors = parse_frictions(frictions, "--friction")
-    case = read_case(case_file, changes_of(overrides))
-    for key, path in {"--out": out, "--plot": plot, "--chart": chart}.items():
-        refuse_sources(case, path, key, [series])
+    job = Job(
+        case_file, overrides, units=units, strict=strict, quiet=quiet, out=out, reads=[series],
+        files={"--plot": (plot, DRAWN), "--chart": (chart, PICTURES)},
+    )  # fmt: skip
     said = parse_choices(columns, SERIES)
-    with naming_file(case):
-        watch = Monitor(
-            case, fit, parse_uncertainty(uncertainty, "--uncertainty"), None, read_share(step, "--step"), readings
-        )
+    with naming_file(job.case):
+        spread = parse_uncertainty(uncertainty, "--uncertainty")
+        watch = Monitor(job.case, fit, spread, None, read_share(step, "--step"), readings)
     if not 0 < poll <= LONGEST_POLL:
         raise InputError(f"seconds above 0 and at most {LONGEST_POLL:g}", key="--poll", value=poll)
-    told = tell(case, case.warnings, strict=strict, units=units)
+    job.warn()
     table = None if follow else read_series(series, said)
     drawing = None
     if chart is not None:
-        with naming_file(case):
-            drawing = solved(watch, chart, depths, factors, limits, units, told, quiet)
+        with naming_file(job.case):
+            drawing = solved(job, watch, chart, depths, factors, limits)
     if table is None:
         try:
             _follow(watch, Tail(series, said), poll, units, drawing)
         except KeyboardInterrupt:
             _print_alarms(watch.finish(), units)
-            _report(watch, case, out, plot, drawing, units, quiet)
+            _end(job, watch, drawing, interrupted=True)
             raise
-    else:
-        with naming(series):
-            _print_alarms([*watch.feed(table), *watch.finish()], units)
-        _report(watch, case, out, plot, drawing, units, quiet)
-    finish(any(np.isfinite(found.factor) for found in watch.found), ["alarm"] if watch.alarms else [], strict)
+    with naming(series):
+        _print_alarms([*watch.feed(table), *watch.finish()], units)
+    _end(job, watch, drawing)
 
 
 def _follow(watch: Monitor, tail: Tail, poll: float, units: System, drawing: Drawing | None) -> NoReturn:
@@ -191,41 +175,43 @@ def _print_alarms(alarms: list[Alarm], units: System) -> None:
         screen.print(f"alarm: {reworded(alarm.sentence, units)}", soft_wrap=True, style="bold")
 
 
-def _report(
-    watch: Monitor, case: Case, out: Path | None, plot: Path | None, drawing: Drawing | None, units: System, quiet: bool
-) -> None:
-    """Print what was found, and write table and pictures."""
-    found = result_of(watch)
-    written = []
-    if out is not None:
-        metadata = {
-            "case": case.model_dump(mode="json"), "units": units, "fit": watch.chart.fit, "told": list(found.told),
-            "alarms": [alarm.sentence for alarm in found.alarms], "versions": versions(),
-        }  # fmt: skip
-        written += write_table(in_units(units, found.stretches), out, metadata)
-    if plot is not None:
-        from fctd import plots
+def _end(job: Job, watch: Monitor, drawing: Drawing | None, *, interrupted: bool = False) -> None:
+    """Write table and pictures, print what was found, and end the command, or leave that to what interrupted it."""
+    found, units = result_of(watch), job.units
+    about = {
+        "case": job.case.model_dump(mode="json"), "units": units, "fit": watch.chart.fit, "told": list(found.told),
+        "alarms": [alarm.sentence for alarm in found.alarms], "versions": versions(),
+    }  # fmt: skip
 
-        written += plots.save(plots.monitor_figure(found, case, units=units), plot)
-    if drawing is not None:
-        written += drawing.write(watch)
-    if not quiet:
-        _print(found, case, units)
-    for line in found.told:
-        messages.print(line, soft_wrap=True)
-    print_written(written)
+    def show() -> None:
+        if not job.quiet:
+            _print(job, found)
+        for line in found.told:
+            messages.print(line, soft_wrap=True)
+
+    job.end(
+        {
+            "--out": lambda path: write_table(in_units(units, found.stretches), path, about),
+            "--plot": lambda path: plots.save(plots.monitor_figure(found, job.case, units=units), path),
+            "--chart": None if drawing is None else lambda _: drawing.write(watch),
+        },
+        show, title="", codes=["alarm"] if watch.alarms and not interrupted else [],
+        acceptable=interrupted or any(np.isfinite(one.factor) for one in watch.found),
+    )  # fmt: skip
 
 
-def _print(found: Monitored, case: Case, units: System) -> None:
+def _print(job: Job, found: Monitored) -> None:
     """Print a line for each stretch with a factor, evenly picked, and what else there is."""
     stretches = found.stretches
     inferred = stretches[stretches["friction"].notna()]
-    screen.print(printable(f"{case.name}; friction factor of {found.chart.fit} hole"), style="bold", soft_wrap=True)
-    depth, force, torque = (shown(name, units) for name in ("bit_depth_m", "weight_indicator_N", "drive_torque_N_m"))
+    title = f"{job.case.name}; friction factor of {found.chart.fit} hole"
+    screen.print(printable(title), style="bold", soft_wrap=True)
+    depth, force, torque = (
+        shown(name, job.units) for name in ("bit_depth_m", "weight_indicator_N", "drive_torque_N_m")
+    )
     numbers = f"bit\n{depth.label}", "rows", f"weight ind.\n{force.label}", f"torque\n{torque.label}", "μ", "95 % band"
-    columns = (Column(heading, justify="right") for heading in numbers)
-    table = Table(Column("stretch", no_wrap=True), *columns, box=SIMPLE_HEAD, pad_edge=False)
-    for row in _picked(inferred).to_dict("records"):
+    table = grid(Column("stretch", no_wrap=True), *right(*numbers), collapse_padding=False)
+    for row in rows_of(inferred, SCREEN_ROWS):
         table.add_row(
             row["mode"], f"{row['bit_depth_m'] * depth.factor:.0f}", str(row["samples"]),
             f"{row['weight_indicator_N'] * force.factor:.1f}", f"{row['drive_torque_N_m'] * torque.factor:z.2f}",
@@ -235,14 +221,4 @@ def _print(found: Monitored, case: Case, units: System) -> None:
     left = stretches.loc[stretches["friction"].isna(), "left_out"].value_counts()
     reasons = "".join(f"; {count}: {why}" for why, count in left.items())
     alarms = counted(len(found.alarms), "alarm")
-    screen.print(
-        f"{counted(len(stretches), 'stretch')}, {len(inferred)} with a friction factor{reasons}; {alarms}",
-        soft_wrap=True,
-    )
-
-
-def _picked(rows: pd.DataFrame) -> pd.DataFrame:
-    """At most `SCREEN_ROWS` rows, evenly spread."""
-    if len(rows) <= SCREEN_ROWS:
-        return rows
-    return rows.iloc[[round(k * (len(rows) - 1) / (SCREEN_ROWS - 1)) for k in range(SCREEN_ROWS)]]
+    job.say(f"{counted(len(stretches), 'stretch')}, {len(inferred)} with a friction factor{reasons}; {alarms}")

@@ -1,4 +1,4 @@
-"""Pictures of the steady commands: the suffix of a file says whether it is a picture or a page."""
+"""Files that commands write: the suffix says whether one is a table, a picture or a page."""
 
 from collections.abc import Mapping, Sequence
 from importlib import import_module
@@ -7,24 +7,29 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from fctd import plots  # its modules, and what they need, are imported where a picture is drawn
 from fctd.case.errors import InputError
 from fctd.cli.options import check_target
 from fctd.plots.loads import ChartLook, Compared, Load
 from fctd.plots.tracks import SideForce
 from fctd.results.unit_systems import System
 from fctd.steady.steady_string import Equilibrium
+from fctd.store.tables import Rows
 
 if TYPE_CHECKING:
     import pandas as pd
 
     from fctd.plots.depth_panels import Panels
 
+TABLES = (".csv", ".parquet", ".xlsx")
 PAGE = ".html"
 DRAWN = (".png", ".svg", ".pdf")
 PICTURES = (*DRAWN, PAGE)
 PICTURE_HELP = ".png, .svg, .pdf, or .html with values under the pointer"
-# Package and extra by suffix; matplotlib for the others.
-_NEEDS = {PAGE: ("plotly", "html"), ".xlsx": ("xlsxwriter", "excel")}
+# Package and extra by suffix, of the files that need one.
+_NEEDS = {PAGE: ("plotly", "html"), ".xlsx": ("xlsxwriter", "excel"), **dict.fromkeys(DRAWN, ("matplotlib", "plot"))}
+# A file of an option, and the suffixes that it may have.
+File = tuple[Path | None, Sequence[str]]
 
 ShownLoad = Annotated[
     Load | None,
@@ -41,11 +46,11 @@ ShownSideForce = Annotated[
 ]
 
 
-def check_package(path: Path | None, key: str) -> None:
+def check_package(path: Path, key: str) -> None:
     """Raise InputError where the optional package is missing that writes a file of this suffix."""
-    if path is None:
+    if path.suffix.lower() not in _NEEDS:
         return
-    package, extra = _NEEDS.get(path.suffix.lower(), ("matplotlib", "plot"))
+    package, extra = _NEEDS[path.suffix.lower()]
     try:
         import_module(package)
     except ModuleNotFoundError as error:
@@ -53,23 +58,33 @@ def check_package(path: Path | None, key: str) -> None:
         raise InputError(expected, key=key, value=path) from None
 
 
-def check_pictures(targets: Mapping[str, Path | None], suffixes: Sequence[str] = PICTURES) -> None:
-    """Raise InputError for a picture that cannot be written, before anything is computed."""
-    wanted = {key: path for key, path in targets.items() if path is not None}
-    for key, path in wanted.items():
-        check_target(path, key, suffixes)
-    if len({path.resolve() for path in wanted.values()}) < len(wanted):
-        raise InputError("a file of its own for each picture", key=key, value=path)
-    for key, path in wanted.items():
+def check_files(files: Mapping[str, File]) -> None:
+    """Raise InputError for a file of another suffix, or that cannot be written, before anything is computed.
+
+    files : by option.
+    """
+    given = {key: path for key, (path, _) in files.items() if path is not None}
+    for key, path in given.items():
+        check_target(path, key, files[key][1])
+    if len({path.resolve() for path in given.values()}) < len(given):
+        kind = "table" if path.suffix.lower() in TABLES else "picture"
+        raise InputError(f"a file of its own for each {kind}", key=key, value=path)
+    for key, path in given.items():
         check_package(path, key)
 
 
 def draw_chart(
-    path: Path, chart: "pd.DataFrame", units: System, case: Compared, look: ChartLook, refresh: float | None = None
+    path: Path,
+    chart: "pd.DataFrame | Rows",
+    units: System,
+    case: Compared,
+    look: ChartLook,
+    refresh: float | None = None,
 ) -> list[Path]:
     """Write a chart; the arguments are those of ``chart_figure``, and of ``save_page``.  Returns the files."""
-    from fctd import plots
+    import pandas as pd  # slow to import
 
+    chart = pd.DataFrame(chart)
     if path.suffix.lower() == PAGE:
         return plots.save_page(plots.chart_page(chart, units, case, look), path, refresh)
     return plots.save(plots.chart_figure(chart, units, case, look), path)
@@ -77,8 +92,6 @@ def draw_chart(
 
 def draw_profiles(path: Path, points: Sequence[Equilibrium], **options: Any) -> list[Path]:
     """Write profiles; options : of ``profile_figure``.  Returns the files."""
-    from fctd import plots
-
     if path.suffix.lower() == PAGE:
         return plots.save_page(plots.profile_page(points, **options), path)
     return plots.save(plots.profile_figure(points, **options), path)
@@ -86,8 +99,6 @@ def draw_profiles(path: Path, points: Sequence[Equilibrium], **options: Any) -> 
 
 def draw_panels(path: Path, panels: "Panels") -> list[Path]:
     """Write curves against depth in panels.  Returns the files."""
-    from fctd import plots
-
     if path.suffix.lower() == PAGE:
         return plots.save_page(plots.panels_page(panels), path)
     return plots.save(plots.panels_figure(panels), path)

@@ -6,25 +6,14 @@ from typing import Annotated
 
 import typer
 
+from fctd import plots
 from fctd.calibration.calibrate import predict
 from fctd.calibration.predict import posterior_file
-from fctd.case.doubts import warnings_of
-from fctd.case.text import printable
 from fctd.cli.calibrate import Units, print_prediction
-from fctd.cli.options import (
-    CaseFile,
-    Overrides,
-    Quiet,
-    changes_of,
-    messages,
-    print_written,
-    read_case,
-    refuse_sources,
-    screen,
-    warn,
-)
-from fctd.cli.pictures import DRAWN, check_pictures
-from fctd.cli.steady import check_table, file_option, metadata_of_case
+from fctd.cli.job import Job
+from fctd.cli.options import CaseFile, Overrides, Quiet, warn
+from fctd.cli.pictures import DRAWN
+from fctd.cli.steady import file_option, metadata_of_case
 from fctd.results.table_files import write_table
 
 
@@ -48,25 +37,20 @@ def predict_command(
     quiet: Quiet = False,
 ) -> None:
     """Predict hook loads and torques of a calibrated case with 50 and 95 % bands, and score measured ones."""
-    check_table(out)
-    check_pictures({"--plot": plot}, DRAWN)
-    changes = changes_of(overrides)
-    case = read_case(case_file, changes)
     beside = posterior_file(case_file) if posterior is None else posterior
-    for key, path in {"--out": out, "--plot": plot}.items():
-        refuse_sources(case, path, key, [rows, beside])
-    with messages.status("predicting") as status:
-        if quiet:
-            status.stop()
+    job = Job(
+        case_file, overrides, units=units, quiet=quiet, out=out, files={"--plot": (plot, DRAWN)}, reads=[rows, beside]
+    )  # fmt: skip
+    with job.status("predicting"):
         table = predict(
-            case, rows, posterior, samples=samples, seed=seed, overrides=changes, units=units, tell=partial(warn, rows)
-        )
-    metadata = metadata_of_case(case, warnings_of(case))
-    written = [] if out is None else write_table(table, out, metadata)
-    if plot is not None:
-        from fctd import plots  # needs matplotlib
-
-        written += plots.save(plots.prediction_figure(table, f"{case.name}: predicted readings", units), plot)
-    screen.print(printable(f"{case.name}: predicted readings"), style="bold", soft_wrap=True)
-    print_prediction(table, units)
-    print_written(written)
+            job.case, rows, posterior, samples=samples, seed=seed, overrides=job.changes, units=units,
+            tell=partial(warn, rows),
+        )  # fmt: skip
+    title = f"{job.case.name}: predicted readings"
+    job.end(
+        {
+            "--out": lambda path: write_table(table, path, metadata_of_case(job.case, job.case.warnings)),
+            "--plot": lambda path: plots.save(plots.prediction_figure(table, title, units), path),
+        },
+        lambda: print_prediction(table, units), title=title,
+    )  # fmt: skip

@@ -5,50 +5,46 @@ from datetime import date
 from functools import partial
 from importlib import import_module
 from pathlib import Path
-from typing import Annotated, Any, Final
+from typing import Annotated, Any, Final, cast
 
 import typer
 
 from fctd.calibration.measured import read_measured
-from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
 from fctd.case.friction import parse_frictions
 from fctd.case.load import Case
 from fctd.case.text import counted, file_name, printable
 from fctd.cli import quantities
-from fctd.cli.chart import DEPTHS_HELP
+from fctd.cli.job import Job
 from fctd.cli.options import (
     CaseFile,
     Overrides,
     Quiet,
     Strict,
     Units,
-    changes_of,
     check_target,
     finish,
     messages,
     print_written,
-    read_case,
     refuse_source_files,
-    screen,
-    tell,
     warn,
 )
 from fctd.cli.pictures import ShownLoad
 from fctd.cli.quantities import Given, quantity
 from fctd.cli.steady import (
-    KIND_HELP,
+    DEPTHS_HELP,
     Flow,
     ResolveBuckling,
     Rpm,
     Speed,
     file_option,
+    kinds_option,
     read_drive,
     read_kinds,
-    row_bar,
 )
 from fctd.model.new_case import Quantities
 from fctd.model.operations import rates_of_all
+from fctd.report.logo import read_logo
 from fctd.results.notes import meanings_of
 from fctd.results.status import SteadyStatus
 from fctd.results.unit_systems import System
@@ -79,12 +75,7 @@ def report_command(
     ] = [],  # noqa: B006 (typer copies it)
     operations: Annotated[
         list[str],
-        typer.Option(
-            "--operation",
-            metavar="KINDS",
-            help=f"{KIND_HELP}; several with commas between them, or all; default: {', '.join(USUAL)}, and {ON_BOTTOM} "
-            "where the case has a weight on bit.",
-        ),
+        kinds_option(f"; default: {', '.join(USUAL)}, and {ON_BOTTOM} where the case has a weight on bit"),
     ] = [],  # noqa: B006
     depths: Annotated[
         Given | None,
@@ -131,51 +122,38 @@ def report_command(
     """
     for path in out:
         check_target(path, "--out", tuple(WRITERS))
-    case = read_case(case_file, changes_of(overrides, resolve=resolve_buckling))
+    job = Job(case_file, overrides, None, resolve_buckling, units=units, strict=strict, quiet=quiet)
+    case = job.case
     files = out or [Path(file_name(case.name, f"-report{suffix}")) for suffix in WRITERS]
     _check(files, case, measured, logo)
-    picture = None
-    if logo is not None:
-        from fctd.report.logo import read_logo
-
-        picture = read_logo(logo)
+    picture = None if logo is None else read_logo(logo)
     bit_depths = _default_depths(case, units) if depths is None else depths.depths(case, units)
     rows = None if measured is None else read_measured(measured, case, units, partial(warn, measured))
     kinds = read_kinds(operations, (*USUAL, *([ON_BOTTOM] if case.bit.weight_on_bit else [])))
     factors, drive = parse_frictions(frictions, "--friction"), read_drive(speed, rpm, flow, units)
     rates_of_all(case, kinds, **drive)  # refuses rates before anything is computed
-    warnings = warnings_of(case, kinds, **drive, frictions=factors, indicator=load == "indicator" or rows is not None)
-    told = tell(case, warnings, strict=strict, units=units)
+    job.warn(kinds, **drive, frictions=factors, indicator=load == "indicator" or rows is not None)
 
     from fctd.report.answers import Asked, answer
     from fctd.report.content import Cover, report_of
 
-    with row_bar(quiet) as bar:
-        task = bar.add_task("compiling", total=None)
-
-        def show(what: str, done: int, total: int) -> None:
-            bar.update(task, description=what, completed=done, total=total)
-
+    with job.bar("compiling") as show:
         found = answer(case, Asked(kinds, bit_depths, factors, drive, limits, rows), show)
-        bar.update(task, description="writing", completed=0, total=len(files))
         cover = Cover(printable(company), printable(by), date.today().isoformat(), picture)
-        made = report_of(found, cover, units, load, told)
-        written = []
-        for path in files:
+        made = report_of(found, cover, units, load, job.told)
+        for k, path in enumerate(files):
+            show("writing", k, len(files))
             content = _writer(path)(made)
             with whole_file(path) as scratch:
                 scratch.write_bytes(content)
-            written.append(path)
-            bar.advance(task)
-    meanings = meanings_of(found.chart["notes"])
     for status, count in found.chart["status"].value_counts().items():
         if not SteadyStatus(str(status)).acceptable:
             rows_of = f"{count} of {len(found.chart)} rows"
             messages.print(f"{rows_of} of the chart are {status}: the section Notes says why", soft_wrap=True)
     if not quiet:
-        screen.print(f"{printable(case.name)}: {counted(len(made.tables), 'table')}", soft_wrap=True)
-    print_written(written)
-    finish(found.acceptable, meanings, strict)
+        job.say(f"{printable(case.name)}: {counted(len(made.tables), 'table')}")
+    print_written(files)
+    finish(found.acceptable, meanings_of(found.chart["notes"]), strict)
 
 
 def _check(files: list[Path], case: Case, measured: Path | None, logo: Path | None) -> None:
@@ -196,10 +174,8 @@ def _check(files: list[Path], case: Case, measured: Path | None, logo: Path | No
 def _writer(path: Path) -> Callable[[Any], bytes]:
     """The function that writes a report as the kind of file of a suffix."""
     module = WRITERS[path.suffix.lower()][0]
-    function: Callable[[Any], bytes] = getattr(
-        import_module(f"fctd.report.{module}"), f"to_{module.removesuffix('_file')}"
-    )
-    return function
+    found = getattr(import_module(f"fctd.report.{module}"), f"to_{module.removesuffix('_file')}")
+    return cast("Callable[[Any], bytes]", found)
 
 
 def _default_depths(case: Case, units: System) -> list[float]:

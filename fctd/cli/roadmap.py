@@ -5,12 +5,11 @@ from pathlib import Path
 
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionSet
-from fctd.case.load import Case
 from fctd.case.text import printable
+from fctd.cli.job import Job
 from fctd.cli.options import messages
 from fctd.cli.pictures import draw_chart
 from fctd.cli.quantities import Given
-from fctd.cli.steady import row_bar
 from fctd.model.depths import usual_depths
 from fctd.monitoring.monitor import Monitor
 from fctd.monitoring.roadmap import Roadmap, roadmap
@@ -50,17 +49,10 @@ class Drawing:
 
 
 def solved(
-    watch: Monitor, path: Path, depths: Given | None, factors: Sequence[FrictionSet], limits: bool, units: System,
-    warnings: Sequence[str], quiet: bool,
-) -> Drawing:  # fmt: skip
+    job: Job, watch: Monitor, path: Path, depths: Given | None, factors: Sequence[FrictionSet], limits: bool
+) -> Drawing:
     """The roadmap of a monitor's case, with a progress bar; depths : of ``--depths``, or none."""
-    case: Case = watch.chart.case
-    bit_depths = usual_depths(case, DEPTHS) if depths is None else depths.depths(case, units)
-    with row_bar(quiet) as bar:
-        task = bar.add_task("compiling", total=None)
-
-        def show(what: str, done: int, total: int) -> None:
-            bar.update(task, description=printable(what), completed=done, total=total)
-
+    bit_depths = usual_depths(job.case, DEPTHS) if depths is None else depths.depths(job.case, job.units)
+    with job.bar("compiling") as show:
         road = roadmap(watch.chart, bit_depths, factors, limits=limits, progress=show)
-    return Drawing(path, road, units, warnings)
+    return Drawing(path, road, job.units, job.told)

@@ -11,26 +11,22 @@ import typer
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 from rich.table import Table
 
+from fctd import plots
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.text import counted, file_name, printable
 from fctd.cli.interrupts import deferred
 from fctd.cli.keeping import (
     EVERY_RUN,
-    AcceptChanges,
-    CheckpointEvery,
-    MemoryLimit,
     OptionalCase,
-    Restart,
-    Resume,
     SaveOptions,
-    TimeLimit,
     begun_folder,
     case_of,
     description_of,
     resumed_folder,
     say_how_to_go_on,
 )
+from fctd.cli.option_classes import beside, to_keep, with_options
 from fctd.cli.options import (
     INTERRUPTED,
     Csv,
@@ -52,7 +48,7 @@ from fctd.cli.options import (
     tell,
     units_option,
 )
-from fctd.cli.pictures import DRAWN, check_pictures
+from fctd.cli.pictures import DRAWN, check_files
 from fctd.results.buckling import MODES
 from fctd.results.columns import BUCKLED, COLUMNS
 from fctd.results.status import RunStatus
@@ -68,6 +64,7 @@ from fctd.store.run_folder import RunFolder
 ShownUnits = Annotated[System, units_option("Units of screen and CSV files; the Parquet files are in SI units.")]
 
 
+@with_options
 def simulate_command(
     case_file: OptionalCase = None,
     out: Out = None,
@@ -81,19 +78,13 @@ def simulate_command(
             "--plot", metavar="FILE", help="Picture of the run over time, .png, .svg or .pdf.", show_default=False
         ),
     ] = None,
-    checkpoint_every: CheckpointEvery = None,
-    resume: Resume = None,
-    restart: Restart = False,
-    accept_changes: AcceptChanges = False,
-    time_limit: TimeLimit = None,
-    memory_limit: MemoryLimit = None,
+    *,
+    keeping: SaveOptions,
     quiet: Quiet = False,
     strict: Strict = False,
 ) -> None:
     """Run the operations of a case and write its tables: history, profile, energy, operations, segments."""
-    keeping = SaveOptions(checkpoint_every, resume, restart, accept_changes, time_limit, memory_limit)
-    shown = RunOutput(csv, units, plot, strict, quiet)
-    simulate_file(case_file, out, overrides, friction, shown, keeping=keeping)
+    simulate_file(case_file, out, overrides, friction, RunOutput(csv, units, plot, strict, quiet), keeping=keeping)
 
 
 @dataclass(frozen=True)
@@ -105,18 +96,6 @@ class RunOutput:
     plot: Path | None = None
     strict: bool = False
     quiet: bool = False
-
-    @property
-    def kept(self) -> dict[str, Any]:
-        """What ``--resume`` does not need to be given again."""
-        plot = None if self.plot is None else str(self.plot.absolute())
-        return {"csv": self.csv, "units": self.units, "plot": plot, "strict": self.strict}
-
-    def beside(self, kept: Mapping[str, Any]) -> "RunOutput":
-        """These options beside those with which the run began."""
-        plot = None if kept["plot"] is None else Path(kept["plot"])
-        units = kept["units"] if self.units == "si" else self.units
-        return RunOutput(self.csv or kept["csv"], units, self.plot or plot, self.strict or kept["strict"], self.quiet)
 
 
 def simulate_file(
@@ -137,12 +116,11 @@ def simulate_file(
     """
     given = {"CASE": case_file, "--out": out, "--set": overrides or None, "--friction": friction}
     keeping.check(given)
-    if shown.plot is not None:
-        check_pictures({"--plot": shown.plot}, DRAWN)
+    check_files({"--plot": (shown.plot, DRAWN)})
     if keeping.resume is not None:
         folder = keeping.resume
         with resumed_folder(folder, program, accept_changes=keeping.accept_changes) as (kept, about):
-            case, shown = case_of(kept.path, about), shown.beside(about["options"])
+            case, shown = case_of(kept.path, about), beside(shown, about["options"])
             check_result_folder(folder, shown.csv, "--resume")
             method = None if contact is None else contact(case)
             _compute(case, folder, method, shown, keeping, kept, about["identity"])
@@ -158,7 +136,7 @@ def simulate_file(
     refuse_source_files(case, (folder / name for name in own_files(folder).union(result_files(shown.csv))), "--out")
     with begun_folder(folder, "--out", restart=keeping.restart) as kept:
         identity = uuid4().hex
-        options = shown.kept | dict(more or {})
+        options = to_keep(shown) | dict(more or {})
         kept.describe(*description_of(case, program, "simulate", options, identity))
         _compute(case, folder, method, shown, keeping, kept, identity)
 
@@ -206,8 +184,6 @@ def _compute(
                     whole = replace(result, identity=identity)
                     written = whole.save(folder, csv=shown.csv, units=shown.units)
                     if shown.plot is not None and len(result.history):
-                        from fctd import plots
-
                         written += plots.save(plots.run_figure(result, shown.units), shown.plot)
                 if ended:
                     kept.clear()

@@ -11,8 +11,7 @@ from fctd.case.text import counted, printable
 from fctd.cli.base_command import Silent
 from fctd.cli.keeping import has_kept, way_on
 from fctd.cli.options import screen
-from fctd.cli.pictures import PICTURES
-from fctd.cli.steady import TABLES
+from fctd.cli.pictures import PICTURES, TABLES
 from fctd.results.tables import open_result, result_files
 from fctd.store.lock import holder_of
 from fctd.store.run_folder import about_of, clock, progress_of, run_path, writer_of

@@ -1,31 +1,26 @@
 """What the steady commands share: options, rates, pictures, and the metadata of a table."""
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from fctd.case.errors import InputError
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case
 from fctd.case.operation_names import USUAL, kinds_of, split_names
 from fctd.case.operations import KINDS
 from fctd.case.units import FLOW, LENGTH, MOST_FLOW, ROTATION, SPEED
-from fctd.cli.options import check_target, messages, screen
-from fctd.cli.pictures import PICTURES, check_package, check_pictures
+from fctd.cli.options import screen
 from fctd.cli.quantities import Given, QuantityOption, quantity, si
 from fctd.model.drillstring import lay_out
 from fctd.model.operations import rates_of_all
 from fctd.model.summary import segments_in_words
 from fctd.results.unit_systems import System, in_field_units, shown
 from fctd.store.origin import versions
+from fctd.store.tables import Rows
 
 if TYPE_CHECKING:
     import pandas as pd
-
-TABLES = (".csv", ".parquet", ".xlsx")
 
 
 def _defaults(rate: str) -> str:
@@ -60,6 +55,10 @@ Flow = Annotated[
         "case's, or 0.",
     ),
 ]
+DEPTHS_HELP = (
+    "Bit depths, 1750:2450:10 in m, with --units field in ft, '5000 ft:8000 ft:30 ft' or shoe:td:50; the last is "
+    "always among them."
+)
 DEPTH_HELP = "Bit depth, '2450 m', td or shoe; bare in m, with --units field in ft"
 StuckAt = Annotated[
     Given | None,
@@ -79,6 +78,24 @@ ResolveBuckling = Annotated[
 ]
 
 
+FrictionFan = Annotated[
+    list[str],
+    typer.Option(
+        "--friction",
+        metavar="X",
+        help="Friction factor of every interval, 0.25, a list, 0.1,0.2,0.3, a fan, 0.1:0.4:0.1, or by kind, "
+        "cased=0.2,open=0.3; may be repeated.",
+    ),
+]
+
+
+def kinds_option(more: str = "") -> typer.models.OptionInfo:
+    """The option of several kinds of operations; more : what its help says of the default."""
+    text = f"{KIND_HELP}; several with commas between them, or all{more}."
+    info: typer.models.OptionInfo = typer.Option("--operation", metavar="KINDS", help=text)
+    return info
+
+
 def file_option(option: str, what: str) -> typer.models.OptionInfo:
     info: typer.models.OptionInfo = typer.Option(option, metavar="FILE", help=what, show_default=False)
     return info
@@ -95,36 +112,6 @@ def read_kinds(texts: Sequence[str], usual: Sequence[str] = ()) -> list[str]:
     return kinds_of([kind for name in names for kind in (KINDS if name == "all" else [name])] or usual)
 
 
-def row_bar(quiet: bool) -> Progress:
-    """The progress of rows on the terminal."""
-    columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    return Progress(*columns, console=messages, disable=quiet, transient=True)
-
-
-def check_table(out: Path | None, suffixes: Sequence[str] = TABLES) -> None:
-    """Raise InputError for ``--out`` where no table can be written there; suffixes : that it may have."""
-    check_target(out, "--out", suffixes)
-    if out is not None and out.suffix.lower() == ".xlsx":
-        check_package(out, "--out")
-
-
-def check_targets(
-    out: Path | None, plot: Path | None, others: Mapping[str, Path | None]
-) -> tuple[Path | None, Path | None]:
-    """The table and the picture of a command: ``--out`` is a picture where its suffix is that of one.
-
-    others : pictures by option.  Raises InputError for a file that cannot be written, before anything is computed.
-    """
-    if out is None or out.suffix.lower() not in PICTURES:
-        check_table(out, (*TABLES, *PICTURES))
-        check_pictures({"--plot": plot, **others})
-        return out, plot
-    if plot is not None:
-        raise InputError(f"a table, {' or '.join(TABLES)}, beside the picture of --plot", key="--out", value=out)
-    check_pictures({"--out": out, **others})
-    return None, out
-
-
 def print_segments(case: Case, bit_depth: float, units: System) -> None:
     """Print number and lengths of the segments where the program has chosen them; bit_depth [m]."""
     if any(part.cut_by_default for part in case.string.components):
@@ -133,8 +120,12 @@ def print_segments(case: Case, bit_depth: float, units: System) -> None:
         screen.print(line, soft_wrap=True)
 
 
-def in_units(units: System, table: "pd.DataFrame") -> "pd.DataFrame":
-    return in_field_units(table) if units == "field" else table
+def in_units(units: System, table: "pd.DataFrame | Rows") -> "pd.DataFrame | Rows":
+    if units == "si":
+        return table
+    import pandas as pd  # slow to import
+
+    return in_field_units(pd.DataFrame(table))
 
 
 def metadata_of(

@@ -14,7 +14,7 @@ from fctd.cli.check import facts_table
 from fctd.cli.hydraulics import Beside, read_eccentricity
 from fctd.cli.job import Depths, Job, grid, headed, numbers, rows_of
 from fctd.cli.options import CaseFile, Overrides, Quiet, Strict, Units, screen
-from fctd.cli.pictures import PICTURE_HELP
+from fctd.cli.pictures import PICTURE_HELP, TABLES, draw_panels
 from fctd.cli.quantities import TO_TOTAL_DEPTH, Given, QuantityOption, quantity, several
 from fctd.cli.steady import file_option
 from fctd.hydraulics.surge import ENDS, FASTEST, TRIPS, fastest_trips, surge_pressures
@@ -76,7 +76,7 @@ def surge_command(
     """
     job = Job(
         case_file, overrides, units=units, strict=strict, quiet=quiet, out=out, plot=plot, draws=True,
-        tables={"--trips": trips},
+        files={"--trips": (trips, TABLES)},
     )  # fmt: skip
     case = job.case
     if trips is not None and not case.wellbore.window:
@@ -92,12 +92,13 @@ def surge_command(
         surges = surge_pressures(case, rates, **asked, progress=show)
         fastest = fastest_trips(case, **asked, most=hoist, progress=show) if case.wellbore.window else None
 
-    def draw(told: list[str]) -> Any:
+    def draw(path: Path) -> list[Path]:
         from fctd.plots.flow import surge_panels
 
-        return surge_panels(case, surges, fastest, units, ["constant speed; API RP 13D", *told])
+        lines = ["constant speed; API RP 13D", *job.lines]
+        return draw_panels(path, surge_panels(case, surges, fastest, units, lines))
 
-    job.end({"--out": surges, "--trips": fastest}, lambda: _print(job, surges, fastest), draw)
+    job.end({"--out": surges, "--trips": fastest, "--plot": draw}, lambda: _print(job, surges, fastest))
 
 
 def _words(texts: Sequence[str]) -> list[str]:

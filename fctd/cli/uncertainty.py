@@ -1,19 +1,20 @@
 """``fctd uncertainty SWEEP.toml``: percentiles, probabilities and influences from the samples of a sweep."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 import typer
-from rich.box import SIMPLE_HEAD
 from rich.table import Column, Table
 
+from fctd import plots
 from fctd.case.errors import InputError
 from fctd.case.operation_names import kinds_of
 from fctd.case.text import counted, printable
 from fctd.case.units import LENGTH
+from fctd.cli.job import grid, right, rows_of
 from fctd.cli.options import Quiet, Units, check_target, messages, print_written, screen
-from fctd.cli.pictures import DRAWN, check_pictures
+from fctd.cli.pictures import DRAWN, check_files
 from fctd.cli.quantities import Given, QuantityOption, quantity, si
 from fctd.cli.steady import file_option
 from fctd.cli.sweep import SweepFile
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
 NUMBERS = ("value", "low", "high", "mean", "sd", "error")
 # Measures that the screen leaves to the files.
 IN_FILES = ("SRRC", "R2_rank")
+WIDE: dict[str, Any] = {"collapse_padding": False, "pad_edge": True, "title_justify": "left"}  # of a table
 TABLES = ("percentiles", "probabilities", "indices", "convergence")
 
 
@@ -76,7 +78,9 @@ def uncertainty_command(
     """Summarise the samples of a sweep: bands of the loads, probabilities, and which parameter matters."""
     if (plot_map is None) != (map_keys is None):
         raise InputError("--plot-map and --map, both or none", key="--map", value=map_keys or "none")
-    check_pictures({"--plot-bands": plot_bands, "--plot-tornado": plot_tornado, "--plot-map": plot_map}, DRAWN)
+    check_files({
+        "--plot-bands": (plot_bands, DRAWN), "--plot-tornado": (plot_tornado, DRAWN), "--plot-map": (plot_map, DRAWN),
+    })  # fmt: skip
     files = {} if out is None else {name: out / f"{name}.csv" for name in TABLES}
     for path in files.values():
         check_target(path, "--out", (".csv",))
@@ -88,13 +92,13 @@ def uncertainty_command(
     keys = [] if map_keys is None else [part.strip() for part in map_keys.split(",")]
     if map_keys is not None and len(keys) not in (2, 3):
         raise InputError("two keys of parameters, and a column", key="--map", value=map_keys)
-    pictures = _figures(found, plot_bands, plot_tornado, plot_map, keys, operation, units)
+    figures = _figures(found, plot_bands, plot_tornado, plot_map, keys, operation, units)
     written: list[Path] = []
     try:  # written before anything is printed, as the terminal may be closed
         metadata = {"sweep": spec.model_dump(mode="json"), "versions": versions()}
         for name, path in files.items():
             written += write_table(_in_units(getattr(found, name), units), path, metadata)
-        written += _save(pictures)
+        written += [file for path, figure in figures.items() for file in plots.save(figure, path)]
     finally:
         if not quiet:
             _print(found, units)
@@ -117,10 +121,6 @@ def _figures(
     operation: str | None, units: System,
 ) -> dict[Path, "Figure"]:  # fmt: skip
     """The pictures by their files; raises InputError for those that the samples do not allow."""
-    if bands is None and tornado is None and of_map is None:
-        return {}
-    from fctd import plots
-
     figures = {}
     if bands is not None:
         figures[bands] = plots.bands_figure(found, units)
@@ -134,30 +134,20 @@ def _figures(
     return figures
 
 
-def _save(figures: dict[Path, "Figure"]) -> list[Path]:
-    if not figures:
-        return []
-    from fctd import plots
-
-    return [file for path, figure in figures.items() for file in plots.save(figure, path)]
-
-
 def _table(title: str, texts: tuple[str, ...], numbers: tuple[str, ...]) -> Table:
-    columns = *(Column(text, overflow="fold") for text in texts), *(Column(name, justify="right") for name in numbers)
-    operation = Column("operation", overflow="fold", no_wrap=True)
-    return Table(operation, *columns, box=SIMPLE_HEAD, title=title, title_justify="left")
+    columns = *(Column(text, overflow="fold") for text in texts), *right(*numbers)
+    return grid(Column("operation", overflow="fold", no_wrap=True), *columns, title=title, **WIDE)
 
 
 def _print(found: Uncertainty, units: System) -> None:
     """Print percentiles at the last depth, the probabilities of events anywhere, and the influences."""
     screen.print(f"{printable(found.spec.name)}: {counted(found.rows['sample'].nunique(), 'sample')}", style="bold")
     _print_percentiles(found, units)
-    numbers = (Column(heading, justify="right") for heading in ("probability", "95 %"))
-    table = Table(
-        "operation", "event", *numbers, box=SIMPLE_HEAD, title="Probability at any depth", title_justify="left"
+    table = grid(
+        Column("operation"), Column("event"), *right("probability", "95 %"), title="Probability at any depth", **WIDE
     )
     anywhere = found.probabilities[found.probabilities["bit_depth_m"].isna()]
-    for row in anywhere[anywhere["count"] > 0].to_dict("records"):
+    for row in rows_of(anywhere[anywhere["count"] > 0]):
         table.add_row(
             row["operation"], row["event"], f"{row['probability']:.3g}", f"{row['low']:.3g} to {row['high']:.3g}"
         )
@@ -170,7 +160,7 @@ def _print(found: Uncertainty, units: System) -> None:
     metre = shown("bit_depth_m", units)
     at = "" if np.isnan(found.bit_depth) else f" at {found.bit_depth * metre.factor:.5g} {metre.label}"
     table = _table(f"Influence{at}", ("column", "measure", "parameter"), ("value", "±"))
-    for row in found.indices[~found.indices["measure"].isin(IN_FILES)].to_dict("records"):
+    for row in rows_of(found.indices[~found.indices["measure"].isin(IN_FILES)]):
         factor, unit = _unit(row["column"], units) if row["measure"] in WITH_UNIT else (1.0, "")
         error = "" if np.isnan(row["error"]) else f"{row['error'] * factor:.2g}"
         names = (row["operation"], row["column"], row["measure"], row["parameter"])
@@ -191,7 +181,7 @@ def _print_percentiles(found: Uncertainty, units: System) -> None:
     rows = found.percentiles
     if "bit_depth_m" in rows:
         rows = rows[rows["bit_depth_m"] == rows["bit_depth_m"].max()]
-    for row in rows.to_dict("records"):
+    for row in rows_of(rows):
         if (row["operation"], row["column"]) in found.noise:
             continue
         factor, unit = _unit(row["column"], units)

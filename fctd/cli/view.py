@@ -1,18 +1,16 @@
 """``fctd view SOURCE``: the string in its hole, as a page."""
 
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
-from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
-from fctd.case.text import file_name, printable
+from fctd.case.text import file_name
 from fctd.cli import quantities
-from fctd.cli.chart import DEPTHS_HELP
+from fctd.cli.job import Job
 from fctd.cli.keeping import case_of, how_far
 from fctd.cli.options import (
     FAILED,
@@ -20,23 +18,21 @@ from fctd.cli.options import (
     Overrides,
     Quiet,
     Units,
-    changes_of,
     check_target,
     messages,
     print_written,
-    read_case,
     refuse_sources,
-    tell,
 )
 from fctd.cli.pictures import check_package
 from fctd.cli.quantities import Given, quantity
 from fctd.cli.steady import (
-    KIND_HELP,
+    DEPTHS_HELP,
     Flow,
     ResolveBuckling,
     Rpm,
     Speed,
     file_option,
+    kinds_option,
     read_drive,
     read_kinds,
 )
@@ -62,11 +58,7 @@ def view_command(
     ],
     operations: Annotated[
         list[str],
-        typer.Option(
-            "--operation",
-            metavar="KINDS",
-            help=f"{KIND_HELP}; several with commas between them, or all; default of a case: {','.join(USUAL)}.",
-        ),
+        kinds_option(f"; default of a case: {','.join(USUAL)}"),
     ] = [],  # noqa: B006 (typer copies it)
     depths: Annotated[
         Given | None,
@@ -113,40 +105,30 @@ def view_command(
     check_target(out, "--out", (".html",))
     check_target(png, "--png", (".png",))
     check_package(Path("view.html"), "view")
-    given: dict[str, object] = {
-        "--operation": operations,
-        "--depths": depths,
-        "--speed": speed,
-        "--rpm": rpm,
-        "--flow": flow,
-        "--friction": friction,
-    }
-    given |= {"--set": overrides, "--resolve-buckling": resolve_buckling}
+    given = {
+        "--operation": operations, "--depths": depths, "--speed": speed, "--rpm": rpm, "--flow": flow,
+        "--friction": friction, "--set": overrides, "--resolve-buckling": resolve_buckling,
+    }  # fmt: skip
+    told: list[str] = []
     if source.is_dir() or about_of(source) is not None:
-        strings, told = _of_run(source, given), []
+        strings = _of_run(source, given)
     else:
-        case = read_case(source, changes_of(overrides, friction, resolve_buckling))
-        kinds = read_kinds(operations, USUAL)
-        wanted = usual_depths(case, DEPTHS) if depths is None else depths.depths(case, units)
-        drive = read_drive(speed, rpm, flow, units)
-        told = tell(case, warnings_of(case, kinds, **drive), strict=False, units=units)
-        columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn())
-        with Progress(*columns, console=messages, disable=quiet, transient=True) as bar:
-            task = bar.add_task(printable(case.name), total=len(wanted))
-
-            def show(done: int, total: int) -> None:
-                bar.update(task, completed=done, total=total)
-
-            strings = of_chart(case, kinds, wanted, **drive, progress=show)
-        if strings.left_out:
-            messages.print(f"warning: {strings.left_out}", markup=False, soft_wrap=True)
-            told = [*told, strings.left_out]
+        job = Job(source, overrides, friction, resolve_buckling, units=units, quiet=quiet)
+        kinds, drive = read_kinds(operations, USUAL), read_drive(speed, rpm, flow, units)
+        wanted = usual_depths(job.case, DEPTHS) if depths is None else depths.depths(job.case, units)
+        job.warn(kinds, **drive)
+        with job.bar() as show:
+            strings = of_chart(job.case, kinds, wanted, **drive, progress=show)
+        told = job.told
+    if strings.left_out:
+        messages.print(f"warning: {strings.left_out}", markup=False, soft_wrap=True)
+        told = [*told, strings.left_out]
     _write(strings, out, png, colour, units, exaggeration, told)
     if strings.left_out:
         raise typer.Exit(FAILED)
 
 
-def _of_run(folder: Path, given: dict[str, object]) -> Strings:
+def _of_run(folder: Path, given: Mapping[str, object]) -> Strings:
     """The strings of a run, or of what one that has not ended has kept; options of a case are refused."""
     for key, value in given.items():
         if value not in (None, []):

@@ -11,7 +11,7 @@ from fctd.case.text import counted, printable
 from fctd.case.units import LENGTH, TIME
 from fctd.cli.job import Job, depths_option, grid, right, rows_of
 from fctd.cli.options import CaseFile, Friction, Overrides, Quiet, Strict, Units, screen
-from fctd.cli.pictures import PICTURE_HELP
+from fctd.cli.pictures import PICTURE_HELP, draw_panels
 from fctd.cli.quantities import PENETRATION, TO_TOTAL_DEPTH, Bare, Given, QuantityOption, quantity, si
 from fctd.cli.steady import Rpm, file_option
 from fctd.results.unit_systems import System, in_words, reworded, shown
@@ -96,13 +96,13 @@ def wear_command(
         table = casing_wear(job.case, **asked, progress=show)
     lines = _facts(table, units)
 
-    def draw(told: list[str]) -> Any:
+    def draw(path: Path) -> list[Path]:
         from fctd.plots.wear import wear_panels
 
-        return wear_panels(job.case, table, units, [*lines, *told])
+        return draw_panels(path, wear_panels(job.case, table, units, [*lines, *job.lines]))
 
     job.end(
-        {"--out": table}, lambda: _print(job, table, lines), draw, rates=([operation], {"rpm": asked["rpm"]}),
+        {"--out": table, "--plot": draw}, lambda: _print(job, table, lines), rates=([operation], {"rpm": asked["rpm"]}),
         more={key: table.attrs[key] for key in ("turns", "time_s", "wear_factors", "doubted")},
         acceptable=not table.attrs["doubted"], codes=["worn_through"] if (table["high_worn"] >= 1).any() else [],
     )  # fmt: skip

@@ -51,8 +51,11 @@ def changed_document(source: Path, overrides: Mapping[str, Any]) -> Any:
     return raw
 
 
-def write_refined(refined: Refinement, source: Path, overrides: Mapping[str, Any], out: Path) -> None:
-    """Write the case file ``source``, changed by ``overrides``, with the string and the hole of a refinement."""
+def write_refined(refined: Refinement, source: Path, overrides: Mapping[str, Any], out: Path) -> list[Path]:
+    """Write the case file ``source``, changed by ``overrides``, with the string and the hole of a refinement.
+
+    Returns the file.
+    """
     raw = changed_document(source, overrides)
     raw["string"]["components"] = _components(raw["string"]["components"], refined.case.string.components)
     hole = refined.case.wellbore
@@ -71,6 +74,7 @@ def write_refined(refined: Refinement, source: Path, overrides: Mapping[str, Any
         raw["wellbore"]["survey"] = survey
     with whole_file(out) as scratch:
         scratch.write_text(_heading(refined) + tomlkit.dumps(raw), encoding="utf-8")
+    return [out]
 
 
 def _components(written: Sequence[Mapping[str, Any]], pieces: Sequence[ComponentSpec]) -> Any:

@@ -105,7 +105,7 @@ def test_days_pumps_and_doubts_are_printed(
     assert "did not settle" not in printed.err
     cli("predict", out, files[1])
     table = tmp_path / "table.csv"
-    monkeypatch.setattr("fctd.cli.calibrate.warnings_of", lambda case: [])  # they would end it before
+    monkeypatch.setattr("fctd.cli.job.warnings_of", lambda case: [])  # they would end it before
     strict = cli("calibrate", *files, *options, "--table", table, "--units", "field", "--strict", code=1)
     assert "strict: notes are errors (doubt, flow_absorbed, misfit)" in strict.err
     assert re.search(r"a slack-off weight of [\d.]+ klbf above the rotating weight of [\d.]+ klbf", strict.err)
