@@ -115,11 +115,15 @@ def calibrate_command(
         doing = "leaving out each row"
         _ = found.leave_one_out
     notes = [*notes_of(found)]
-    about = metadata_of_case(found.case, *job.warnings.values()) | {"notes": [sentence for _, sentence in notes]}
+
+    def write(path: Path) -> list[Path]:
+        more = {"notes": [sentence for _, sentence in notes]}
+        return write_table(found.residuals, path, metadata_of_case(found.case, job.warnings[job.case.name]) | more)
+
     job.end(
         {
             "--out": partial(write_calibrated, found, case_file, job.changes),
-            "--table": lambda path: write_table(found.residuals, path, about),
+            "--table": write,
             "--plot": lambda path: plots.save(plots.calibration_figure(found, units), path),
         },
         lambda: print_calibration(found, units), codes=[code for code, _ in notes],

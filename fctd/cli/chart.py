@@ -26,7 +26,7 @@ from fctd.cli.keeping import (
     resumed_folder,
     say_how_to_go_on,
 )
-from fctd.cli.option_classes import beside, given, to_keep, with_options
+from fctd.cli.option_classes import beside, given_options, to_keep, with_options
 from fctd.cli.options import FAILED, Overrides, Quiet, Strict, Units, messages, warn
 from fctd.cli.pictures import PICTURE_HELP, PICTURES, ShownLoad, ShownSideForce, draw_chart, draw_profiles
 from fctd.cli.quantities import DEPTHS, Given, quantity
@@ -101,7 +101,7 @@ class ChartOptions:
 def chart_command(options: ChartOptions) -> None:
     """Compute a torque-and-drag chart: a row for every operation, friction factor and bit depth."""
     keeping = options.keeping
-    keeping.check(given(options))
+    keeping.check(given_options(options))
     if keeping.resume is not None:
         with resumed_folder(keeping.resume, PROGRAM, accept_changes=keeping.accept_changes) as (folder, about):
             kept = ChartSaver(folder, keeping.interval(EVERY_CHART), key="--resume")
@@ -165,9 +165,9 @@ def _chart(
                 keep |= {"known": kept.known, "above": kept.above, "keep": lambda rows: kept.keep(rows, total)}
             rows = chart_rows(case, kinds, bit_depths, factors or None, **drive, **keep)
             one = with_friction(case, factors[0]) if factors else case
-            margins = None
-            if asked.limits:
-                margins = limits_of(one, kinds, of_lines(bit_depths), **drive, progress=partial(show, "limits"))
+            margins = None if not asked.limits else limits_of(
+                one, kinds, of_lines(bit_depths), **drive, progress=partial(show, "limits")
+            )  # fmt: skip
 
         # The last depth at which string and hole fit.
         possible = [row["bit_depth_m"] for row in rows if row["status"] != SteadyStatus.NOT_POSSIBLE]

@@ -47,8 +47,10 @@ Depths = Annotated[Given, depths_option("shoe")]
 class Job:
     """A case, or several by name, and what a command does with it.
 
-    files : further files by option, with their suffixes; reads : files that the command reads beside the case.
-    out is a picture where its suffix is that of one, and the command draws.
+    source : the file of a case, or what was read already.  overrides, friction, resolve : as of ``changes_of``.  out is
+    a picture where its suffix is that of one, and the command ``draws``.  files : further files by option, with their
+    suffixes.  reads : files beside the case that the command reads, and must not write over.  silent : a quiet command
+    prints no results.  Raises InputError, before anything is computed, for files that cannot be written.
     """
 
     def __init__(
@@ -101,7 +103,8 @@ class Job:
 
         What moves it takes what it says from then on, if that changes, the rows that are done, and all of them.
         """
-        with row_bar(self.quiet) as bar:
+        columns = TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn()
+        with Progress(*columns, console=messages, disable=self.quiet, transient=True) as bar:
             task = bar.add_task(printable(first or self.case.name), total=None)
 
             def show(*of: Any) -> None:
@@ -183,12 +186,6 @@ class Job:
         """Print why rows have no numbers."""
         for reason, of in table[table["reason"] != "none"].groupby("reason", sort=False):
             self.say(f"at {self.depths_in_words(of)}: {reworded(str(reason), self.units)}")
-
-
-def row_bar(quiet: bool) -> Progress:
-    """The progress of rows on the terminal."""
-    columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    return Progress(*columns, console=messages, disable=quiet, transient=True)
 
 
 def rows_of(table: "pd.DataFrame", most: int = 0, also: Iterable[int] = ()) -> list[Row]:

@@ -54,7 +54,7 @@ def _default(of: "Field[Any]") -> Any:
     return Parameter.empty if of.default is MISSING else of.default
 
 
-def given(options: Any) -> dict[str, Any]:
+def given_options(options: Any) -> dict[str, Any]:
     """The values by option; None of those that have their default."""
     found: dict[str, Any] = {}
     for name, (hint, default) in _kept(options).items():

@@ -174,8 +174,8 @@ def _check(files: list[Path], case: Case, measured: Path | None, logo: Path | No
 def _writer(path: Path) -> Callable[[Any], bytes]:
     """The function that writes a report as the kind of file of a suffix."""
     module = WRITERS[path.suffix.lower()][0]
-    found = getattr(import_module(f"fctd.report.{module}"), f"to_{module.removesuffix('_file')}")
-    return cast("Callable[[Any], bytes]", found)
+    name = f"to_{module.removesuffix('_file')}"
+    return cast("Callable[[Any], bytes]", getattr(import_module(f"fctd.report.{module}"), name))
 
 
 def _default_depths(case: Case, units: System) -> list[float]:

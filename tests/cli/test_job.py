@@ -9,8 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from fctd.case.load import load_case
 from fctd.cli import job
 from fctd.cli.job import Job, number, rows_of
+from tests.commands import Command
 
 
 @given(st.integers(1, 60), st.integers(1, 20), st.sets(st.integers(0, 59), max_size=3))
@@ -41,3 +43,24 @@ def test_a_table_is_written_where_the_screen_is_closed(case_file: Path, monkeypa
     with pytest.raises(BrokenPipeError):
         made.end({"--out": pd.DataFrame({"md_m": [1.0]})}, Mock())
     assert out.read_text().splitlines() == ["md_m", "1.0"]
+
+
+def test_two_files_of_one_name_are_refused(case_file: Path, cli: Command) -> None:
+    """The later would replace the earlier."""
+    out = case_file.with_name("a.csv")
+    printed = cli("hydraulics", case_file, "--flow", "2000 L/min", "--out", out, "--parts", out, code=2)
+    assert f'--parts = "{out}": expected a file of its own for each table' in printed.err
+
+
+def test_each_file_is_refused_under_its_option(case_file: Path, cli: Command) -> None:
+    assert "--trips = " in cli("surge", case_file, "--trips", case_file.with_name("a.png"), code=2).err
+    assert "--parts = " in cli("hydraulics", case_file, "--parts", case_file.with_name("a.doc"), code=2).err
+
+
+def test_warnings_of_several_cases_name_their_cases(case_file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    cases = {name: load_case(case_file, {"mud.density": of}) for name, of in (("a", 0), ("b", 3000), ("c", 3000))}
+    made = Job(cases, units="si", strict=False, quiet=True)
+    made.warn()
+    (density,) = [text for text in made.told if "3000" in text]
+    assert density.endswith("(b and c)")
+    assert capsys.readouterr().err.count("a mud of 3000") == 1  # of one file
