@@ -60,11 +60,8 @@ def compare_command(
         ),
     ],
     depths: Annotated[Given, quantity(DEPTHS, "FROM:TO:STEP", DEPTHS_HELP)],
-    operations: Annotated[
-        list[str],
-        kinds_option(f"; default: {', '.join(USUAL)}"),
-    ] = [],  # noqa: B006 (typer copies it)
-    frictions: FrictionFan = [],  # noqa: B006
+    operations: Annotated[list[str], kinds_option(f"; default: {', '.join(USUAL)}")] = [],  # noqa: B006
+    frictions: FrictionFan = [],  # noqa: B006 (typer copies it)
     speed: Speed = None,
     rpm: Rpm = None,
     flow: Flow = None,

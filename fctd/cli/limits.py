@@ -46,16 +46,13 @@ STUCK: Final = {
 
 def limits_command(
     case_file: CaseFile,
-    operations: Annotated[
-        list[str],
-        kinds_option(f"; default: {', '.join(USUAL)}"),
-    ] = [],  # noqa: B006 (typer copies it)
+    operations: Annotated[list[str], kinds_option(f"; default: {', '.join(USUAL)}")] = [],  # noqa: B006
     depths: Depths = TO_TOTAL_DEPTH,
     speed: Speed = None,
     rpm: Rpm = None,
     flow: Flow = None,
     stuck_at: StuckAt = None,
-    overrides: Overrides = [],  # noqa: B006
+    overrides: Overrides = [],  # noqa: B006 (typer copies it)
     friction: Friction = None,
     out: Annotated[Path | None, file_option("--out", "A row for every margin, .csv, .parquet or .xlsx.")] = None,
     units: Units = "si",

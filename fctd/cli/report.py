@@ -74,8 +74,7 @@ def report_command(
         ),
     ] = [],  # noqa: B006 (typer copies it)
     operations: Annotated[
-        list[str],
-        kinds_option(f"; default: {', '.join(USUAL)}, and {ON_BOTTOM} where the case has a weight on bit"),
+        list[str], kinds_option(f"; default: {', '.join(USUAL)}, and {ON_BOTTOM} where the case has a weight on bit")
     ] = [],  # noqa: B006
     depths: Annotated[
         Given | None,

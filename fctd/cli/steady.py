@@ -1,4 +1,4 @@
-"""What the steady commands share: options, rates, pictures, and the metadata of a table."""
+"""What the steady commands share: options, rates, and the metadata of a table."""
 
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Annotated, Any
@@ -76,8 +76,6 @@ ResolveBuckling = Annotated[
         show_default=False,
     ),
 ]
-
-
 FrictionFan = Annotated[
     list[str],
     typer.Option(

@@ -56,10 +56,7 @@ def view_command(
             metavar="RESULT|CASE", help="Case file (TOML), or the folder of fctd simulate.", show_default=False
         ),
     ],
-    operations: Annotated[
-        list[str],
-        kinds_option(f"; default of a case: {','.join(USUAL)}"),
-    ] = [],  # noqa: B006 (typer copies it)
+    operations: Annotated[list[str], kinds_option(f"; default of a case: {','.join(USUAL)}")] = [],  # noqa: B006
     depths: Annotated[
         Given | None,
         quantity(
