@@ -15,6 +15,7 @@ from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
 from fctd.case.friction import parse_frictions
 from fctd.case.load import Case, with_friction
+from fctd.case.message import frame_of
 from fctd.case.text import printable
 from fctd.cli.chart_table import print_chart
 from fctd.cli.keeping import (
@@ -324,9 +325,7 @@ def _kept_on_the_way_out(kept: ChartSaver | None, target: Path | None, total: in
 
 
 def _frame(rows: list[Row]) -> "pd.DataFrame":
-    import pandas as pd  # slow to import
-
-    return pd.DataFrame(rows)
+    return frame_of(rows)
 
 
 def _tell_not_drawn(measured: "pd.Series[str]", kinds: Sequence[str]) -> None:

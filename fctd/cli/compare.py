@@ -50,7 +50,7 @@ from fctd.results.differences import differences, in_a_row
 from fctd.results.notes import meanings_of
 from fctd.results.status import SteadyStatus
 from fctd.results.table_files import write_table
-from fctd.results.unit_systems import System, reworded, shown
+from fctd.results.unit_systems import System, shown
 from fctd.steady.chart import Chart, chart
 from fctd.steady.comparison import FEWEST, compare, names_of
 from fctd.steady.margin_table import USUAL
@@ -206,5 +206,5 @@ def _tell(
         tell(case, new, strict=strict, units=units)
         for warning in warnings[name]:
             said.add((case.file, str(warning)))
-            owners.setdefault(reworded(str(warning), units), []).append(name)
+            owners.setdefault(warning.told(units), []).append(name)
     return [text if len(of) == len(cases) else f"{text} ({in_a_row(of)})" for text, of in owners.items()]

@@ -7,13 +7,14 @@ from typing import Annotated, Final
 from fctd.case.errors import InputError
 from fctd.case.friction import pairs_of
 from fctd.case.load import Case
+from fctd.case.message import Message, told
 from fctd.case.operations import KINDS
 from fctd.cli.options import refuse_source_files
 from fctd.cli.pictures import DRAWN, check_pictures
 from fctd.cli.steady import file_option
 from fctd.model.operations import SteadyRates
 from fctd.results.buckling import NOT_BUCKLED
-from fctd.results.unit_systems import System, reworded
+from fctd.results.unit_systems import System
 from fctd.steady.steady_string import Equilibrium
 
 OPTION: Final = "--plot-feeding"
@@ -56,7 +57,7 @@ def draw_feeding(path: Path, point: Equilibrium, units: System, warnings: Sequen
     from fctd import plots
 
     if not point.fed:
-        raise InputError(reworded(_lacking(point), units), key=OPTION, value=path)
+        raise InputError(told(Message(_lacking(point)), units), key=OPTION, value=path)
     return plots.save(plots.feeding_figure(point, units, warnings=warnings), path)
 
 

@@ -14,6 +14,7 @@ from rich.table import Column, Table
 
 from fctd.case.doubts import warnings_of
 from fctd.case.load import Case
+from fctd.case.message import told
 from fctd.case.text import printable
 from fctd.cli.chart import DEPTHS_HELP
 from fctd.cli.options import changes_of, finish, print_written, read_case, refuse_sources, screen, tell
@@ -21,7 +22,7 @@ from fctd.cli.pictures import draw_panels
 from fctd.cli.quantities import DEPTHS, Given, quantity
 from fctd.cli.steady import check_table, check_targets, in_units, metadata_of, metadata_of_case, row_bar
 from fctd.results.table_files import write_table
-from fctd.results.unit_systems import System, in_words, reworded, shown
+from fctd.results.unit_systems import System, in_words, shown
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -120,8 +121,8 @@ class Job:
 
     def say_reasons(self, table: "pd.DataFrame") -> None:
         """Print why rows have no numbers."""
-        for reason, of in table[table["reason"] != "none"].groupby("reason", sort=False):
-            self.say(f"at {self.depths_in_words(of)}: {reworded(str(reason), self.units)}")
+        for _, of in table[table["reason"] != "none"].groupby("reason", sort=False):
+            self.say(f"at {self.depths_in_words(of)}: {told(of['reason'].iloc[0], self.units)}")
 
 
 def rows_of(table: "pd.DataFrame", most: int = 0, also: Iterable[int] = ()) -> list[Row]:

@@ -13,6 +13,7 @@ from rich.table import Column, Table
 from fctd.case.errors import InputError, naming
 from fctd.case.friction import parse_frictions
 from fctd.case.load import Case, naming_file
+from fctd.case.message import told
 from fctd.case.tables.headers import parse_choices
 from fctd.case.text import counted, printable
 from fctd.cli import quantities
@@ -47,7 +48,7 @@ from fctd.monitoring.roadmap import FAN
 from fctd.monitoring.series import read_series
 from fctd.monitoring.text_series import Tail
 from fctd.results.table_files import write_table
-from fctd.results.unit_systems import System, reworded, shown
+from fctd.results.unit_systems import System, shown
 from fctd.store.origin import versions
 
 PICTURES = (".png", ".svg", ".pdf")
@@ -188,7 +189,7 @@ def _follow(watch: Monitor, tail: Tail, poll: float, units: System, drawing: Dra
 
 def _print_alarms(alarms: list[Alarm], units: System) -> None:
     for alarm in alarms:
-        screen.print(f"alarm: {reworded(alarm.sentence, units)}", soft_wrap=True, style="bold")
+        screen.print(f"alarm: {told(alarm.sentence, units)}", soft_wrap=True, style="bold")
 
 
 def _report(
