@@ -197,7 +197,13 @@ def as_metadata(notes: Iterable[Note]) -> list[dict[str, Any]]:
 
 def from_metadata(notes: Iterable[dict[str, Any]]) -> tuple[Note, ...]:
     """Notes from the metadata of files."""
-    return tuple(Note(**note | {"text": restored(note.pop("sentence", note["text"]))}) for note in notes)
+    return tuple(
+        Note(
+            **{name: of for name, of in note.items() if name != "sentence"}
+            | {"text": restored(note.get("sentence", note["text"]))}
+        )
+        for note in notes
+    )
 
 
 def meanings_of(cells: Iterable[str]) -> dict[str, dict[str, str]]:
