@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
-import pandas as pd
 
 from fctd.app.well import LIMITS, USUAL, Well, load_of
 from fctd.case.errors import InputError
+from fctd.case.message import frame_of
 from fctd.case.operations import KINDS
 from fctd.case.text import file_name
 from fctd.plots.loads import ChartLook
@@ -78,7 +78,7 @@ def _write(
         depths = np.linspace(well.depths[0], well.depths[-1], VIEWED)
         save_view(well.strings_at(values, operation, depths.tolist()), path, colour, units)
     else:
-        chart = pd.DataFrame(well.chart(values, [*kinds, *asked]))
+        chart = frame_of(well.chart(values, [*kinds, *asked]))
         if path.suffix in (".csv", ".xlsx"):
             table = in_field_units(chart) if units == "field" else chart
             about: dict[str, Any] = {"case": case.name, "units": units, "versions": versions()}

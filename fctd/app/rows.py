@@ -45,7 +45,7 @@ class Rows:
             try:
                 laid[depth] = solver.lay_out(depth)
             except InputError as error:
-                laid[depth] = str(error)
+                laid[depth] = error.message
         asked = [
             Row(string, 0, kind, rates[kind])
             for string in laid.values()
@@ -66,7 +66,7 @@ class Rows:
                 try:
                     point: Equilibrium | str = solver.finish(row.operation, row.rates, row.laid, answer)
                 except InputError as error:
-                    point = str(error)
+                    point = error.message
                 found[row.laid.string.bit_depth, row.operation] = point
         self._own = solver.work
         return [
@@ -83,7 +83,7 @@ def _row(kind: str, depth: float, point: Equilibrium | str) -> dict[str, Any]:
     row |= {load.name: float("nan") if answer is None else load.value(answer) for load in IN_CHART}
     row |= {end.name: float("nan") if found is None else end.value(found) for end in SHAPES}
     if found is None:
-        return row | {"buckling": UNKNOWN.mode, "status": str(SteadyStatus.NOT_POSSIBLE), "reason": str(point)}
+        return row | {"buckling": UNKNOWN.mode, "status": str(SteadyStatus.NOT_POSSIBLE), "reason": point}
     return row | {
         "buckling": found.buckling.mode, "status": str(found.status), "reason": found.message or "none",
     }  # fmt: skip

@@ -2,10 +2,9 @@
 
 from typing import Any, Final
 
-import pandas as pd
-
 from fctd.app import charts, scenes
 from fctd.case.load import Case
+from fctd.case.message import frame_of
 from fctd.case.solver import RESOLVING
 from fctd.plots.loads import PLAIN
 from fctd.results.unit_systems import in_field_units
@@ -42,4 +41,4 @@ def warm_up() -> None:
     charts.changes_of(rows, case, "si", PLAIN)
     _, _, times = scenes.skeletons(strings, QUANTITIES["side_force"], "si")
     scenes.changes_of(strings, QUANTITIES["side_force"], "si", times, hole=True)
-    in_field_units(pd.DataFrame(rows))
+    in_field_units(frame_of(rows))

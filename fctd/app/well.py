@@ -29,7 +29,7 @@ from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.plots.loads import ChartLook, Load
 from fctd.plots.palette import BUCKLED
 from fctd.results.series import FRICTION_LABEL
-from fctd.results.unit_systems import System, reworded, shown
+from fctd.results.unit_systems import System, shown
 from fctd.steady.equilibrium import Solver
 from fctd.steady.margin_table import COLUMNS, margin_rows
 from fctd.steady.torque_drag import chart_rows
@@ -115,7 +115,7 @@ class Well:
                 "name": case.name, "sliders": [asdict(slider) for slider in self.sliders], "operations": usual,
                 "depth": {"low": self.depths[0] * factor, "high": self.depths[-1] * factor, "unit": unit},
                 "loads": charts.EMPTY, "scene": scene, "panels": panels,
-                "warnings": [reworded(str(warning), self.units) for warning in self.read.warnings],
+                "warnings": [warning.told(self.units) for warning in self.read.warnings],
                 "facts": self._facts(), "runs": bool(case.operations), "exaggeration": self._exaggeration,
             }  # fmt: skip
         return self._opened

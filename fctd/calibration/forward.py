@@ -14,6 +14,7 @@ from fctd.calibration.unknowns import Unknown, with_values
 from fctd.case.errors import InputError
 from fctd.case.friction import table_of
 from fctd.case.load import Case
+from fctd.case.message import Message, quantity, within
 from fctd.case.rig import RigSpec
 from fctd.model.fluids import fluids_of
 from fctd.model.joints import sections_of
@@ -94,7 +95,7 @@ class Forward:
                 except InputError as error:
                     file = self.strings[row.string].file
                     named = error if file is None else error.in_file(file)
-                    at = f"{row.bit_depth:g} m"
+                    at = quantity(row.bit_depth, "m")
                     raise InputError(f"a depth at which the string fits ({named})", key=row.id, value=at) from None
         for (name, _), laid in self._laid.items():  # one workspace for all strings of a case
             solver = self._solvers[name]
@@ -232,14 +233,14 @@ class Forward:
         try:
             point, by = solve_with_changes(solvers[0], row.operation, row.rates, strings[0], changes)
         except InputError as error:  # as of a resolved string with too many segments
-            return self._failed(str(error))
+            return self._failed(error.message)
         if not point.answered:
-            return self._failed(f"{point.status}: {point.message}")
+            return self._failed(Message(f"{point.status}: {within(point.message)}"))
         slopes = np.zeros((2, len(steps)))
         slopes[:, self._by_string] = (by / steps[self._by_string][:, None]).T
         if not np.isfinite(slopes).all():
             return self._failed(f"{point.status}, and none with friction or mass a little larger")
-        doubt = "" if point.status == SteadyStatus.CONVERGED else f"{point.status}: {point.message}"
+        doubt = "" if point.status == SteadyStatus.CONVERGED else Message(f"{point.status}: {within(point.message)}")
         return StringLoads(np.array([point.hookload, point.surface_torque]), slopes, doubt=doubt, lift=point.lift)
 
     def gains(self, values: Array) -> Array:

@@ -20,6 +20,7 @@ from fctd.calibration.measured_file import (
 )
 from fctd.case.errors import InputError, naming
 from fctd.case.load import Case
+from fctd.case.message import quantity
 from fctd.case.operations import KINDS
 from fctd.case.tables.fields import Field
 from fctd.case.tables.readings import TORQUE_OF_STRING
@@ -82,5 +83,5 @@ def _check_depth(found: Measured, row: int, deepest: float) -> None:
     """Raise InputError for a row without a bit depth, or with one below the end of the hole, ``deepest`` [m]."""
     depth = found.number(row, DEPTH.key)
     if not depth <= deepest + _BELOW:
-        expected = "a number" if depth != depth else f"a depth in the hole, which ends at {deepest:g} m"
+        expected = "a number" if depth != depth else f"a depth in the hole, which ends at {quantity(deepest, 'm')}"
         raise found.rows.error(row, DEPTH.key, expected)

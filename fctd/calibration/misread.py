@@ -11,6 +11,7 @@ import numpy as np
 
 from fctd.calibration.forward import Evaluation, Forward
 from fctd.calibration.rows import Load, Range, Row
+from fctd.case.message import Message, joined, quantity
 
 # A reading that is carried over must differ from what the string then reads by this many standard deviations.
 MOVED: Final = 2.0
@@ -46,7 +47,7 @@ def misread(forward: Forward, fitted: Evaluation) -> dict[str, str]:
     for i, reading in enumerate(forward.readings):
         if sentence := _digit(reading.load, reading.range, float(fitted.value[i]), reading.noise):
             found.setdefault(forward.rows[reading.row].id, []).append(sentence)
-    return {name: "; ".join(sentences) for name, sentences in found.items()}
+    return {name: joined(sentences) for name, sentences in found.items()}
 
 
 def _stations(forward: Forward, fitted: Evaluation) -> list[_Station]:
@@ -56,7 +57,7 @@ def _stations(forward: Forward, fitted: Evaluation) -> list[_Station]:
         row = forward.rows[reading.row]
         if not row.has_string or np.isnan(reading.range.low):
             continue
-        label = f"{row.day}, {row.bit_depth:g} m" if row.day else f"{row.bit_depth:g} m"
+        label = f"{row.day}, {quantity(row.bit_depth, 'm')}" if row.day else quantity(row.bit_depth, "m")
         station = found.setdefault((row.day, row.string, row.bit_depth), _Station(label, row.bit_depth, {}))
         operation = f"{row.operation}, {'turning' if row.rates.spin else 'sliding'}"
         station.readings[operation, reading.load] = (reading.row, reading.range, float(fitted.value[i]), reading.noise)
@@ -72,7 +73,7 @@ def _carried_over(before: _Station, now: _Station) -> str:
     moved = [abs(now.readings[key][2] - before.readings[key][2]) / now.readings[key][3] for key in both]
     if not same or not max(moved) > MOVED:
         return ""
-    return f"all {len(both)} readings are those of {before.label}: carried over from there?"
+    return Message(f"all {len(both)} readings are those of {before.label}: carried over from there?")
 
 
 def _out_of_order(station: _Station, rows: Sequence[Row]) -> list[tuple[int, str]]:
@@ -89,8 +90,9 @@ def _out_of_order(station: _Station, rows: Sequence[Row]) -> list[tuple[int, str
         (k, low, noise), (other, high, _) = loads[lower], loads[upper]
         if low.low > high.high + MARGIN * noise:
             wrong = k if upper == "rotating" else other
-            one, two = f"{lower} weight of {_kilo(low)} kN", f"{upper} weight of {_kilo(high)} kN"
-            found.append((wrong, f"a {one} above the {two} at {station.label}: swapped or misread?"))
+            one = f"{lower} weight of {quantity(_kilo(low), 'kN', '.6g')}"
+            two = f"{upper} weight of {quantity(_kilo(high), 'kN', '.6g')}"
+            found.append((wrong, Message(f"a {one} above the {two} at {station.label}: swapped or misread?")))
     return found
 
 
@@ -103,8 +105,9 @@ def _digit(load: Load, read: Range, fitted: float, noise: float) -> str:
     ratio = middle / fitted
     why = "a dropped digit?" if ratio < 1 / _DIGIT else "a digit too many?" if ratio > _DIGIT else "misread?"
     name, unit = _NAMES[load]
-    return f"a {name} of {_kilo(read)} {unit} where the other rows let expect {1e-3 * fitted:.3g} {unit}: {why}"
+    found, fit = quantity(_kilo(read), unit, ".6g"), quantity(1e-3 * fitted, unit, ".3g")
+    return Message(f"a {name} of {found} where the other rows let expect {fit}: {why}")
 
 
-def _kilo(read: Range) -> str:
-    return f"{1e-3 * read.middle:.6g}"
+def _kilo(read: Range) -> float:
+    return 1e-3 * read.middle

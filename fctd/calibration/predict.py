@@ -20,6 +20,7 @@ from fctd.calibration.unknowns import Unknown
 from fctd.case.errors import InputError, Table
 from fctd.case.input_file import read_text
 from fctd.case.load import Case
+from fctd.case.message import frame_of
 from fctd.case.raw_case import checked
 from fctd.store.whole_file import whole_file
 
@@ -175,7 +176,7 @@ def predict_rows(
                 **_scores(values, bands, reading.range.middle, low, high, float(at.value[i])),
             }
         )  # fmt: skip
-    return pd.DataFrame(table)
+    return frame_of(table)
 
 
 def draw_rows(

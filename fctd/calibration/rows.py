@@ -23,6 +23,7 @@ from fctd.calibration.measured_file import (
 )
 from fctd.case.errors import InputError, naming
 from fctd.case.load import Case, load_case
+from fctd.case.message import quantity
 from fctd.case.operations import KINDS
 from fctd.case.tables.fields import Field
 from fctd.case.tables.readings import FLOW_IN, ROTATION_OF_DRIVE, TORQUE_OF_DRIVE
@@ -189,7 +190,9 @@ def _row(found: Measured, k: int, name: str, case: Case, *, measured: bool) -> R
     if operation in KINDS:
         top, bottom = case.depths
         if not top < depth <= bottom:
-            raise found.rows.error(k, DEPTH.key, f"a depth in the well, below {top:g} m and down to {bottom:g} m")
+            raise found.rows.error(
+                k, DEPTH.key, f"a depth in the well, below {quantity(top, 'm')} and down to {quantity(bottom, 'm')}"
+            )
         try:
             rates = steady_rates(case, operation, _given(speed), _given(rpm), _pumped(found, k, case))
         except InputError as error:

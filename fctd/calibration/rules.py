@@ -7,6 +7,7 @@ import numpy as np
 
 from fctd.calibration.rows import Row
 from fctd.case.load import Case
+from fctd.case.message import Message, quantity
 from fctd.model.operations import SteadyRates
 from fctd.steady.equilibrium import Solver
 
@@ -24,7 +25,9 @@ def left_out_by_rule(rows: Sequence[Row], strings: Mapping[str, Case]) -> dict[i
     stretches: dict[tuple[str, float], float] = {}
     for k, row in enumerate(rows):
         if row.locked_torque:
-            found[k] = f"the stroke ended with {1e-3 * row.locked_torque:g} kN·m locked in the string"
+            found[k] = Message(
+                f"the stroke ended with {quantity(1e-3 * row.locked_torque, 'kN·m')} locked in the string"
+            )
         elif row.has_string and not np.isnan(row.stroke) and not row.rates.spin:
             key = row.string, row.bit_depth
             if key not in stretches:
@@ -33,9 +36,9 @@ def left_out_by_rule(rows: Sequence[Row], strings: Mapping[str, Case]) -> dict[i
             if np.isnan(least):
                 found[k] = "the stretch at its reversal has no answer: the string cannot be moved both ways"
             elif row.stroke < least:
-                found[k] = (
-                    f"a stroke of {row.stroke:.3g} m, shorter than {STRETCHES:g} times the string's stretch at "
-                    f"reversal, {stretches[key]:.3g} m"
+                found[k] = Message(
+                    f"a stroke of {quantity(row.stroke, 'm', '.3g')}, shorter than {STRETCHES:g} times the string's "
+                    f"stretch at reversal, {quantity(stretches[key], 'm', '.3g')}"
                 )
     return found
 

@@ -18,6 +18,7 @@ from typing import Any, Final
 
 from pydantic import BaseModel, ConfigDict, ValidationInfo, model_validator
 
+from fctd.case.message import Message, within
 from fctd.case.text import printable
 
 _LONGEST_VALUE: Final = 80  # characters of a value shown in a message
@@ -53,11 +54,11 @@ class InputError(ValueError):
         more: Sequence[InputError] = (),
         lines: Sequence[str] = (),
     ) -> None:
-        super().__init__(expected)
+        super().__init__(Message(expected))
         self.file = file
         self.key = key
-        self.value = value
-        self.expected = expected
+        self.value = Message(value) if type(value) is str else value
+        self.expected = Message(expected)
         self.more = tuple(more)
         self.lines = tuple(lines)
 
@@ -74,9 +75,14 @@ class InputError(ValueError):
         return InputError(self.expected, key=key, value=self.value, file=self.file, more=more, lines=self.lines)
 
     def __str__(self) -> str:
+        return str(self.message)
+
+    @property
+    def message(self) -> Message:
+        """All of it as a sentence."""
         file = "" if self.file is None else f"{self.file}: "
-        line = printable(f"{file}{self._subject()}expected {self.expected}")
-        return "\n".join([line, *map(str, self.more), *map(printable, self.lines)])
+        line = printable(f"{file}{self._subject()}expected {within(self.expected)}")
+        return Message("\n".join([line, *(within(other.message) for other in self.more), *map(printable, self.lines)]))
 
     def _subject(self) -> str:
         if self.value is MISSING:
@@ -93,14 +99,14 @@ def naming(file: str | PathLike[str] | None) -> Iterator[None]:
         raise (error if file is None else error.in_file(file)) from error.__cause__
 
 
-class Computed(str):
-    """A value that the program computed: messages show it without quotes, so that its units can be converted."""
+class Computed(Message):
+    """A value that the program computed: messages show it without quotes."""
 
 
 def show(value: object) -> str:
     """A value as a case file writes it, cut to a readable length; a path is not cut, since its end matters most."""
     if isinstance(value, Computed):
-        return str(value)
+        return within(value)
     if isinstance(value, PathLike):
         return json.dumps(str(value), ensure_ascii=False)
     if _is_deep(value):

@@ -8,6 +8,7 @@ from pydantic import Field, StrictBool, model_validator
 
 from fctd.case import units
 from fctd.case.errors import InputError, Table
+from fctd.case.message import quantity
 from fctd.case.rheology import FlowSpec
 
 
@@ -52,7 +53,7 @@ class WindowSpec(Table):
     @model_validator(mode="after")
     def _check(self) -> Self:
         if self.fracture <= self.pore:
-            raise InputError(f"more than pore, {self.pore:g} kg/m^3", key="fracture")
+            raise InputError(f"more than pore, {quantity(self.pore, 'kg/m^3')}", key="fracture")
         return self
 
 
@@ -92,11 +93,15 @@ def _check_order(rows: Sequence[OutsideSpec], name: str) -> None:
         if above.to_md is None:
             raise InputError("a depth, which only the last row may omit", key=f"{name}[{i - 1}].to_md")
         if row.to_md is not None and row.to_md <= above.to_md:
-            raise InputError(f"more than {above.to_md:g} m, where the row above ends", key=f"{name}[{i}].to_md")
+            raise InputError(
+                f"more than {quantity(above.to_md, 'm')}, where the row above ends", key=f"{name}[{i}].to_md"
+            )
 
 
 def check_downwards(rows: Sequence[TemperatureSpec | WindowSpec], name: str) -> None:
     """Raise InputError for rows that do not run downwards."""
     for i, (above, row) in enumerate(pairwise(rows), start=1):
         if row.tvd <= above.tvd:
-            raise InputError(f"more than {above.tvd:g} m, the depth of the row above", key=f"{name}[{i}].tvd")
+            raise InputError(
+                f"more than {quantity(above.tvd, 'm')}, the depth of the row above", key=f"{name}[{i}].tvd"
+            )

@@ -12,6 +12,7 @@ import numpy as np
 
 from fctd.arrays import Array
 from fctd.case.errors import MISSING, InputError, nearest
+from fctd.case.message import Message, quantity, within
 from fctd.case.units import FRICTION, in_steps
 from fctd.case.wall import IntervalKind, IntervalSpec
 
@@ -249,10 +250,10 @@ def friction_sets(value: Any) -> list[FrictionSet]:
 def own_label(intervals: Sequence[IntervalSpec]) -> str:
     """The factors of a case as it stands: "0.25", "0.3/0.2", or "case's own: 0.2 down to 1500 m, 0.3 below"."""
     label = factors_label(intervals)
-    return label if label.replace(".", "").replace("/", "").isdecimal() else f"case's own: {label}"
+    return label if label.replace(".", "").replace("/", "").isdecimal() else Message(f"case's own: {within(label)}")
 
 
-def factors_label(intervals: Sequence[IntervalSpec]) -> str:
+def factors_label(intervals: Sequence[IntervalSpec]) -> Message:
     """The factors of intervals: "0.25", "0.2 down to 1500 m, 0.3/0.2 below", or of many intervals "0.11 to 0.16"."""
     ends: list[tuple[Pair, float]] = []  # factors, lower end
     for pair, interval in zip(pairs_of(intervals), intervals, strict=True):
@@ -260,14 +261,14 @@ def factors_label(intervals: Sequence[IntervalSpec]) -> str:
             ends.pop()
         ends.append((pair, interval.to_md))
     if len(ends) == 1:
-        return _short(ends[0][0])
+        return Message(_short(ends[0][0]))
     if len(ends) > _MOST_PARTS:
         along, around = ([getattr(pair, name) for pair, _ in ends] for name in ("along", "around"))
         if along == around:
-            return f"{min(along):g} to {max(along):g}"
-        return f"{min(along):g} to {max(along):g} along, {min(around):g} to {max(around):g} around"
-    parts = ", ".join(f"{_short(pair)} down to {to_md:g} m" for pair, to_md in ends[:-1])
-    return f"{parts}, {_short(ends[-1][0])} below"
+            return Message(f"{min(along):g} to {max(along):g}")
+        return Message(f"{min(along):g} to {max(along):g} along, {min(around):g} to {max(around):g} around")
+    parts = ", ".join(f"{_short(pair)} down to {quantity(to_md, 'm')}" for pair, to_md in ends[:-1])
+    return Message(f"{parts}, {_short(ends[-1][0])} below")
 
 
 def _pair(factor: Factor) -> Pair:

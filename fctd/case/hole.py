@@ -21,6 +21,7 @@ from fctd.case.errors import InputError, Table, exclusive, known_keys
 from fctd.case.file_names import FileName, beside_case
 from fctd.case.fluids import WindowSpec
 from fctd.case.input_warnings import InputWarning
+from fctd.case.message import quantity
 from fctd.case.surveys import doubts
 from fctd.case.surveys.form import SURVEY, ColumnKey, ColumnSpec, check_units
 from fctd.case.surveys.reading import read_survey
@@ -139,7 +140,10 @@ class WellboreSpec(Table):
                 raise InputError(f"{kind}, the kind of the whole wellbore", key=f"intervals[{i}].{other}")
         for i, (above, here) in enumerate(pairwise(self.intervals), start=1):
             if here.to_md <= above.to_md:
-                expected = f"a depth below the interval above, {above.to_md:g} m (wellbore.intervals[{i - 1}].to_md)"
+                expected = (
+                    f"a depth below the interval above, {quantity(above.to_md, 'm')} "
+                    f"(wellbore.intervals[{i - 1}].to_md)"
+                )
                 raise InputError(expected, key=f"intervals[{i}].to_md")
         return self
 

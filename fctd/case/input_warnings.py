@@ -3,6 +3,7 @@
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from fctd.case.message import Message, System, told
 from fctd.case.text import printable
 
 
@@ -19,8 +20,16 @@ class InputWarning:
     text: str
     remedy: str
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "text", Message(self.text))
+        object.__setattr__(self, "remedy", Message(self.remedy))
+
     def __str__(self) -> str:
-        return printable(f"{self.key}: {self.text}: {self.remedy}")
+        return self.told("si")
+
+    def told(self, units: System) -> str:
+        """The warning in a system of units."""
+        return printable(f"{self.key}: {told(self.text, units)}: {told(self.remedy, units)}")
 
     def as_metadata(self) -> dict[str, Any]:
         """The warning as metadata of a file have it."""

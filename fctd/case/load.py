@@ -24,6 +24,7 @@ from fctd.case.hole import WellboreSpec
 from fctd.case.input_file import read_toml
 from fctd.case.input_warnings import InputWarning
 from fctd.case.limits import LimitsSpec
+from fctd.case.message import quantity, within
 from fctd.case.operation_names import read_kind
 from fctd.case.operations import KINDS, Operation
 from fctd.case.raw_case import (
@@ -104,7 +105,7 @@ class Case(Table):
         for i, (before, here) in enumerate(pairwise(self.operations), start=1):
             if abs(here.start_md - before.end_md) > SAME_DEPTH:
                 raise InputError(
-                    f"{before.end_md:g} m, where the operation before ends (or leave it out)",
+                    f"{quantity(before.end_md, 'm')}, where the operation before ends (or leave it out)",
                     key=f"operations[{i}].{here.start_key}",
                 )
         densities = [component.density for component in self.string.components]
@@ -115,11 +116,14 @@ class Case(Table):
         for key, density in fluids.items():
             if density >= lightest:
                 of = f"string.components[{densities.index(lightest)}].density"
-                raise InputError(f"a density below the string's, {lightest:g} kg/m^3 ({of})", key=key)
+                raise InputError(f"a density below the string's, {quantity(lightest, 'kg/m^3')} ({of})", key=key)
         bed, end = self.datum.sea_bed, self.wellbore.intervals[-1].to_md
         if bed is not None and bed >= end:
-            expected = f"a sea bed above the end of the hole, {end:g} m, not {bed:g} m below the rotary table"
-            raise InputError(expected, key="datum.water_depth", value=f"{self.datum.water_depth:g} m")
+            expected = (
+                f"a sea bed above the end of the hole, {quantity(end, 'm')}, not {quantity(bed, 'm')} below the "
+                "rotary table"
+            )
+            raise InputError(expected, key="datum.water_depth", value=quantity(self.datum.water_depth or 0.0, "m"))
         check_downwards(self.temperature, "temperature")
         check_downwards(self.wellbore.window, "wellbore.window")
         if self.mud.float and self.bit.end not in (None, "float"):
@@ -178,7 +182,7 @@ class Case(Table):
         written = look_up(self._written.raw, "wellbore", "intervals", -1, "to_md")
         deepest = self.deepest
         whole = deepest == self.wellbore.intervals[-1].to_md
-        return written if whole and isinstance(written, str) else f"{deepest:.10g} m"
+        return written if whole and isinstance(written, str) else quantity(deepest, "m", ".10g")
 
     @property
     def shoes(self) -> list[float]:
@@ -230,7 +234,7 @@ class Case(Table):
                 return error  # about no key of a case
             if isinstance(written, str | int | float) and error.file is None:
                 of_pipe = key.endswith(".pipe") and key != error.key
-                expected = _OTHERS.sub(self._as_written, error.expected)
+                expected = _OTHERS.sub(self._as_written, within(error.expected))
                 expected = f"a diameter of {expected}, not {error.value}" if of_pipe else expected
                 return InputError(expected, key=key, value=written, more=error.more)
         return error
@@ -247,7 +251,7 @@ class Case(Table):
         for i, operation in enumerate(self.operations):
             for key in (operation.start_key, operation.end_key):
                 md = getattr(operation, key)
-                check_bit_depth(md, top, bottom, f"operations[{i}].{key}", f"{md:g} m")
+                check_bit_depth(md, top, bottom, f"operations[{i}].{key}", quantity(md, "m"))
 
 
 def with_friction(case: Case, friction: FrictionChoice | None) -> Case:
@@ -278,7 +282,9 @@ def check_bit_depth(md: float, top: float, bottom: float, key: str, value: objec
     """Raise InputError unless a bit depth lies below the top of the string and in the hole, all [m]."""
     if not top < md <= bottom + SAME_DEPTH:
         raise InputError(
-            f"a depth below string.top_md, {top:g} m, within survey and intervals, {bottom:g} m", key=key, value=value
+            f"a depth below string.top_md, {quantity(top, 'm')}, within survey and intervals, {quantity(bottom, 'm')}",
+            key=key,
+            value=value,
         )
 
 

@@ -9,6 +9,7 @@ from pydantic import model_validator
 
 from fctd.case import units
 from fctd.case.errors import InputError, Table
+from fctd.case.message import quantity
 
 
 class _Operation(Table):
@@ -56,7 +57,7 @@ class _Move(_Operation):
     def _check(self) -> Self:
         if (self.to_md - self.from_md) * self.direction <= 0:
             side = "below" if self.direction > 0 else "above"
-            raise InputError(f"a depth {side} from_md, {self.from_md:g} m", key="to_md")
+            raise InputError(f"a depth {side} from_md, {quantity(self.from_md, 'm')}", key="to_md")
         return self
 
 

@@ -7,6 +7,7 @@ from pydantic import Field, model_validator
 
 from fctd.case import units
 from fctd.case.errors import InputError, Table, exclusive
+from fctd.case.message import quantity
 from fctd.case.pipes.filling import STEEL, filled
 from fctd.case.pipes.grades import YieldStrength
 
@@ -28,7 +29,7 @@ class JointSpec(Table):
     @model_validator(mode="after")
     def _check(self) -> Self:
         if self.tool_joint_length > 0.25 * self.length:
-            raise InputError(f"at most a quarter of a joint of {self.length:g} m", key="tool_joint_length")
+            raise InputError(f"at most a quarter of a joint of {quantity(self.length, 'm')}", key="tool_joint_length")
         if self.tool_joint_inner is not None and self.tool_joint_inner >= self.tool_joint_diameter:
             raise InputError("a diameter below tool_joint_diameter", key="tool_joint_inner")
         return self
@@ -50,7 +51,11 @@ class FittingSpec(Table):
     @model_validator(mode="after")
     def _check(self) -> Self:
         if self.length > 0.25 * self.every:
-            raise InputError(f"at most a quarter of every, {self.every:g} m", key="length", value=f"{self.length:g} m")
+            raise InputError(
+                f"at most a quarter of every, {quantity(self.every, 'm')}",
+                key="length",
+                value=quantity(self.length, "m"),
+            )
         return self
 
 
@@ -180,12 +185,14 @@ class ComponentSpec(Table):
         if self.eccentricity >= 0.5 * self.outer_diameter:
             raise InputError("less than half of outer_diameter", key="eccentricity")
         if self.contact_diameter < self.outer_diameter:
-            raise InputError(f"at least outer_diameter, {self.outer_diameter:g} m", key="contact_diameter")
+            raise InputError(f"at least outer_diameter, {quantity(self.outer_diameter, 'm')}", key="contact_diameter")
         if self.joint is not None and self.joint.tool_joint_diameter <= self.outer_diameter:
-            raise InputError(f"more than outer_diameter, {self.outer_diameter:g} m", key="joint.tool_joint_diameter")
+            raise InputError(
+                f"more than outer_diameter, {quantity(self.outer_diameter, 'm')}", key="joint.tool_joint_diameter"
+            )
         if self.joint is not None and self.contact_diameter < self.joint.tool_joint_diameter:
             least = self.joint.tool_joint_diameter
-            raise InputError(f"at least joint.tool_joint_diameter, {least:g} m", key="contact_diameter")
+            raise InputError(f"at least joint.tool_joint_diameter, {quantity(least, 'm')}", key="contact_diameter")
         if self.contact == "point" and self.length is None:
             raise InputError("sleeve, for a component without a length", key="contact", value=self.contact)
         return self
@@ -201,8 +208,8 @@ class ComponentSpec(Table):
             for key in ("segments", "segment_length", "joint_segments"):
                 exclusive(self, name, key)
             if fittings.diameter <= self.contact_diameter:
-                expected = f"more than contact_diameter, {self.contact_diameter:g} m"
-                raise InputError(expected, key=f"{name}.diameter", value=f"{fittings.diameter:g} m")
+                expected = f"more than contact_diameter, {quantity(self.contact_diameter, 'm')}"
+                raise InputError(expected, key=f"{name}.diameter", value=quantity(fittings.diameter, "m"))
             if self.contact == "point":
                 raise InputError(f'"sleeve" beside {name}', key="contact", value=self.contact)
 

@@ -19,6 +19,7 @@ from pydantic_core import CoreSchema, core_schema
 
 from fctd.case import spellings
 from fctd.case.errors import Expects, InputError
+from fctd.case.message import Message, quantity, within
 from fctd.case.spellings import conversion as conversion  # results are converted back with it
 
 if TYPE_CHECKING:
@@ -167,11 +168,12 @@ class Number(Expects):
     def bounded(self) -> str:
         """The noun with its bounds: "a length above 0", "a speed above 0 and at most 10 m/s"."""
         bounds = {"above": self.above, "at least": self.at_least, "at most": self.at_most}
-        unit = f" {self.unit}" if self.unit else ""
         words = " and ".join(
-            f"{word} {limit:g}{unit if limit else ''}" for word, limit in bounds.items() if limit is not None
+            f"{word} {quantity(limit, self.unit) if limit and self.unit else f'{limit:g}'}"
+            for word, limit in bounds.items()
+            if limit is not None
         )
-        return f"{self.noun} {words}".strip()
+        return Message(f"{self.noun} {words}".strip())
 
     @property
     def expected(self) -> str:
@@ -182,7 +184,7 @@ class Number(Expects):
         """The value as a float; InputError unless it is a number (a boolean is not)."""
         if isinstance(value, bool) or not isinstance(value, Real):
             number = isinstance(value, str) and re.fullmatch(r"\s*[+-]?[\d.]+\s*", value)
-            raise InputError(f"{self.expected}, without quotes" if number else self.expected, value=value)
+            raise InputError(f"{within(self.expected)}, without quotes" if number else self.expected, value=value)
         try:
             return float(value)
         except OverflowError as error:  # an integer beyond the floats
@@ -193,14 +195,14 @@ class Number(Expects):
         number = self.read(value)
         if not math.isfinite(number):
             raise InputError(self.expected, value=value)
-        within = (
+        fits = (
             (self.above is None or number > self.above)
             and (self.at_least is None or number >= self.at_least)
             and (self.at_most is None or number <= self.at_most)
         )
-        if not within:
+        if not fits:
             guess = "" if isinstance(value, str) else unit_hint(number, self.likely_units)
-            raise InputError(self.bounded + guess, value=value)
+            raise InputError(within(self.bounded) + guess, value=value)
         return number
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
@@ -213,7 +215,7 @@ class Number(Expects):
         return {"type": "number"} | {name: limit for name, limit in bounds.items() if limit is not None}
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return self.json_schema | {"description": self.expected}
+        return self.json_schema | {"description": str(self.expected)}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -253,7 +255,7 @@ class Quantity(Number):
         try:
             written = spellings.split(value)
         except InputError as error:
-            raise InputError(f"{self.noun}, written {error.expected}", value=value) from error
+            raise InputError(f"{self.noun}, written {within(error.expected)}", value=value) from error
         except ArithmeticError as error:
             raise InputError(self.expected, value=value) from error
         try:

@@ -9,6 +9,7 @@ from pydantic import Field, StrictBool, model_validator
 
 from fctd.case import units
 from fctd.case.errors import InputError, Table
+from fctd.case.message import quantity
 from fctd.case.pipes.filling import casing_filled
 from fctd.case.pipes.grades import YieldStrength
 from fctd.mechanics.law_names import LAWS, NAMES
@@ -66,8 +67,8 @@ class IntervalSpec(Table):
     def _check(self) -> Self:
         if self.outer_diameter is not None:
             if self.outer_diameter <= self.diameter:
-                inner = f"more than the diameter inside, {self.diameter:g} m"
-                raise InputError(inner, key="outer_diameter", value=f"{self.outer_diameter:g} m")
+                inner = f"more than the diameter inside, {quantity(self.diameter, 'm')}"
+                raise InputError(inner, key="outer_diameter", value=quantity(self.outer_diameter, "m"))
             if self.kind == "open":
                 raise InputError('"cased" beside casing or outer_diameter', key="kind", value=self.kind)
         if (self.outer_diameter is None) != (self.yield_strength is None):
@@ -111,7 +112,9 @@ class TortuositySpec(Table):
     @model_validator(mode="after")
     def _check(self) -> Self:
         if self.amplitude > self.wavelength / STEEPEST:
-            raise InputError(f"at most 1/{STEEPEST} of wavelength, {self.wavelength / STEEPEST:g} m", key="amplitude")
+            raise InputError(
+                f"at most 1/{STEEPEST} of wavelength, {quantity(self.wavelength / STEEPEST, 'm')}", key="amplitude"
+            )
         return self
 
 
@@ -180,5 +183,5 @@ def check_friction(contact: ContactSpec, intervals: Sequence[IntervalSpec], cake
             if cake is None:
                 raise InputError(f"a table with the friction of the cake, beside {at}.overbalance", key="mud.cake")
             if cake.thickness >= 0.5 * interval.diameter:
-                expected = f"less than the radius of the hole, {0.5 * interval.diameter:g} m"
-                raise InputError(expected, key="mud.cake.thickness", value=f"{cake.thickness:g} m")
+                expected = f"less than the radius of the hole, {quantity(0.5 * interval.diameter, 'm')}"
+                raise InputError(expected, key="mud.cake.thickness", value=quantity(cake.thickness, "m"))

@@ -18,6 +18,7 @@ from fctd.calibration.fit import Loss
 from fctd.calibration.predict import coverage, posterior_file
 from fctd.calibration.result import Calibration
 from fctd.calibration.unknowns import NAMES
+from fctd.case.message import Message, told, within
 from fctd.case.text import counted, printable
 from fctd.case.units import conversion
 from fctd.cli.job import Job, grid, right, rows_of
@@ -37,7 +38,7 @@ from fctd.cli.options import (
 from fctd.cli.pictures import DRAWN, TABLES
 from fctd.cli.steady import file_option, metadata_of_case
 from fctd.results.table_files import write_table
-from fctd.results.unit_systems import System, reworded, shown_unit
+from fctd.results.unit_systems import System, shown_unit
 
 # Mean square of the residuals over the noise, by degree of freedom, beyond which the intervals are doubtful.
 MISFIT = 2.0
@@ -152,9 +153,9 @@ def notes_of(found: Calibration) -> Iterator[tuple[str, str]]:
     if found.absorbed:
         yield "flow_absorbed", f"warning: {found.absorbed}"
     for name, doubt in [*found.misread.items(), *found.doubts.items()]:
-        yield "doubt", f"with care: {name}: {doubt}"
+        yield "doubt", Message(f"with care: {name}: {within(doubt)}")
     for name, reason in found.left_out.items():
-        yield "not_fitted", f"not fitted: {name}: {reason}"
+        yield "not_fitted", Message(f"not fitted: {name}: {within(reason)}")
 
 
 def print_calibration(found: Calibration, units: System) -> None:
@@ -196,7 +197,7 @@ def print_calibration(found: Calibration, units: System) -> None:
         kept = f"; kept: friction {max(scores, key=lambda name: scores[name])}" if found.scores else ""
         screen.print(f"score of the {days}, each left out (log density): {listed}{kept}", soft_wrap=True)
     for _, sentence in notes_of(found):
-        messages.print(printable(reworded(sentence, units)), soft_wrap=True)
+        messages.print(printable(told(sentence, units)), soft_wrap=True)
     if found.predicted is not None:
         print_prediction(found.predicted, units)
 
@@ -245,7 +246,7 @@ def print_prediction(table: pd.DataFrame, units: System) -> None:
     for name, reason in (
         table[table["reason"] != "none"].drop_duplicates("id")[["id", "reason"]].itertuples(index=False)
     ):
-        messages.print(printable(f"no prediction: {name}: {reworded(reason, units)}"), soft_wrap=True)
+        messages.print(printable(f"no prediction: {name}: {told(reason, units)}"), soft_wrap=True)
     counts = coverage(table)
     if counts["inside95"][1]:
         half, most = (f"{got} of {of}" for got, of in counts.values())

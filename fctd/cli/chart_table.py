@@ -9,6 +9,7 @@ import numpy as np
 from rich.box import SIMPLE_HEAD
 from rich.table import Column, Table
 
+from fctd.case.message import Message, told, within
 from fctd.case.text import counted, printable
 from fctd.cli.options import messages, screen
 from fctd.plots.loads import LOAD_COLUMNS, Load
@@ -17,7 +18,7 @@ from fctd.results.columns import Column as ShownColumn
 from fctd.results.notes import MEANINGS
 from fctd.results.series import FRICTION_LABEL, in_words
 from fctd.results.status import SteadyStatus
-from fctd.results.unit_systems import System, reworded, shown
+from fctd.results.unit_systems import System, shown
 from fctd.steady.torque_drag import Row
 
 T = TypeVar("T")
@@ -35,7 +36,7 @@ def print_chart(rows: list[Row], name: str, units: System, load: Load) -> None:
     units_of = {column.name: shown(column.name, units) for column in columns}
     series: dict[tuple[str, str], list[Row]] = {}
     for row in rows:
-        series.setdefault((row["operation"], reworded(row[FRICTION_LABEL], units)), []).append(row)
+        series.setdefault((row["operation"], told(row[FRICTION_LABEL], units)), []).append(row)
     frictions = list(dict.fromkeys(friction for _, friction in series))
     fan = len(frictions) > 1  # one set of factors, which may be a long text, stands above the table
     screen.print(printable(name if fan else f"{name}; {in_words(frictions[0])}"), style="bold", soft_wrap=True)
@@ -67,7 +68,7 @@ def print_chart(rows: list[Row], name: str, units: System, load: Load) -> None:
     for (operation, friction), of in series.items():
         name = f"{operation}, friction {friction}" if fan else operation
         for line in exceptions(of, depth.factor, depth.label):
-            messages.print(reworded(f"{name}: {line}", units), soft_wrap=True)
+            messages.print(f"{name}: {told(line, units)}", soft_wrap=True)
 
 
 def spread(items: Sequence[T], most: int) -> list[T]:
@@ -100,19 +101,19 @@ def _buckled(row: Row, factor: float) -> str:
     return "–" if np.isnan(first) else f"{row['buckling']} {first:.0f}–{last:.0f}"
 
 
-def exceptions(rows: list[Row], factor: float, label: str) -> list[str]:
+def exceptions(rows: list[Row], factor: float, label: str) -> list[Message]:
     """The runs of rows of one series that are not converged, and those with the same note, a line each."""
     depths = [row["bit_depth_m"] * factor for row in rows]
     reasons = {row["status"]: row["reason"] for row in rows}  # the last, at the greatest depth, of each status
     lines = [
-        f"{status} at {where}: {reasons[status]}"
+        Message(f"{status} at {where}: {within(reasons[status])}")
         for status, where in _runs([row["status"] for row in rows], depths, label)
         if status != SteadyStatus.CONVERGED
     ]
     for code, meaning in MEANINGS.items():
         noted = [code in row["notes"].split(", ") for row in rows]
         lines += [
-            f"note {code} at {where}: {meaning.headline}: {meaning.remedy}"
+            Message(f"note {code} at {where}: {meaning.headline}: {meaning.remedy}")
             for has, where in _runs(noted, depths, label)
             if has
         ]

@@ -7,6 +7,7 @@ import numpy as np
 from rich.box import SIMPLE_HEAD
 from rich.table import Column, Table
 
+from fctd.case.message import told
 from fctd.case.operations import KINDS
 from fctd.case.text import printable
 from fctd.cli.chart_table import cell, counts_of, exceptions, explain, spread
@@ -16,7 +17,7 @@ from fctd.plots.loads import LOAD_COLUMNS, NAMES, TORQUE, Load
 from fctd.results.columns import COLUMNS, DEPTH
 from fctd.results.series import FRICTION_LABEL
 from fctd.results.status import SteadyStatus
-from fctd.results.unit_systems import System, reworded, shown
+from fctd.results.unit_systems import System, shown
 from fctd.steady.comparison import Comparison
 from fctd.steady.torque_drag import Row
 
@@ -53,13 +54,13 @@ def print_comparison(found: Comparison, units: System, load: Load) -> None:
         for (operation, friction), at_depths in keys.items():
             words = f"{printable(name)}, {operation}{f', friction {friction}' if friction else ''}"
             for line in exceptions(list(at_depths.values()), metre.factor, metre.label):
-                messages.print(reworded(f"{words}: {line}", units), soft_wrap=True)
+                messages.print(f"{words}: {told(line, units)}", soft_wrap=True)
 
 
 def _by_depth(rows: Sequence[Row], units: System, *, fan: bool) -> ByDepth:
     found: ByDepth = {}
     for row in rows:
-        friction = reworded(row[FRICTION_LABEL], units) if fan else ""
+        friction = told(row[FRICTION_LABEL], units) if fan else ""
         found.setdefault((row["operation"], friction), {})[row[DEPTH.name]] = row
     return found
 

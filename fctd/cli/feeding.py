@@ -8,11 +8,12 @@ from fctd import plots
 from fctd.case.errors import InputError
 from fctd.case.friction import pairs_of
 from fctd.case.load import Case
+from fctd.case.message import Message, told
 from fctd.case.operations import KINDS
 from fctd.cli.steady import file_option
 from fctd.model.operations import SteadyRates
 from fctd.results.buckling import NOT_BUCKLED
-from fctd.results.unit_systems import System, reworded
+from fctd.results.unit_systems import System
 from fctd.steady.steady_string import Equilibrium
 
 OPTION: Final = "--plot-feeding"
@@ -47,7 +48,7 @@ def check_feeding(path: Path | None, case: Case, rates: SteadyRates) -> None:
 def draw_feeding(path: Path, point: Equilibrium, units: System, warnings: Sequence[str]) -> list[Path]:
     """Write the picture of a string that was fed; returns the file.  Raises InputError for one that was not."""
     if not point.fed:
-        raise InputError(reworded(_lacking(point), units), key=OPTION, value=path)
+        raise InputError(told(Message(_lacking(point)), units), key=OPTION, value=path)
     return plots.save(plots.feeding_figure(point, units, warnings=warnings), path)
 
 

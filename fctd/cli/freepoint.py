@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 import typer
 
+from fctd.case.message import told
 from fctd.case.units import FORCE, LENGTH, TORQUE
 from fctd.cli.base_command import Silent
 from fctd.cli.job import Job, rows_of
@@ -18,7 +19,6 @@ from fctd.cli.options import (
 )
 from fctd.cli.quantities import BIT_DEPTH, TOTAL_DEPTH, Given, QuantityOption, quantity, si
 from fctd.cli.steady import DEPTH_HELP, file_option
-from fctd.results.unit_systems import reworded
 from fctd.steady.free_point import STRETCH, free_point
 
 if TYPE_CHECKING:
@@ -101,7 +101,7 @@ def _lines(job: Job, row: dict[str, Any]) -> list[str]:
         arrived = ("first_arrived_N_m", "last_arrived_N_m")
     lines = [f"{row['by']}: {moved} by {load} more than {first}, bit at {words('bit_depth_m')}"]
     if np.isnan(row["free_point_md_m"]):
-        lines.append(f"  no free point: {reworded(row['reason'], job.units)}")
+        lines.append(f"  no free point: {told(row['reason'], job.units)}")
     else:
         lines.append(f"  free point at {words('free_point_md_m')}, {words('per_percent_m')} deeper for 1 % more of it")
         lines.append(f"  there the load grows from {words(arrived[0])} to {words(arrived[1])}")

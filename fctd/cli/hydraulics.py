@@ -10,6 +10,7 @@ from rich.table import Column, Table
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case, naming_file
+from fctd.case.message import frame_of
 from fctd.case.text import counted, printable
 from fctd.case.units import DENSITY, FLOW, LENGTH, MOST_FLOW
 from fctd.cli.check import facts_table
@@ -111,7 +112,7 @@ def hydraulics_command(
     import pandas as pd  # slow to import
 
     solved = [one for one in found if isinstance(one, Circulation)]
-    table = pd.DataFrame([one.summary() if isinstance(one, Circulation) else one for one in found])
+    table = frame_of([one.summary() if isinstance(one, Circulation) else one for one in found])
 
     def draw(path: Path) -> list[Path]:
         from fctd.plots.flow import losses_panels

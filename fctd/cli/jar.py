@@ -7,13 +7,14 @@ import numpy as np
 import typer
 from rich.table import Column
 
+from fctd.case.message import told
 from fctd.case.units import FORCE
 from fctd.cli.base_command import Silent
 from fctd.cli.job import Job, grid, right, rows_of
 from fctd.cli.options import CaseFile, Friction, Overrides, Strict, Units, screen
 from fctd.cli.quantities import BIT_DEPTH, TOTAL_DEPTH, Given, QuantityOption, is_number, quantity, several
 from fctd.cli.steady import DEPTH_HELP, StuckAt, file_option
-from fctd.results.unit_systems import reworded, shown
+from fctd.results.unit_systems import shown
 from fctd.steady.jar import UP, jar_forces
 
 if TYPE_CHECKING:
@@ -86,5 +87,5 @@ def _print(job: Job, table: "pd.DataFrame") -> None:
     job.say(
         "a force at the jar is the tension there, below 0 a push; over free is the hook load above that of the free "
         "string; what running pumps add at a jar is left out",
-        *(f"{row['direction']}: {reworded(row['reason'], units)}" for row in rows if row["reason"] != "none"),
+        *(f"{row['direction']}: {told(row['reason'], units)}" for row in rows if row["reason"] != "none"),
     )

@@ -16,6 +16,7 @@ from rich.table import Column, Table
 from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
 from fctd.case.load import Case
+from fctd.case.message import told
 from fctd.case.text import printable
 from fctd.cli.options import changes_of, finish, messages, print_written, read_case, refuse_sources, screen, tell
 from fctd.cli.pictures import PICTURES, TABLES, File, check_files
@@ -24,7 +25,7 @@ from fctd.cli.steady import DEPTHS_HELP, in_units, metadata_of, metadata_of_case
 from fctd.results.differences import in_a_row
 from fctd.results.notes import meanings_of
 from fctd.results.table_files import write_table
-from fctd.results.unit_systems import System, in_words, reworded, shown
+from fctd.results.unit_systems import System, in_words, shown
 from fctd.store.tables import Rows
 
 if TYPE_CHECKING:
@@ -87,7 +88,7 @@ class Job:
             new = [warning for warning in found if (case.file, str(warning)) not in known]
             tell(case, new, strict=self.strict, units=self.units)
             known.update((case.file, str(warning)) for warning in found)
-            for text in dict.fromkeys(reworded(str(warning), self.units) for warning in found):
+            for text in dict.fromkeys(warning.told(self.units) for warning in found):
                 owners.setdefault(text, []).append(name)
         every = len(self.cases)
         self.told = [text if len(of) == every else f"{text} ({in_a_row(of)})" for text, of in owners.items()]
@@ -184,8 +185,8 @@ class Job:
 
     def say_reasons(self, table: "pd.DataFrame") -> None:
         """Print why rows have no numbers."""
-        for reason, of in table[table["reason"] != "none"].groupby("reason", sort=False):
-            self.say(f"at {self.depths_in_words(of)}: {reworded(str(reason), self.units)}")
+        for _, of in table[table["reason"] != "none"].groupby("reason", sort=False):
+            self.say(f"at {self.depths_in_words(of)}: {told(of['reason'].iloc[0], self.units)}")
 
 
 def rows_of(table: "pd.DataFrame", most: int = 0, also: Iterable[int] = ()) -> list[Row]:

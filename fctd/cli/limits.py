@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Final
 import numpy as np
 from rich.table import Column, Table
 
+from fctd.case.message import told
 from fctd.case.text import printable
 from fctd.cli.job import Depths, Job, grid, rows_of
 from fctd.cli.options import CaseFile, Friction, Overrides, Quiet, Strict, Units, screen
@@ -21,7 +22,7 @@ from fctd.cli.steady import (
     read_drive,
     read_kinds,
 )
-from fctd.results.unit_systems import System, reworded, shown
+from fctd.results.unit_systems import System, shown
 from fctd.steady.margin_table import AT_STUCK, USUAL, limits_of
 from fctd.steady.margins import FATIGUE, LACKING, MEANINGS, OVERPULL, SET_DOWN, SLIPS, TORQUE
 
@@ -102,12 +103,12 @@ def _print(job: Job, table: "pd.DataFrame") -> None:
         job.say(f"stuck at {where}: what is left counts from the free string with its bit below")
     job.say("hook loads are those of the string alone, without the block", *_bending(job, table))
     said = table[table["reason"] != "none"]
-    for (operation, limit, reason), of in said.groupby(["operation", "limit", "reason"], sort=False):
+    for (operation, limit, _), of in said.groupby(["operation", "limit", "reason"], sort=False):
         depths = [f"{depth * metre.factor:.0f}" for depth in of["bit_depth_m"]]
         span = depths[0] if len(depths) == 1 else f"{depths[0]} to {depths[-1]}"
         at = f"{operation} at {span} {metre.label} ({len(of)} of {table['bit_depth_m'].nunique()})"
         what = "" if limit == "none" else f", {limit}"
-        job.say(f"{at}{what}: {reworded(str(reason), units)}")
+        job.say(f"{at}{what}: {told(of['reason'].iloc[0], units)}")
 
 
 def _table(of: "pd.DataFrame", columns: Sequence[str], units: System) -> Table:

@@ -12,6 +12,7 @@ from fctd import plots
 from fctd.case.errors import InputError, naming
 from fctd.case.friction import parse_frictions
 from fctd.case.load import naming_file
+from fctd.case.message import told
 from fctd.case.tables.headers import parse_choices
 from fctd.case.text import counted, printable
 from fctd.cli import quantities
@@ -39,7 +40,7 @@ from fctd.monitoring.roadmap import FAN
 from fctd.monitoring.series import read_series
 from fctd.monitoring.text_series import Tail
 from fctd.results.table_files import write_table
-from fctd.results.unit_systems import System, reworded, shown
+from fctd.results.unit_systems import System, shown
 from fctd.store.origin import versions
 
 SCREEN_ROWS = 30
@@ -172,7 +173,7 @@ def _follow(watch: Monitor, tail: Tail, poll: float, units: System, drawing: Dra
 
 def _print_alarms(alarms: list[Alarm], units: System) -> None:
     for alarm in alarms:
-        screen.print(f"alarm: {reworded(alarm.sentence, units)}", soft_wrap=True, style="bold")
+        screen.print(f"alarm: {told(alarm.sentence, units)}", soft_wrap=True, style="bold")
 
 
 def _end(job: Job, watch: Monitor, drawing: Drawing | None, *, interrupted: bool = False) -> None:

@@ -5,7 +5,8 @@ from functools import wraps
 from typing import ParamSpec, TypeVar
 
 from fctd.case.errors import InputError
-from fctd.results.unit_systems import System, reworded
+from fctd.case.message import told
+from fctd.results.unit_systems import System
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -34,8 +35,8 @@ def naming_options(command: Callable[P, R], others: Mapping[str, str] | None = N
 def _told(error: InputError, others: Mapping[str, str], units: System) -> InputError:
     """The error with the option as its key, without the case file where that does not matter, and in the units."""
     key = OPTIONS.get(error.key) or others.get(error.key) or error.key
-    value = reworded(error.value, units) if error.key in others and isinstance(error.value, str) else error.value
+    value = told(error.value, units) if error.key in others and isinstance(error.value, str) else error.value
     return InputError(
-        reworded(error.expected, units), key=key, value=value, file=None if error.key in OPTIONS else error.file,
+        told(error.expected, units), key=key, value=value, file=None if error.key in OPTIONS else error.file,
         more=[_told(other, others, units) for other in error.more], lines=error.lines,
     )  # fmt: skip

@@ -12,11 +12,12 @@ from fctd.case.errors import InputError
 from fctd.case.friction import parse_frictions
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case, load_case
+from fctd.case.message import told
 from fctd.case.raw_case import parse_override
 from fctd.case.text import printable, printable_lines
 from fctd.results.notes import Note
 from fctd.results.tables import own_files
-from fctd.results.unit_systems import System, reworded
+from fctd.results.unit_systems import System
 from fctd.store.tables import table_files
 from fctd.store.whole_file import check_file
 from fctd.store.whole_folder import repair
@@ -126,14 +127,14 @@ def tell(case: Case, warnings: Sequence[InputWarning], *, strict: bool, units: S
 
     Returns their texts, for pictures.
     """
-    told = [reworded(str(warning), units) for warning in warnings]
-    for text in told:
+    lines = [warning.told(units) for warning in warnings]
+    for text in lines:
         messages.print(f"warning: {printable(str(case.file))}: {text}", soft_wrap=True)
     if strict and warnings:
         codes = ", ".join(sorted({warning.code for warning in warnings}))
         messages.print(f"strict: warnings are errors ({codes}); nothing is computed", soft_wrap=True)
         raise typer.Exit(FAILED)
-    return told
+    return lines
 
 
 def warn(path: Path, text: str) -> None:
@@ -153,7 +154,7 @@ def finish(acceptable: bool, codes: Iterable[str], strict: bool) -> None:
 def print_notes(notes: Iterable[Note], units: System = "si") -> None:
     """Print notes, a line each."""
     for note in notes:
-        messages.print(f"note: {reworded(str(note), units)}", soft_wrap=True)
+        messages.print(f"note: {note.told(units)}", soft_wrap=True)
 
 
 def read_share(text: str, key: str) -> float:
@@ -204,7 +205,7 @@ def refuse_source_files(case: Case, paths: Iterable[Path], key: str, others: Ite
 
 def print_status(status: str, message: str, units: System = "si") -> None:
     """Print how a computation ended and why, on standard error."""
-    text = printable(reworded(message, units))
+    text = printable(told(message, units))
     messages.print(Text.assemble((status, "bold"), f": {text}"), soft_wrap=True)
 
 

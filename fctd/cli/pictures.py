@@ -9,6 +9,7 @@ import typer
 
 from fctd import plots  # its modules, and what they need, are imported where a picture is drawn
 from fctd.case.errors import InputError
+from fctd.case.message import frame_of
 from fctd.cli.options import check_target
 from fctd.plots.loads import ChartLook, Compared, Load
 from fctd.plots.tracks import SideForce
@@ -82,9 +83,7 @@ def draw_chart(
     refresh: float | None = None,
 ) -> list[Path]:
     """Write a chart; the arguments are those of ``chart_figure``, and of ``save_page``.  Returns the files."""
-    import pandas as pd  # slow to import
-
-    chart = pd.DataFrame(chart)
+    chart = frame_of(chart)
     if path.suffix.lower() == PAGE:
         return plots.save_page(plots.chart_page(chart, units, case, look), path, refresh)
     return plots.save(plots.chart_figure(chart, units, case, look), path)

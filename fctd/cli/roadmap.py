@@ -5,6 +5,7 @@ from pathlib import Path
 
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionSet
+from fctd.case.message import Message, told, within
 from fctd.case.text import printable
 from fctd.cli.job import Job
 from fctd.cli.options import messages
@@ -14,7 +15,7 @@ from fctd.model.depths import usual_depths
 from fctd.monitoring.monitor import Monitor
 from fctd.monitoring.roadmap import Roadmap, roadmap
 from fctd.plots.loads import ChartLook
-from fctd.results.unit_systems import System, reworded
+from fctd.results.unit_systems import System
 
 DEPTHS = 40  # of the curves without --depths
 REFRESH = 10.0  # time after which a page that is still being drawn reloads itself [s]
@@ -40,10 +41,10 @@ class Drawing:
 
     def write(self, watch: Monitor, refresh: float | None = None) -> list[Path]:
         """Replace the file as a whole; refresh : time after which a page reloads itself [s].  Returns the file."""
-        lines = [*self.road.told(watch.found), *(f"alarm: {alarm.sentence}" for alarm in watch.alarms)]
+        lines = [*self.road.told(watch.found), *(Message(f"alarm: {within(alarm.sentence)}") for alarm in watch.alarms)]
         look = ChartLook(
             rates=self.road.rates, measured=self.road.points(watch.found), warnings=self.warnings,
-            margins=self.road.margins, told=[reworded(line, self.units) for line in lines],
+            margins=self.road.margins, told=[told(line, self.units) for line in lines],
         )  # fmt: skip
         return draw_chart(self.path, self.road.rows, self.units, self.road.chart.case, look, refresh)
 

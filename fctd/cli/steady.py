@@ -7,6 +7,7 @@ import typer
 
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case
+from fctd.case.message import frame_of
 from fctd.case.operation_names import USUAL, kinds_of, split_names
 from fctd.case.operations import KINDS
 from fctd.case.units import FLOW, LENGTH, MOST_FLOW, ROTATION, SPEED
@@ -119,11 +120,7 @@ def print_segments(case: Case, bit_depth: float, units: System) -> None:
 
 
 def in_units(units: System, table: "pd.DataFrame | Rows") -> "pd.DataFrame | Rows":
-    if units == "si":
-        return table
-    import pandas as pd  # slow to import
-
-    return in_field_units(pd.DataFrame(table))
+    return table if units == "si" else in_field_units(frame_of(table))
 
 
 def metadata_of(

@@ -9,6 +9,7 @@ import typer
 from rich.table import Column, Table
 
 from fctd.case.errors import InputError
+from fctd.case.message import told
 from fctd.case.units import SPEED
 from fctd.cli.check import facts_table
 from fctd.cli.hydraulics import Beside, read_eccentricity
@@ -19,7 +20,7 @@ from fctd.cli.quantities import TO_TOTAL_DEPTH, Given, QuantityOption, quantity,
 from fctd.cli.steady import file_option
 from fctd.hydraulics.surge import ENDS, FASTEST, TRIPS, fastest_trips, surge_pressures
 from fctd.results.case_facts import flow_curves
-from fctd.results.unit_systems import System, reworded, shown
+from fctd.results.unit_systems import System, shown
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -134,6 +135,6 @@ def _table(of: "pd.DataFrame", columns: dict[str, str], last: str, units: System
     """Columns of a table and a last one of words, at evenly spread rows where they are many."""
     table = grid(*headed(columns, units), Column("" if last == "reason" else last, overflow="fold"))
     for row in rows_of(of, SCREEN_ROWS):
-        words = "" if row[last] == "none" else reworded(str(row[last]), units)
+        words = "" if row[last] == "none" else told(row[last], units)
         table.add_row(*numbers(row, columns, units), words)
     return table

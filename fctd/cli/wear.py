@@ -7,6 +7,7 @@ import numpy as np
 import typer
 
 from fctd.case.errors import InputError
+from fctd.case.message import told
 from fctd.case.text import counted, printable
 from fctd.case.units import LENGTH, TIME
 from fctd.cli.job import Job, depths_option, grid, right, rows_of
@@ -14,7 +15,7 @@ from fctd.cli.options import CaseFile, Friction, Overrides, Quiet, Strict, Units
 from fctd.cli.pictures import PICTURE_HELP, draw_panels
 from fctd.cli.quantities import PENETRATION, TO_TOTAL_DEPTH, Bare, Given, QuantityOption, quantity, si
 from fctd.cli.steady import Rpm, file_option
-from fctd.results.unit_systems import System, in_words, reworded, shown
+from fctd.results.unit_systems import System, in_words, shown
 from fctd.steady.wear import STEP, TURNING, USUAL_FACTORS, casing_wear
 
 if TYPE_CHECKING:
@@ -136,7 +137,7 @@ def _facts(table: "pd.DataFrame", units: System) -> list[str]:
     if doubted := table.attrs["doubted"]:
         last = max(doubted)
         place = in_words(last, "bit_depth_m", units)
-        words = reworded(doubted[last], units)
+        words = told(doubted[last], units)
         lines.append(f"the string is doubtful at {counted(len(doubted), 'bit depth')}, the last {place}: {words}")
     return lines
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.load import Case, check_bit_depth, naming_file
+from fctd.case.message import Message, frame_of, quantity, within
 from fctd.case.rheology import Rheology
 from fctd.case.units import FLOW, FLOW_UNITS, MOST_FLOW, Number, Quantity
 from fctd.hydraulics.channel import Channel, channel_of, has_flow_curve
@@ -276,11 +277,17 @@ def circulations(
     for flow in flows:
         for depth in bit_depths:
             try:
-                check_bit_depth(depth, *case.depths, "bit_depths", f"{depth:g} m")
+                check_bit_depth(depth, *case.depths, "bit_depths", quantity(depth, "m"))
                 found.append(circulation(case, flow, depth, eccentricity, cuttings))
             except InputError as error:
                 unfit.append(error)
-                found.append({"flow_m3_s": flow, "bit_depth_m": depth, "reason": f"not_possible: {error}"})
+                found.append(
+                    {
+                        "flow_m3_s": flow,
+                        "bit_depth_m": depth,
+                        "reason": Message(f"not_possible: {within(error.message)}"),
+                    }
+                )
             if progress is not None:
                 progress(len(found), len(flows) * len(bit_depths))
     if len(unfit) == len(found):
@@ -312,14 +319,12 @@ def hydraulics_of(
         >>> round(lost["standpipe_Pa"][0] / 1e5)
         186
     """
-    import pandas as pd  # slow to import
-
     with naming_file(case):
         given = [flow] if isinstance(flow, str | float | int) else list(flow)
         flows = [_flow(one) for one in given]
         depths = depths_of(bit_depths, case, "bit_depths") if np.size(bit_depths) else [case.deepest]
         found = circulations(case, flows, depths, eccentricity, cuttings)
-        return pd.DataFrame([of.summary() if isinstance(of, Circulation) else of for of in found])
+        return frame_of([of.summary() if isinstance(of, Circulation) else of for of in found])
 
 
 def _flow(value: float | str) -> float:

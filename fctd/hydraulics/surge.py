@@ -13,6 +13,7 @@ from fctd.arrays import Array
 from fctd.case import units
 from fctd.case.errors import InputError
 from fctd.case.load import Case, check_bit_depth, naming_file
+from fctd.case.message import Message, frame_of, quantity, within
 from fctd.case.operation_names import kinds_of
 from fctd.case.operations import KINDS
 from fctd.case.units import SPEED, LikelyUnit, argument, unit_hint
@@ -120,14 +121,12 @@ def surge_pressures(
         >>> round(float(run_in["surge_Pa"].iloc[0]) / 1e5, 1)
         11.5
     """
-    import pandas as pd  # slow to import
-
     with naming_file(case):
         rates = [argument(speed, SPEED, "speeds") for speed in speeds]
         for speed, rate in zip(speeds, rates, strict=True):
             if not 0 <= rate <= units.FASTEST:
                 hint = unit_hint(rate, _A_MINUTE)
-                raise InputError(f"a speed of 0 to {units.FASTEST:g} m/s{hint}", key="speeds", value=speed)
+                raise InputError(f"a speed of 0 to {quantity(units.FASTEST, 'm/s')}{hint}", key="speeds", value=speed)
         asked = _asked(case, bit_depths, operation, end, eccentricity)
         rows: list[Row] = []
         for trips, depth, reason in _laid(case, *asked, progress):
@@ -136,7 +135,7 @@ def surge_pressures(
                 for speed in rates:
                     row = {"operation": kind, "end": one, "speed_m_s": speed, "bit_depth_m": depth}
                     rows.append(row | (_moved(trips[k], speed) if trips else {}) | {"reason": reason})
-    return pd.DataFrame(rows)
+    return frame_of(rows)
 
 
 def fastest_trips(
@@ -161,8 +160,6 @@ def fastest_trips(
         >>> round(float(fctd.fastest_trips(case, [3000], "trip_out", "closed")["fastest_m_s"].iloc[0]), 2)
         0.64
     """
-    import pandas as pd  # slow to import
-
     with naming_file(case):
         if not case.wellbore.window:
             raise InputError("rows of tvd, pore and fracture, within which a trip stays", key="wellbore.window")
@@ -175,7 +172,7 @@ def fastest_trips(
                 speed, md, why = trips[k].fastest(hoist) if trips else (np.nan, np.nan, reason)
                 row = {"operation": kind, "end": one, "bit_depth_m": depth, "fastest_m_s": speed, "md_m": md}
                 rows.append(row | {"time_s": np.nan, "reason": why})
-        table = pd.DataFrame(rows)
+        table = frame_of(rows)
         for _, of in table.groupby(["operation", "end"], sort=False):
             table.loc[of.index, "time_s"] = _time(case, of["bit_depth_m"].to_numpy(), of["fastest_m_s"].to_numpy())
     return table
@@ -219,11 +216,11 @@ def _laid(
     unfit: list[InputError] = []
     for depth in depths:
         try:
-            check_bit_depth(depth, *case.depths, "bit_depths", f"{depth:g} m")
+            check_bit_depth(depth, *case.depths, "bit_depths", quantity(depth, "m"))
             found.append((trips_at(case, depth, kinds, ends, eccentricity), depth, "none"))
         except InputError as error:
             unfit.append(error)
-            found.append(([], depth, f"not_possible: {error}"))
+            found.append(([], depth, Message(f"not_possible: {within(error.message)}")))
         if progress is not None:
             progress(len(found), len(depths))
     if len(unfit) == len(depths):

@@ -6,6 +6,7 @@ import numpy as np
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case
+from fctd.case.message import quantity
 from fctd.case.units import LENGTH, argument, in_steps, typed
 from fctd.model.operations import depth_range
 
@@ -47,7 +48,7 @@ def read_depths(text: str, case: Case, key: str, bare: str = "m") -> list[float]
         raise InputError(f"at most {MOST_DEPTHS} depths", key=key, value=text)
     hanging = [depth for depth in in_steps(first, last, step) if depth > case.string.top_md]
     if not hanging:
-        raise InputError(f"a depth below string.top_md, {case.string.top_md:g} m", key=key, value=text)
+        raise InputError(f"a depth below string.top_md, {quantity(case.string.top_md, 'm')}", key=key, value=text)
     return hanging
 
 
@@ -72,7 +73,7 @@ def depths_of(values: float | str | Sequence[float | str], case: Case, key: str)
         raise InputError("at least one bit depth", key=key, value=[])
     for before, here in zip([-np.inf, *depths], depths, strict=False):
         if not before < here < np.inf:
-            raise InputError("finite bit depths, each below the one before", key=key, value=f"{here:g} m")
+            raise InputError("finite bit depths, each below the one before", key=key, value=quantity(here, "m"))
     return depths
 
 

@@ -4,6 +4,7 @@ import numpy as np
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case
+from fctd.case.message import quantity
 from fctd.mechanics.drive import BY_SPEED, STIFF, Driller, Drive, least_inertia
 from fctd.mechanics.rock import DRAG_BIT, GIVEN_LOADS, NO_ROCK, NOTHING, Rock
 from fctd.model.drillstring import String
@@ -67,9 +68,9 @@ def expected_drilling(case: Case, string: String) -> ExpectedDrilling | None:
     cut = rock.advance * (case.bit.weight_on_bit - rock.worn) / (2 * np.pi)
     if cut <= 0:
         raise InputError(
-            f"above what the wear flats of the bit carry, {rock.worn:.4g} N, so that it drills",
+            f"above what the wear flats of the bit carry, {quantity(rock.worn, 'N', '.4g')}, so that it drills",
             key="bit.weight_on_bit",
-            value=f"{case.bit.weight_on_bit:g} N",
+            value=quantity(case.bit.weight_on_bit, "N"),
         )
     rates = [cut * (rad_per_s(operation.rpm) + rock.motor) for operation in case.operations]
     return ExpectedDrilling(rates, TARE_PERIODS * axial_period_of(string))
@@ -121,9 +122,9 @@ def check_weight(case: Case, along: float) -> None:
     uses = case.rig.autodriller or (case.bit.rock is not None and case.bit.rock.law == "given")
     if drills and uses and case.bit.weight_on_bit >= along + case.rig.push:
         raise InputError(
-            f"less than the weight of string and block along the hole, {along + case.rig.push:.4g} N",
+            f"less than the weight of string and block along the hole, {quantity(along + case.rig.push, 'N', '.4g')}",
             key="bit.weight_on_bit",
-            value=f"{case.bit.weight_on_bit:g} N",
+            value=quantity(case.bit.weight_on_bit, "N"),
         )
 
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from fctd.arrays import Array
 from fctd.case.errors import Computed, InputError
 from fctd.case.load import Case
+from fctd.case.message import quantity
 from fctd.case.string import ComponentSpec
 from fctd.mechanics import state
 from fctd.model.default_layout import DefaultLayout
@@ -211,9 +212,9 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
     remaining = bit_depth - case.string.top_md
     if remaining <= 0:
         raise InputError(
-            f"less than the bit depth, {bit_depth:g} m",
+            f"less than the bit depth, {quantity(bit_depth, 'm')}",
             key="string.top_md",
-            value=f"{case.string.top_md:g} m",
+            value=quantity(case.string.top_md, "m"),
         )
     lengths: list[float] = []
     owner: list[int] = []
@@ -247,10 +248,11 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
             break
     else:
         raise InputError(
-            f"enough to reach from the bit at {bit_depth:g} m to string.top_md, or no length of the last component, "
+            f"enough to reach from the bit at {quantity(bit_depth, 'm')} to string.top_md, or no length of the last "
+            "component, "
             "which then reaches it",
             key="string.components",
-            value=Computed(f"{sum(c.length or 0 for c in components):g} m of string"),
+            value=Computed(f"{quantity(sum(c.length or 0 for c in components), 'm')} of string"),
         )
     while fed and lengths[-1] < SHORTEST_LONG_SEGMENT and owner[-2:] == owner[-1:] * 2:
         uppermost = lengths.pop()  # before the line below: `a[-2] += a.pop()` reads one item, writes another
@@ -260,9 +262,9 @@ def lay_out(case: Case, bit_depth: float, deepest: float | None = None) -> Strin
     long_segment = fed or top.component.long_segment
     if long_segment and lengths[-1] < SHORTEST_LONG_SEGMENT - 1e-9:
         raise LongSegmentError(
-            f"at least {SHORTEST_LONG_SEGMENT:g} m at every bit depth, as the top segment's length changes",
+            f"at least {quantity(SHORTEST_LONG_SEGMENT, 'm')} at every bit depth, as the top segment's length changes",
             key=f"string.components[{top.origin}]",
-            value=f"{lengths[-1]:.3g} m of it at the top",
+            value=f"{quantity(lengths[-1], 'm', '.3g')} of it at the top",
         )
     if deepest is not None:
         _check_feed(case, top.origin, deepest)
@@ -287,10 +289,10 @@ def _check_feed(case: Case, top: int, deepest: float) -> None:
     reach = case.string.top_md + sum(length for length in lengths if length is not None)
     if deepest > reach + 1e-6:
         raise LongSegmentError(
-            f"a length to reach a bit depth of {deepest:g} m, since a trip feeds pipe of one component only "
+            f"a length to reach a bit depth of {quantity(deepest, 'm')}, since a trip feeds pipe of one component only "
             "(make the component longer, or simulate a trip for each component)",
             key=f"string.components[{top}].length",
-            value=f"enough for a bit depth of {reach:g} m",
+            value=f"enough for a bit depth of {quantity(reach, 'm')}",
         )
 
 

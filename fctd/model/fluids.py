@@ -17,6 +17,7 @@ from fctd.arrays import Array
 from fctd.case.errors import Computed, InputError
 from fctd.case.fluids import OutsideSpec
 from fctd.case.load import Case
+from fctd.case.message import quantity
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.wellbore import Wellbore
 
@@ -103,10 +104,11 @@ class Fluids:
             flows = "fluid would flow out" if inside > outside else "fluid would flow in"
             level = GRAVITY * self.inside.density[0]
             if inside > outside and level > 0:
-                flows = f"the level inside would fall by {(inside - outside) / level:.0f} m"
+                flows = f"the level inside would fall by {quantity((inside - outside) / level, 'm', '.0f')}"
             raise InputError(
-                f"true, or pressures that are equal within {EQUAL / BAR:g} bar at the open end: with "
-                f"{inside / BAR:.1f} bar inside and {outside / BAR:.1f} bar outside {flows}",
+                f"true, or pressures that are equal within {quantity(EQUAL / BAR, 'bar')} at the open end: with "
+                f"{quantity(inside / BAR, 'bar', '.1f')} inside and {quantity(outside / BAR, 'bar', '.1f')} outside "
+                f"{flows}",
                 key="mud.float",
                 value=False,
             )
@@ -136,9 +138,9 @@ def _column(
     last = rows[-1].to_md
     if last is not None and last < bit_depth - SAME_PLACE:
         raise InputError(
-            f"left out, or a depth down to the bit, at {bit_depth:g} m",
+            f"left out, or a depth down to the bit, at {quantity(bit_depth, 'm')}",
             key=f"mud.{side}[{len(rows) - 1}].to_md",
-            value=Computed(f"{last:g} m"),
+            value=Computed(quantity(last, "m")),
         )
     ends = [0.0 if row.to_md is None or row.to_md > bit_depth - SAME_PLACE else bit_depth - row.to_md for row in rows]
     count = ends.index(0.0) + 1

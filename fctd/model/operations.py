@@ -8,6 +8,7 @@ import numpy as np
 
 from fctd.case.errors import InputError, nearest
 from fctd.case.load import Case
+from fctd.case.message import quantity
 from fctd.case.operations import KINDS, Operation, Stay
 from fctd.case.rig import RigSpec
 from fctd.case.units import FASTEST, FLOW, MOST_RPM, ROTATION, SPEED, argument
@@ -172,7 +173,7 @@ def steady_rates(
     speed, rpm = own_speed if speed is None else speed, own_rpm if rpm is None else rpm
     feed, turns = argument(speed, SPEED, "speed"), argument(rpm, ROTATION, "rpm")
     if not (0 < feed <= FASTEST if of.direction else feed == 0):
-        wanted = f"above 0 and at most {FASTEST:g} m/s" if of.direction else "of 0"
+        wanted = f"above 0 and at most {quantity(FASTEST, 'm/s')}" if of.direction else "of 0"
         raise InputError(f"a speed {wanted} for {kind}", key="speed", value=speed)
     if not (0 <= turns <= MOST_RPM and (turns > 0 if of.turns else of.may_turn or turns == 0)):
         wanted = "above 0" if of.turns else "at least 0" if of.may_turn else "of 0"

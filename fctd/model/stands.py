@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from fctd.arrays import Array
 from fctd.case.errors import Computed, InputError
 from fctd.case.load import Case
+from fctd.case.message import quantity
 from fctd.case.string import ComponentSpec
 from fctd.mechanics import state
 from fctd.mechanics.topdrive import GRAVITY
@@ -102,25 +103,31 @@ def lay_out_stands(case: Case, shallowest: float, deepest: float) -> Tally:
     rig, components = case.rig, case.string.components
     if case.string.top_md != 0:
         raise InputError(
-            "0 m, the rotary table, where stands are moved", key="string.top_md", value=f"{case.string.top_md:g} m"
+            "0 m, the rotary table, where stands are moved",
+            key="string.top_md",
+            value=quantity(case.string.top_md, "m"),
         )
     ends = np.cumsum([np.inf if part.length is None else part.length for part in components])
     if ends[-1] < deepest - 1e-6:
         raise InputError(
-            f"enough to reach a bit depth of {deepest:g} m",
+            f"enough to reach a bit depth of {quantity(deepest, 'm')}",
             key="string.components",
-            value=Computed(f"{ends[-1]:g} m of string"),
+            value=Computed(f"{quantity(ends[-1], 'm')} of string"),
         )
     if ends[-1] < rig.stand_length:
-        raise InputError(f"at most the string, {ends[-1]:g} m", key="rig.stand_length", value=f"{rig.stand_length:g} m")
+        raise InputError(
+            f"at most the string, {quantity(ends[-1], 'm')}",
+            key="rig.stand_length",
+            value=quantity(rig.stand_length, "m"),
+        )
     _check_joints(case)
     reach = _stand_ends(components, ends, rig.stand_length, deepest)
     longest = float(np.diff(reach).max())
     if longest > rig.derrick_height:
         raise InputError(
-            f"stands that fit into rig.derrick_height, {rig.derrick_height:g} m",
+            f"stands that fit into rig.derrick_height, {quantity(rig.derrick_height, 'm')}",
             key="rig.stand_length",
-            value=f"a stand of {longest:.4g} m",
+            value=f"a stand of {quantity(longest, 'm', '.4g')}",
         )
     total = float(reach[-1])
     layout = None
@@ -188,9 +195,9 @@ def _check_joints(case: Case) -> None:
         count = max(round(stand / joint), 1)
         if abs(stand / count - joint) > UNEVEN * joint:
             raise InputError(
-                f"a whole number of {component.repeats} of {joint:.4g} m within a tenth",
+                f"a whole number of {component.repeats} of {quantity(joint, 'm', '.4g')} within a tenth",
                 key="rig.stand_length",
-                value=f"{stand:g} m",
+                value=quantity(stand, "m"),
             )
 
 

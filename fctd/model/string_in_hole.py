@@ -5,6 +5,7 @@ import numpy as np
 from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.load import Case
+from fctd.case.message import quantity
 from fctd.mechanics.topdrive import GRAVITY, PerMetre
 from fctd.model.drillstring import LongSegmentError, String
 from fctd.model.fluids import depth_at
@@ -30,9 +31,9 @@ def check_fit(string: String, hole: Wellbore, deepest: float) -> None:
     shortest = int(string.length.argmin())
     if string.length[shortest] < SHORTEST_SEGMENT:
         raise InputError(
-            f"segments of at least {SHORTEST_SEGMENT:g} m",
+            f"segments of at least {quantity(SHORTEST_SEGMENT, 'm')}",
             key=string.key_of(shortest),
-            value=f"{string.length[shortest]:.3g} m of it in one segment",
+            value=f"{quantity(string.length[shortest], 'm', '.3g')} of it in one segment",
         )
     fed = deepest - string.bit_depth if string.long_segment else 0.0
     if max(section.contact_radius for section in string.sections) > hole.narrowest:
@@ -48,7 +49,7 @@ def check_fit(string: String, hole: Wellbore, deepest: float) -> None:
             raise LongSegmentError(
                 "a hole within 1 deg of vertical along the top segment (a shorter trip, or more segments)",
                 key=string.key_of(0),
-                value=f"{length:.4g} m at the top, in a hole of up to {np.degrees(tilt):.2f} deg",
+                value=f"{quantity(length, 'm', '.4g')} at the top, in a hole of up to {np.degrees(tilt):.2f} deg",
             )
 
 
@@ -71,9 +72,9 @@ def check_clearance(string: String, hole: Wellbore, top: Array, bottom: Array) -
         if tight.any():
             k = int(np.argmax(tight))
             raise InputError(
-                f"at most the hole's {2e3 * wall:.6g} mm (wellbore.intervals[{i}].diameter)",
+                f"at most the hole's {quantity(2e3 * wall, 'mm', '.6g')} (wellbore.intervals[{i}].diameter)",
                 key=string.width_key(k),
-                value=f"{2e3 * radius[k]:.6g} mm",
+                value=quantity(2e3 * radius[k], "mm", ".6g"),
             )
     if hole.is_round:
         return
@@ -83,9 +84,10 @@ def check_clearance(string: String, hole: Wellbore, top: Array, bottom: Array) -
         if tight.any():
             i = int(np.argmin(np.where(tight, walls, np.inf)))
             raise InputError(
-                f"at most the {2e3 * walls[i]:.4g} mm that wellbore.caliper has at {ends[i, 0]:.0f} m",
+                f"at most the {quantity(2e3 * walls[i], 'mm', '.4g')} that wellbore.caliper has at "
+                f"{quantity(ends[i, 0], 'm', '.0f')}",
                 key=string.width_key(k),
-                value=f"{2e3 * radius[k]:.6g} mm",
+                value=quantity(2e3 * radius[k], "mm", ".6g"),
             )
 
 

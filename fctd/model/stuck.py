@@ -4,6 +4,7 @@ from typing import Final
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case, check_bit_depth
+from fctd.case.message import quantity
 
 # A shorter remainder of a component becomes part of the one above it [m].
 SHORTEST: Final = 0.1
@@ -15,10 +16,13 @@ def above_stuck_point(case: Case, bit_depth: float, md: float) -> Case:
     Its lower end, at that depth, has no loads of its own.  What lies below is cut off: the rock holds it.  Pressures of
     the mud act as they do along the whole string.  Raises InputError for a depth that is not on the string.
     """
-    check_bit_depth(bit_depth, *case.depths, "bit_depth", f"{bit_depth:g} m")
+    check_bit_depth(bit_depth, *case.depths, "bit_depth", quantity(bit_depth, "m"))
     if not case.string.top_md < md <= bit_depth:
-        expected = f"a depth below the string's top at {case.string.top_md:g} m, down to its bit at {bit_depth:g} m"
-        raise InputError(expected, key="stuck_at", value=f"{md:g} m")
+        expected = (
+            f"a depth below the string's top at {quantity(case.string.top_md, 'm')}, down to its bit at "
+            f"{quantity(bit_depth, 'm')}"
+        )
+        raise InputError(expected, key="stuck_at", value=quantity(md, "m"))
     below, kept = bit_depth - md, []
     for component in case.string.components:
         if component.length is None:

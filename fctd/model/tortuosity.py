@@ -9,6 +9,7 @@ import numpy as np
 
 from fctd.arrays import Array
 from fctd.case.errors import InputError
+from fctd.case.message import Message, quantity
 from fctd.case.wall import TortuositySpec
 from fctd.model import survey
 
@@ -33,7 +34,7 @@ def winding(stations: Array, spec: TortuositySpec) -> Array:
         raise InputError(
             f"a wavelength that needs at most {MOST_STATIONS} stations",
             key="wellbore.tortuosity.wavelength",
-            value=f"{spec.wavelength:g} m",
+            value=quantity(spec.wavelength, "m"),
         )
     md = np.linspace(ends[0], ends[1], count + 1)
     direction = survey.along_courses(survey.minimum_curvature(stations), md)[1]
@@ -52,15 +53,16 @@ def _slopes(md: Array, spec: TortuositySpec) -> Array:
     return np.stack([np.cos(np.outer(md, rates) + phase) @ steepness for phase in phases], axis=1)
 
 
-def shortfall(spec: TortuositySpec | None, longest: float) -> str:
+def shortfall(spec: TortuositySpec | None, longest: float) -> Message:
     """What segments of up to ``longest`` [m] lack to follow a winding hole; empty where they can."""
     if spec is None or longest * SEGMENTS_PER_WAVE <= spec.wavelength * (1 + 1e-9):
-        return ""
+        return Message("")
     most = spec.wavelength / SEGMENTS_PER_WAVE
     step = 10.0 ** (np.floor(np.log10(most)) - 2)  # so rounded, lengths that differ little are not the same number
-    return (
-        f"segments of {np.ceil(longest / step - 1e-6) * step:.4g} m are too long for tortuosity of "
-        f"{spec.wavelength:g} m: use segments of at most {np.floor(most / step + 1e-6) * step:.3g} m"
+    return Message(
+        f"segments of {quantity(np.ceil(longest / step - 1e-6) * step, 'm', '.4g')} are too long for tortuosity of "
+        f"{quantity(spec.wavelength, 'm')}: use segments of at most "
+        f"{quantity(np.floor(most / step + 1e-6) * step, 'm', '.3g')}"
     )
 
 

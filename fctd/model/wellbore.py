@@ -12,6 +12,7 @@ from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.hole import WellboreSpec
 from fctd.case.load import Case, naming_file
+from fctd.case.message import quantity
 from fctd.case.string import ComponentSpec
 from fctd.case.wall import IntervalSpec
 from fctd.mechanics import contact
@@ -283,7 +284,7 @@ def find_contacts(wellbore: Wellbore, points: Array, radii: Array | float) -> Co
     if points.shape[1] != 3 or not np.all(np.isfinite(points)) or not np.all(np.isfinite(radii)):
         raise ValueError("points must be finite, shape (n, 3), and radii finite, shape (n,)")
     for k, axis in np.argwhere(np.abs(points) > FARTHEST)[:1].tolist():
-        expected = f"a point within {FARTHEST:g} m of the origin, north, east and down"
+        expected = f"a point within {quantity(FARTHEST, 'm')} of the origin, north, east and down"
         raise InputError(expected, key=f"points[{k}][{axis}]", value=float(points[k, axis]))
     return wellbore.contacts(points, radii)
 
@@ -341,7 +342,7 @@ def _courses(hole: WellboreSpec, stations: Array) -> survey.Courses:
         raise InputError(
             "a direction that an arc can join with that of the station before, which is the opposite",
             key=f"station {k + 1}" if hole.survey is not None else f"wellbore.stations[{k}]",
-            value=f"{md:g} m, {inc:g} deg, {azi:g} deg", file=hole.survey,
+            value=f"{quantity(md, 'm')}, {inc:g} deg, {azi:g} deg", file=hole.survey,
         ) from None  # fmt: skip
 
 
@@ -358,10 +359,9 @@ def _cylinder_ends(hole: WellboreSpec, stations: Array, ends: Array) -> Array:
         wanted = np.minimum(wanted, LONGEST_CYLINDER)
     if hole.overlap > wanted.min():
         raise InputError(
-            f"at most the length of a cylinder, here {wanted.min():.3g} m",
-            key="wellbore.overlap",
-            value=f"{hole.overlap:g} m",
-        )
+            f"at most the length of a cylinder, here {quantity(wanted.min(), 'm', '.3g')}", key="wellbore.overlap",
+            value=quantity(hole.overlap, "m"),
+        )  # fmt: skip
     breaks = np.union1d(stations[:, 0], ends)
     course = np.searchsorted(stations[:, 0], breaks[:-1], side="right") - 1
     counts = np.maximum(np.ceil(np.diff(breaks) / wanted[course] - 1e-9), 1)

@@ -19,6 +19,7 @@ from typing import Final
 
 import numpy as np
 
+from fctd.case.message import Message, quantity
 from fctd.monitoring.friction import TWO_SIDED_95, Apparent
 from fctd.monitoring.stretches import ROTATING, Mode
 
@@ -54,13 +55,14 @@ class Alarm:
     before: float
 
     @property
-    def sentence(self) -> str:
+    def sentence(self) -> Message:
         """The alarm in words."""
         change = "above" if self.size > 0 else "below"
         share = f", {abs(self.size / self.before):.0%}" if self.before > 0.02 else ""
         what = f"the apparent friction factor is {abs(self.size):.2f} {change} the {self.before:.2f} before{share}"
         band = f"95 % band {self.low:+.2f} to {self.high:+.2f}"
-        return f"from {self.start:.0f} m {what} ({band}); found at {self.found:.0f} m"
+        start, found = quantity(self.start, "m", ".0f"), quantity(self.found, "m", ".0f")
+        return Message(f"from {start} {what} ({band}); found at {found}")
 
 
 @dataclass

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from fctd.case.friction import FrictionSet
+from fctd.case.message import Message, frame_of, quantity, span
 from fctd.case.operations import KINDS
 from fctd.case.text import counted
 from fctd.model.operations import SteadyRates, rates_of_all, string_load
@@ -46,11 +47,9 @@ class Roadmap:
 
         The torque is what the drive's reading leaves to the string, while it rotates.
         """
-        import pandas as pd
-
         rows = [self._row(reading) for reading in found if self.shows(reading)]
         ends = [measured_column(load, end) for load in LOADS for end in ("low", "high")]
-        return pd.DataFrame(rows, columns=["operation", "bit_depth_m", *LOADS, *ends])
+        return frame_of(rows, columns=["operation", "bit_depth_m", *LOADS, *ends])
 
     def shows(self, reading: Apparent) -> bool:
         """Whether a reading is that of a steady string in the hole of the case."""
@@ -74,25 +73,27 @@ class Roadmap:
         """The last reading, and how many lie outside the depths of the fan, a line each [SI]."""
         drawn = [reading for reading in found if self.shows(reading)]
         if not drawn:
-            return ["no steady reading in the hole of the case yet", *self._left_out(found)]
+            return ["no steady reading in the hole of the case yet", *map(Message, self._left_out(found))]
         last = drawn[-1].stretch
-        what = f"{KINDS[KIND_OF[last.mode]].label} at {last.bit_depth:.1f} m"
+        what = f"{KINDS[KIND_OF[last.mode]].label} at {quantity(last.bit_depth, 'm', '.1f')}"
         words = [f"{counted(len(drawn), 'reading')}; the last one: {what}"]
         if np.isfinite(last.hook_load.median):
-            words.append(f"weight indicator {last.hook_load.median / 1e3:.1f} kN")
+            words.append(f"weight indicator {quantity(last.hook_load.median / 1e3, 'kN', '.1f')}")
         if last.mode in ROTATING and np.isfinite(last.torque.median):
-            words.append(f"drive torque {last.torque.median / 1e3:.2f} kN·m")
+            words.append(f"drive torque {quantity(last.torque.median / 1e3, 'kN·m', '.2f')}")
         if np.isfinite(drawn[-1].factor):
             words.append(f"friction factor of {self.chart.fit} hole {drawn[-1].factor:.2f}")
         top, bottom = (float(end) for end in (self.rows["bit_depth_m"].min(), self.rows["bit_depth_m"].max()))
         outside = sum(not top <= reading.stretch.bit_depth <= bottom for reading in drawn)
-        beyond = f"{counted(outside, 'reading')} outside the depths of the curves, {top:.1f} to {bottom:.1f} m"
-        return [", ".join(words), *([beyond] if outside else []), *self._left_out(found)]
+        beyond = f"{counted(outside, 'reading')} outside the depths of the curves, {span(top, bottom, 'm', '.1f')}"
+        return [Message(line) for line in (", ".join(words), *([beyond] if outside else []), *self._left_out(found))]
 
     def _left_out(self, found: Sequence[Apparent]) -> list[str]:
         deepest = self.chart.deepest
         deeper = sum(reading.stretch.mode in KIND_OF and reading.stretch.bit_depth > deepest for reading in found)
-        text = f"{counted(deeper, 'reading')} not drawn: deeper than the hole of the case, {deepest:.1f} m"
+        text = (
+            f"{counted(deeper, 'reading')} not drawn: deeper than the hole of the case, {quantity(deepest, 'm', '.1f')}"
+        )
         return [text] if deeper else []
 
 
@@ -110,15 +111,13 @@ def roadmap(
     whether the margins are computed, at the case's own friction.  Raises InputError where string and hole fit at none
     of the depths.
     """
-    import pandas as pd
-
     case, kinds = chart.case, list(OF_KIND)
     sets = list(friction) or [chart.set_of(factor) for factor in FAN]
 
     def told(what: str) -> Callable[[int, int], None] | None:
         return None if progress is None else lambda done, total: progress(what, done, total)
 
-    rows = pd.DataFrame(chart_rows(case, kinds, bit_depths, sets, flow=0.0, progress=told(case.name)))
+    rows = frame_of(chart_rows(case, kinds, bit_depths, sets, flow=0.0, progress=told(case.name)))
     margins = None
     if limits:
         margins = limits_of(case, kinds, of_lines(bit_depths), flow=0.0, progress=told("limits"))

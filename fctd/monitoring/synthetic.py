@@ -9,6 +9,7 @@ import pandas as pd
 from fctd.case.errors import InputError
 from fctd.case.friction import Pair, changed, pairs_of
 from fctd.case.load import Case
+from fctd.case.message import quantity, within
 from fctd.model.operations import SteadyRates, rates_of_all
 from fctd.monitoring.stretches import OF_KIND
 from fctd.steady.equilibrium import Solver
@@ -53,7 +54,9 @@ def steady_readings(case: Case, depths: Sequence[float]) -> pd.DataFrame:
 def _row(solver: Solver, kind: str, rates: SteadyRates, depth: float) -> dict[str, object]:
     point = solver.solve(kind, rates, depth)
     if not point.answered:
-        raise InputError(f"a depth with a steady string ({point.message})", key="bit_depth", value=f"{depth:g} m")
+        raise InputError(
+            f"a depth with a steady string ({within(point.message)})", key="bit_depth", value=quantity(depth, "m")
+        )
     return {
         "operation": kind, "bit_depth_m": depth, "weight_indicator_N": point.weight_indicator,
         "drive_torque_N_m": point.drive_torque, "rpm": rates.spin * 30 / np.pi,

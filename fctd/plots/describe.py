@@ -9,6 +9,7 @@ import numpy as np
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case
+from fctd.case.message import told
 from fctd.case.operations import KINDS
 from fctd.case.text import printable
 from fctd.plots.description import Curve, DepthAxis, Description, Group, Key, Lane, Mark, Name, Panel, Points
@@ -34,7 +35,7 @@ from fctd.results.columns import DEPTH
 from fctd.results.differences import in_a_row
 from fctd.results.series import Chart, Series, frictions_of, has_fan, series_of
 from fctd.results.status import SteadyStatus
-from fctd.results.unit_systems import System, reworded, shown
+from fctd.results.unit_systems import System, shown
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -81,7 +82,7 @@ def describe(chart: Chart, units: System = "si", case: Compared = None, look: Ch
         curves = []
         for at, of in enumerate(_distinct(group, column, spans[k])):
             one, factors = group[of[0]], _factors([group[i] for i in of], group)
-            reasons = {text: reworded(str(text), units) for text in dict.fromkeys(one.columns["reason"])}
+            reasons = {text: told(text, units) for text in dict.fromkeys(one.columns["reason"])}
             rows, none = one.columns, np.full(len(one.columns[column]), np.nan)
             ends = (none, none) if k else (rows[end] for end in ("hookload_low_N", "hookload_high_N"))
             low, high = (as_load(cases[one.case], one.operation, end, load) * unit.factor for end in ends)

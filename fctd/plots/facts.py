@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 from fctd.case.friction import factors_label
 from fctd.case.load import Case
+from fctd.case.message import told
 from fctd.case.operations import KINDS
 from fctd.case.units import conversion
 from fctd.model.operations import SteadyRates, rad_per_s, rates_of_all
@@ -15,7 +16,7 @@ from fctd.results.differences import in_a_row
 from fctd.results.notes import meanings_of, worst
 from fctd.results.profile import place_in_words
 from fctd.results.series import frictions_of, in_words, series_of
-from fctd.results.unit_systems import System, reworded, shown
+from fctd.results.unit_systems import System, shown
 from fctd.steady.steady_string import Equilibrium
 
 if TYPE_CHECKING:
@@ -77,13 +78,13 @@ def heading_of_profile(
     have the first.
     """
     case, depth = points[0].case, shown("bit_depth_m", units)
-    friction = reworded(factors_label(case.wellbore.intervals), units)
+    friction = told(factors_label(case.wellbore.intervals), units)
     bit, ends = points[0].bit_depth, [point.profile["md_m"].iloc[-1] for point in points if point.answered]
     words = [case.name, f"bit at {place_in_words(max([bit, *ends]), bit, *depth)}", in_words(friction)]
     words += [f"the first of {sets} sets of factors"] if sets > 1 else []
     facts = "; ".join(facts_of(case, [point.operation for point in points], units))
     found = worst(note for point in points if point.answered for note in point.notes)
-    return "; ".join(words), [facts, *_told(warnings), *(f"note {note.code}: {note}" for note in found)]
+    return "; ".join(words), [facts, *_told(warnings), *(f"note {note.code}: {note.told(units)}" for note in found)]
 
 
 def _told(warnings: Sequence[str]) -> list[str]:

@@ -12,13 +12,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from fctd.case.message import told
 from fctd.case.operations import KINDS
 from fctd.model.operations import bit_loads
 from fctd.plots.facts import heading_of_profile
 from fctd.plots.palette import DARK, LOOKS, PALETTE, QUIET
 from fctd.plots.style import RC, Sheet
 from fctd.results.status import SteadyStatus
-from fctd.results.unit_systems import System, reworded, shown
+from fctd.results.unit_systems import System, shown
 from fctd.steady.feed import FOLLOWING, REACHED
 from fctd.steady.steady_string import Equilibrium
 
@@ -57,7 +58,7 @@ def feeding_figure(point: Equilibrium, units: System = "si", *, warnings: Sequen
     weight = _weight_on_bit(point)
     with mpl.rc_context(RC):
         title, lines = heading_of_profile([point], units, warnings)
-        lines.insert(1, reworded(f"{_words(point.status)}{': ' if point.message else ''}{point.message}", units))
+        lines.insert(1, f"{_words(point.status)}{': ' if point.message else ''}{told(point.message, units)}")
         sheet = Sheet(LEFT + WIDTH + RIGHT, LOAD + BETWEEN + ARRIVING + BELOW, title, lines, _handles(point, path))
         loads = sheet.axes(LEFT, 0.0, WIDTH, LOAD)
         arrives = sheet.axes(LEFT, LOAD + BETWEEN, WIDTH, ARRIVING, sharex=loads)

@@ -12,13 +12,14 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from fctd.case.load import Case
+from fctd.case.message import told
 from fctd.monitoring.alarm import KINDS, Alarm, kind_of
 from fctd.monitoring.chart import FACTORS
 from fctd.monitoring.monitor import Monitored
 from fctd.monitoring.stretches import Mode
 from fctd.plots.palette import DARK, LOOKS, PALETTE, QUIET
 from fctd.plots.style import RC, Sheet
-from fctd.results.unit_systems import System, reworded, shown
+from fctd.results.unit_systems import System, shown
 
 # Sizes [in].
 WIDTHS, HEIGHT, LEFT, BETWEEN, BELOW = (3.1, 2.6, 3.1), 5.2, 0.75, 0.25, 0.56
@@ -47,7 +48,7 @@ def monitor_figure(found: Monitored, case: Case, units: System = "si") -> Figure
     depth = shown("bit_depth_m", units)
     with mpl.rc_context(RC):
         lines = [f"friction factor of {found.chart.fit} hole; {len(known)} of {len(stretches)} stretches have one"]
-        lines += [f"alarm: {reworded(alarm.sentence, units)}" for alarm in found.alarms]
+        lines += [f"alarm: {told(alarm.sentence, units)}" for alarm in found.alarms]
         handles = _handles(kinds, factors, found.alarms)
         width = LEFT + sum(WIDTHS) + BETWEEN * 2 + 0.3
         sheet = Sheet(width, HEIGHT + BELOW, f"{case.name}: monitored friction", lines, handles)

@@ -19,7 +19,7 @@ from fctd.plots.palette import DARK, LOOKS, PALETTE, QUIET, SHADE
 from fctd.plots.style import RC, Sheet
 from fctd.plots.tracks import side_force, side_force_unit
 from fctd.results.tables import SimulationResult
-from fctd.results.unit_systems import System, reworded, shown
+from fctd.results.unit_systems import System, shown
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -96,7 +96,7 @@ def _lines(result: SimulationResult, units: System) -> list[str]:
     first = f"{counted(run['segments'], 'segment')}, step {1e3 * run['step_s']:.3g} ms"
     if np.isfinite(run["energy_error"]):
         first += f", energy error {run['energy_error']:.1e}"
-    return [first, *(reworded(f"note {note.code}: {note}", units) for note in result.notes)]
+    return [first, *(f"note {note.code}: {note.told(units)}" for note in result.notes)]
 
 
 def _load(ax: Axes, time: Array, history: pd.DataFrame, stem: str, unit: str, units: System) -> None:

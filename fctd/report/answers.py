@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionSet
 from fctd.case.load import Case, naming_file, with_friction
+from fctd.case.message import frame_of
 from fctd.hydraulics.pressures import Circulation, Eccentricity, check_flows, circulations
 from fctd.model.operations import SteadyRates, rates_of_all
 from fctd.results.status import SteadyStatus
@@ -102,13 +103,11 @@ def _margins(
     progress: Callable[[int, int], None], **options: bool,
 ) -> pd.DataFrame:  # fmt: skip
     """The rows of ``limits_of`` for kinds at bit depths [m]; options : of ``margin_rows``."""
-    import pandas as pd  # slow to import
-
     rows = []
     for done, (kind, depth) in enumerate(at, start=1):
         rows += margin_rows(solver, [kind], rates, depth, **options)
         progress(done, len(at))
-    return pd.DataFrame(rows)
+    return frame_of(rows)
 
 
 def _pumped(

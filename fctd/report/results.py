@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
 from fctd.case.load import Case
+from fctd.case.message import frame_of, told
 from fctd.case.operations import KINDS
 from fctd.plots.chart import chart_figure
 from fctd.plots.depth_panels import panels_figure
@@ -18,7 +19,7 @@ from fctd.results.columns import LOADS
 from fctd.results.notes import MEANINGS
 from fctd.results.series import FRICTION_LABEL
 from fctd.results.status import SteadyStatus
-from fctd.results.unit_systems import System, in_words, reworded, shown
+from fctd.results.unit_systems import System, in_words, shown
 from fctd.steady.margins import FATIGUE, OVERPULL, SET_DOWN, SLIPS, TORQUE
 from fctd.steady.steady_string import Equilibrium
 from fctd.store.origin import versions
@@ -157,7 +158,7 @@ def mud(found: Answers, units: System) -> Section:
     import pandas as pd  # slow to import
 
     last = found.circulations[-1]
-    table = pd.DataFrame([one.summary() for one in found.circulations])
+    table = frame_of([one.summary() for one in found.circulations])
     flow = in_words(found.flow, "flow_m3_s", units)
     bit = in_words(last.laid.string.bit_depth, "bit_depth_m", units)
     panels = losses_panels(table, last, units, [f"{flow}; friction of API RP 13D, steady, of one temperature"])
@@ -183,12 +184,12 @@ def notes(found: Answers, units: System) -> Section:
 
 def _exceptions(chart: pd.DataFrame, units: System) -> Iterator[tuple[Cell, ...]]:
     metre = shown("bit_depth_m", units)
-    for (operation, friction), of in chart.groupby(["operation", FRICTION_LABEL], sort=False):
-        who = Cell(KINDS[str(operation)].label), text(reworded(str(friction), units))
+    for (operation, _), of in chart.groupby(["operation", FRICTION_LABEL], sort=False):
+        who = Cell(KINDS[str(operation)].label), text(told(of[FRICTION_LABEL].iloc[0], units))
         found: list[tuple[str, Any, str]] = []
         for status, rows in of.groupby("status", sort=False):
             if status != SteadyStatus.CONVERGED:
-                found.append((str(status), rows, reworded(str(rows["reason"].iloc[-1]), units)))
+                found.append((str(status), rows, told(rows["reason"].iloc[-1], units)))
         codes = of["notes"].str.split(", ")
         for code, meaning in MEANINGS.items():
             rows = of[codes.map(lambda has, code=code: code in has)]

@@ -8,10 +8,11 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
+from fctd.case.message import told
 from fctd.case.operations import KINDS
 from fctd.case.text import printable
 from fctd.results.case_facts import Row
-from fctd.results.unit_systems import System, in_field_units, reworded
+from fctd.results.unit_systems import System, in_field_units
 from fctd.results.workbook import heading_of
 
 if TYPE_CHECKING:
@@ -178,5 +179,5 @@ def _cell(column: str, value: Any, factor: float, digits: int, units: System) ->
     if column in _WORDS:
         return Cell(NONE if value == "none" else value.replace("_", " "))
     if column in _SENTENCES:
-        return Cell(NONE) if value == "none" else text(reworded(value, units))
+        return Cell(NONE) if value == "none" else text(told(value, units))
     return Cell(NONE) if column == "part" and value == "none" else text(value)

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd.arrays import Array
+from fctd.case.message import Message, quantity, span, within
 from fctd.mechanics.jit import entry, inlined, kernel
 from fctd.model.drillstring import String
 from fctd.model.wellbore import Wellbore
@@ -60,14 +61,22 @@ class Buckling:
         return {"buckling": self.mode, "buckled_from_md_m": self.from_md, "buckled_to_md_m": self.to_md}
 
     def __str__(self) -> str:
-        return self.mode if np.isnan(self.from_md) else f"{self.mode} from {self.from_md:.0f} to {self.to_md:.0f} m"
+        return str(self.words)
 
-    def shortfall(self, resolving: str = "detect") -> str:
+    @property
+    def words(self) -> Message:
+        """The mode and its stretch."""
+        if np.isnan(self.from_md):
+            return Message(self.mode)
+        return Message(f"{self.mode} from {span(self.from_md, self.to_md, 'm', '.0f')}")
+
+    def shortfall(self, resolving: str = "detect") -> Message:
         """Where segments are too long, and the length that would do; resolving : ``solver.buckling`` of the case."""
         other = "" if resolving != "detect" else ', or solver.buckling = "resolve" (--resolve-buckling)'
-        return (
-            f"buckling is {self}, where segments of {self.longest:.3g} m cannot bend that way: "
-            f"use segments of at most {self.segment_length:g} m there{other}"
+        return Message(
+            f"buckling is {within(self.words)}, where segments of {quantity(self.longest, 'm', '.3g')} cannot bend "
+            "that way: "
+            f"use segments of at most {quantity(self.segment_length, 'm')} there{other}"
         )
 
 

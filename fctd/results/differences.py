@@ -13,11 +13,12 @@ import numpy as np
 from fctd.case.errors import MISSING, InputError, join_key
 from fctd.case.key_quantities import quantities_of
 from fctd.case.load import Case
+from fctd.case.message import FIELD
 from fctd.case.raw_case import look_up
 from fctd.case.spellings import split
 from fctd.case.text import counted, printable
 from fctd.case.units import Quantity
-from fctd.results.unit_systems import IN_MESSAGES, System, shown
+from fctd.results.unit_systems import System, shown
 
 ALIKE: Final = 1e-9  # share of a number by which two spellings of it may differ
 # Keys of the files of a survey and a caliper: what they hold is compared, and the files may have any names.
@@ -218,7 +219,7 @@ def _unit_of(quantity: Quantity, written: Sequence[Any], units: System) -> tuple
     """The unit in which a quantity is told, with a blank before it, and what it is in SI."""
     unit = next(filter(None, map(_written_unit, written)), quantity.dimension.unit)
     if units == "field":
-        unit = (IN_MESSAGES | _METRIC).get(unit.replace("*", "·"), unit)
+        unit = (FIELD | _METRIC).get(unit.replace("*", "·"), unit)
     factor = quantity.dimension.factor(unit.replace("·", "*"))
     for sign, plain in _SIGNS.items():
         unit = unit.replace(sign, plain)

@@ -14,6 +14,7 @@ import numpy as np
 
 from fctd.arrays import Array
 from fctd.case.limits import LimitsSpec
+from fctd.case.message import quantity
 from fctd.mechanics.jit import entry, inlined, kernel
 from fctd.model.drillstring import String
 from fctd.model.section import Section
@@ -111,8 +112,8 @@ LIMITS: Final[tuple[Limit, ...]] = (
         lambda at, section: at.penetration if section.bow_stiffness == 0 else 0.0,
         lambda at, section: min(max(SHARE_OF_CLEARANCE * at.clearance, LEAST_PENETRATION), MOST_PENETRATION),
         lambda share, at, section, where: (
-            f"a contact point at {where} is {1e3 * at.penetration:.3g} mm deep in the wall, "
-            f"where the clearance is {1e3 * at.clearance:.3g} mm"
+            f"a contact point at {where} is {quantity(1e3 * at.penetration, 'mm', '.3g')} deep in the wall, "
+            f"where the clearance is {quantity(1e3 * at.clearance, 'mm', '.3g')}"
         ),
     ),
     Limit(
@@ -121,8 +122,8 @@ LIMITS: Final[tuple[Limit, ...]] = (
         lambda at, section: stress_of(at, at.bending, section),
         lambda at, section: section.yield_strength,
         lambda share, at, section, where: (
-            f"the stress at {where} is {share * section.yield_strength / 1e6:.0f} MPa, "
-            f"the yield strength {section.yield_strength / 1e6:.0f} MPa"
+            f"the stress at {where} is {quantity(share * section.yield_strength / 1e6, 'MPa', '.0f')}, "
+            f"the yield strength {quantity(section.yield_strength / 1e6, 'MPa', '.0f')}"
         ),
         "design_factor", of_steel=True,
     ),
@@ -136,10 +137,11 @@ LIMITS: Final[tuple[Limit, ...]] = (
         ),
         lambda at, section: section.yield_strength,
         lambda share, at, section, where: (
-            f"with tool joints {USUAL:g} m apart the pipe at {where} bends by {at.assumed / 1e3:.3g} kN·m at its tool "
-            f"joints, in place of {at.bending / 1e3:.3g} kN·m, and is stressed by "
-            f"{share * section.yield_strength / 1e6:.0f} MPa, the yield strength is "
-            f"{section.yield_strength / 1e6:.0f} MPa"
+            f"with tool joints {quantity(USUAL, 'm')} apart the pipe at {where} bends by "
+            f"{quantity(at.assumed / 1e3, 'kN·m', '.3g')} at its tool "
+            f"joints, in place of {quantity(at.bending / 1e3, 'kN·m', '.3g')}, and is stressed by "
+            f"{quantity(share * section.yield_strength / 1e6, 'MPa', '.0f')}, the yield strength is "
+            f"{quantity(section.yield_strength / 1e6, 'MPa', '.0f')}"
         ),
         "design_factor",
     ),
@@ -163,8 +165,9 @@ LIMITS: Final[tuple[Limit, ...]] = (
         lambda at, section: abs(at.torque),
         lambda at, section: section.make_up,
         lambda share, at, section, where: (
-            f"the torque at {where} is {abs(at.torque) / 1e3:.1f} kN·m, the largest make-up torque of the tool joints "
-            f"{section.make_up / 1e3:.1f} kN·m"
+            f"the torque at {where} is {quantity(abs(at.torque) / 1e3, 'kN·m', '.1f')}, the largest make-up torque "
+            "of the tool joints "
+            f"{quantity(section.make_up / 1e3, 'kN·m', '.1f')}"
         ),
         "torque_share", of_steel=True,
     ),
@@ -175,8 +178,8 @@ LIMITS: Final[tuple[Limit, ...]] = (
         lambda at, section: at.hookload if at.excess == 0 else 0.0,
         lambda at, section: section.yield_strength * np.pi * (section.outer**2 - section.inner**2),
         lambda share, at, section, where: (
-            f"the hook load is {at.hookload / 1e3:.0f} kN, the uppermost pipe yields at "
-            f"{at.hookload / share / 1e3:.0f} kN"
+            f"the hook load is {quantity(at.hookload / 1e3, 'kN', '.0f')}, the uppermost pipe yields at "
+            f"{quantity(at.hookload / share / 1e3, 'kN', '.0f')}"
         ),
         "design_factor", of_steel=True,
     ),
@@ -185,8 +188,9 @@ LIMITS: Final[tuple[Limit, ...]] = (
         lambda at, section: at.excess,
         lambda at, section: section.burst,
         lambda share, at, section, where: (
-            f"the pressure inside at {where} is {at.excess / 1e5:.0f} bar above that outside, the pipe bears "
-            f"{section.burst / 1e5:.0f} bar"
+            f"the pressure inside at {where} is {quantity(at.excess / 1e5, 'bar', '.0f')} above that outside, the "
+            "pipe bears "
+            f"{quantity(section.burst / 1e5, 'bar', '.0f')}"
         ),
         "design_factor", of_steel=True,
     ),
@@ -195,8 +199,9 @@ LIMITS: Final[tuple[Limit, ...]] = (
         lambda at, section: -at.excess,
         lambda at, section: collapse_of(at, section),
         lambda share, at, section, where: (
-            f"the pressure outside at {where} is {-at.excess / 1e5:.0f} bar above that inside, the pipe bears "
-            f"{-at.excess / share / 1e5:.0f} bar under its tension"
+            f"the pressure outside at {where} is {quantity(-at.excess / 1e5, 'bar', '.0f')} above that inside, the "
+            "pipe bears "
+            f"{quantity(-at.excess / share / 1e5, 'bar', '.0f')} under its tension"
         ),
         "design_factor", of_steel=True,
     ),

@@ -11,6 +11,7 @@ from typing import Any, Final, NamedTuple
 
 from fctd.arrays import Array
 from fctd.case.limits import LimitsSpec
+from fctd.case.message import Message, kept, quantity, restored, span, told, within
 from fctd.case.rig import RigSpec
 from fctd.mechanics.query import Walls
 from fctd.model.capacity import Body
@@ -18,7 +19,7 @@ from fctd.model.drillstring import String
 from fctd.model.section import Section
 from fctd.results.buckling import Buckling
 from fctd.results.limits import LIMITS, Place, place_of
-from fctd.results.profile import place_in_words
+from fctd.results.unit_systems import System
 
 HARDLY = 0.01  # share of a string's weight that is worth a note
 FULL: Final = LimitsSpec()  # all of each capacity may be used
@@ -128,8 +129,21 @@ class Note:
     place: float | None = None
     excess: float = 1.0
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "text", Message(self.text))
+        object.__setattr__(self, "remedy", Message(self.remedy))
+
     def __str__(self) -> str:
-        return f"{self.text}: {self.remedy}"
+        return str(self.message)
+
+    @property
+    def message(self) -> Message:
+        """Sentence and remedy."""
+        return Message(f"{within(self.text)}: {within(self.remedy)}")
+
+    def told(self, units: System) -> str:
+        """The note in a system of units."""
+        return told(self.message, units)
 
 
 @dataclass(frozen=True)
@@ -148,7 +162,7 @@ def note_of(code: str, text: str, excess: float, place: float | None = None) -> 
 
 def flow_law(off: float, weight: float) -> Note | None:
     """The note on a lift that may be too large by so much, beside a string of a weight [N]."""
-    text = f"the pull of the mud along the string may be {off / 1e3:.0f} kN too large"
+    text = f"the pull of the mud along the string may be {quantity(off / 1e3, 'kN', '.0f')} too large"
     return note_beyond("flow_law", text, off, HARDLY * weight)
 
 
@@ -178,12 +192,18 @@ def codes_of(notes: Iterable[Note]) -> str:
 
 def as_metadata(notes: Iterable[Note]) -> list[dict[str, Any]]:
     """Notes as the metadata of files."""
-    return [asdict(note) for note in notes]
+    return [asdict(note) | {"sentence": kept(note.text)} for note in notes]
 
 
-def from_metadata(kept: Iterable[dict[str, Any]]) -> tuple[Note, ...]:
+def from_metadata(notes: Iterable[dict[str, Any]]) -> tuple[Note, ...]:
     """Notes from the metadata of files."""
-    return tuple(Note(**note) for note in kept)
+    return tuple(
+        Note(
+            **{name: of for name, of in note.items() if name != "sentence"}
+            | {"text": restored(note.get("sentence", note["text"]))}
+        )
+        for note in notes
+    )
 
 
 def meanings_of(cells: Iterable[str]) -> dict[str, dict[str, str]]:
@@ -202,12 +222,18 @@ def limit_notes(worst: Array, string: String, walls: Walls, asked: LimitsSpec = 
         scale = limit.scale(asked)
         if scale * share > 1:
             place, section = place_of(row, walls.md, string)
-            where = place_in_words(place, string.bit_depth)
-            text = limit.text(share, Place(*at), string.sections[section], where)
+            text = limit.text(share, Place(*at), string.sections[section], _where(place, string.bit_depth))
             if scale > 1:
                 text += f", with limits.{limit.asked} = {getattr(asked, limit.asked):g}"
             found.append(note_of(limit.code, text, scale * share, place))
     return tuple(found)
+
+
+def _where(md: float, bit_depth: float) -> str:
+    """A measured depth [m] for a sentence; a string that hangs is longer than its tally [m]."""
+    over = round(md) - round(bit_depth)
+    tally = quantity(min(md, bit_depth), "m", ".0f")
+    return f"{tally} + {quantity(over, 'm')} of stretch" if over > 0 else tally
 
 
 def rig_notes(
@@ -219,15 +245,22 @@ def rig_notes(
     """
     found = []
     if rig.hoist_capacity is not None:
-        text = f"the weight indicator reads {indicator / 1e3:.0f} kN, the hoist lifts {rig.hoist_capacity / 1e3:.0f} kN"
+        text = (
+            f"the weight indicator reads {quantity(indicator / 1e3, 'kN', '.0f')}, the hoist lifts "
+            f"{quantity(rig.hoist_capacity / 1e3, 'kN', '.0f')}"
+        )
         found.append(note_beyond("hoist", text, indicator, rig.hoist_capacity))
     if rig.largest_torque is not None:
-        text = f"the drive torque is {abs(torque) / 1e3:.1f} kN·m, the drive has {rig.largest_torque / 1e3:.1f} kN·m"
+        text = (
+            f"the drive torque is {quantity(abs(torque) / 1e3, 'kN·m', '.1f')}, the drive has "
+            f"{quantity(rig.largest_torque / 1e3, 'kN·m', '.1f')}"
+        )
         found.append(note_beyond("drive", text, abs(torque), rig.largest_torque))
     if rig.slip_length is not None and hanging > 0:
         most = crushed_at(top, rig.slip_length)
         text = (
-            f"{hanging / 1e3:.0f} kN hang in slips, which crush the uppermost pipe at {most / 1e3:.0f} kN by Reinhold "
+            f"{quantity(hanging / 1e3, 'kN', '.0f')} hang in slips, which crush the uppermost pipe at "
+            f"{quantity(most / 1e3, 'kN', '.0f')} by Reinhold "
             "and Spiri (1959), tests find up to a fifth less"
         )
         if limits.design_factor > 1:
@@ -244,7 +277,8 @@ def crushed_at(top: Section, slip_length: float) -> float:
 def homogenised(buckling: Buckling) -> Note:
     """A note on a string whose waves have the wall force of the closed forms."""
     text = (
-        f"buckling is {buckling}, where the waves are homogenised: resolving takes more work or segments than a row "
+        f"buckling is {within(buckling.words)}, where the waves are homogenised: resolving takes more work or "
+        "segments than a row "
         "may have, or finds no shape that slides"
     )
     return note_of("homogenised", text, 1.0, buckling.from_md)
@@ -258,7 +292,7 @@ def several_balances(hookload: float, drawn: Sequence[float], weight: float) -> 
     loads = [hookload, *(load for load in drawn if math.isfinite(load))]
     low, high = min(loads), max(loads)
     text = (
-        f"with noise of the size of rounding the hook load is {low / 1e3:.4g} to {high / 1e3:.4g} kN, "
+        f"with noise of the size of rounding the hook load is {span(low / 1e3, high / 1e3, 'kN', '.4g')}, "
         f"{100 * (high - low) / weight:.2g} % of the string's weight apart"
     )
     if lost := len(drawn) + 1 - len(loads):
@@ -272,7 +306,8 @@ def under_resolved(buckling: Buckling) -> Note | None:
     if buckling.resolved:
         return None
     text = (
-        f"buckling is {buckling}, where segments of {buckling.longest:.3g} m cannot bend that way; "
-        f"segments of at most {buckling.segment_length:g} m would"
+        f"buckling is {within(buckling.words)}, where segments of {quantity(buckling.longest, 'm', '.3g')} cannot "
+        "bend that way; "
+        f"segments of at most {quantity(buckling.segment_length, 'm')} would"
     )
     return note_of("buckling", text, buckling.longest / buckling.segment_length, buckling.from_md)

@@ -39,7 +39,7 @@ class Loads(NamedTuple):
     bit_torque: float = 0.0
 
 
-def place_in_words(md: float, bit_depth: float, factor: float = 1.0, unit: str = "m") -> str:
+def place_in_words(md: float, bit_depth: float, factor: float, unit: str) -> str:
     """A measured depth [m] in a unit, as "3500 m + 2 m of stretch" where it is that much deeper than the pipe tally.
 
     bit_depth : by the tally [m].  A string that hangs is longer than its tally, so that its bit may be deeper than the

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from fctd.case.message import quantity
 from fctd.results.notes import Note, note_beyond, note_of
 
 # The push of a single step counts where it exceeds what the block can give by this share of the string's weight: waves
@@ -40,8 +41,9 @@ def pushes(mean: float, least: float, block: float, weight: float) -> Note | Non
     if not beyond > block:
         return None
     text = (
-        f"the hook load falls to {least / 1e3:.3g} kN in a step and is {mean / 1e3:.3g} kN on the mean of a record, "
-        f"where the block can push with {block / 1e3:.3g} kN"
+        f"the hook load falls to {quantity(least / 1e3, 'kN', '.3g')} in a step and is "
+        f"{quantity(mean / 1e3, 'kN', '.3g')} on the mean of a record, "
+        f"where the block can push with {quantity(block / 1e3, 'kN', '.3g')}"
     )
     return note_of("push", text, 1 + (beyond - block) / max(block, SMALL_SWING * weight))
 
@@ -53,7 +55,7 @@ def flutters(amplitude: float, frequency: float, on_wall: float, axial: float, w
     segment on its wall spring, axial : the slowest axial one of the string [Hz].
     """
     fast = amplitude if frequency > max(OF_THE_WALL * on_wall, OF_THE_STRING * axial) else 0.0
-    text = f"the hook load flutters for seconds by ±{amplitude / 1e3:.3g} kN at some {frequency:.2g} Hz"
+    text = f"the hook load flutters for seconds by ±{quantity(amplitude / 1e3, 'kN', '.3g')} at some {frequency:.2g} Hz"
     return note_beyond("flutter", text, fast, SMALL_FLUTTER * weight)
 
 
@@ -66,14 +68,18 @@ def brakes_turning(taken: float, torque: float) -> Note | None:
     if not taken > OF_THE_TORQUE * abs(torque):  # in nearly every record
         return None
     share = f"{100 * taken / abs(torque):.2g} %" if torque else "all"
-    text = f"the joints' own damping takes {taken:.3g} N m of the torque of the turning string, {share} of it"
+    text = (
+        f"the joints' own damping takes {quantity(taken, 'N m', '.3g')} of the torque of the turning string, "
+        f"{share} of it"
+    )
     return note_beyond("joint_damping", text, taken, OF_THE_TORQUE * abs(torque))
 
 
 def too_deep(penetration: float, largest: float) -> Note | None:
     """A note where a run went deeper into the wall than its time step is stable for, both [m]."""
     text = (
-        f"a contact point was {1e3 * penetration:.3g} mm deep in the wall, the step is stable to {1e3 * largest:.3g} mm"
+        f"a contact point was {quantity(1e3 * penetration, 'mm', '.3g')} deep in the wall, the step is stable to "
+        f"{quantity(1e3 * largest, 'mm', '.3g')}"
     )
     return note_beyond("wall", text, penetration, largest)
 
@@ -102,8 +108,9 @@ def drilled_nothing(made: float, weight: float, worn: float) -> Note | None:
     if made > 0 or weight > worn:
         return None
     text = (
-        f"the bit drilled nothing: it carried at most {weight / 1e3:.3g} kN, and its wear flats rub without cutting up "
-        f"to {worn / 1e3:.3g} kN"
+        f"the bit drilled nothing: it carried at most {quantity(weight / 1e3, 'kN', '.3g')}, and its wear flats rub "
+        "without cutting up "
+        f"to {quantity(worn / 1e3, 'kN', '.3g')}"
     )
     return note_of("drilling", text, worn / max(weight, 1.0))
 
@@ -125,8 +132,10 @@ def torque_swings(last: float, mean: float, before: float, period: float, hooklo
     if bound < UNSTEADY * LEVER * abs(hookload):
         return None
     text = (
-        f"the surface torque of the last record is {last / 1e3:.3g} kN·m, its mean over the last torsional period of "
-        f"{period:.3g} s {mean / 1e3:.3g} kN·m, and over the one before {before / 1e3:.3g} kN·m"
+        f"the surface torque of the last record is {quantity(last / 1e3, 'kN·m', '.3g')}, its mean over the last "
+        "torsional period of "
+        f"{period:.3g} s {quantity(mean / 1e3, 'kN·m', '.3g')}, and over the one before "
+        f"{quantity(before / 1e3, 'kN·m', '.3g')}"
     )
     return note_beyond("torque", text, max(abs(last - mean), abs(mean - before)), bound)
 
@@ -151,8 +160,10 @@ def hookload_swings(swing: float, mean: float, before: float, period: float, wei
     """
     bound = max(UNSTEADY * max(abs(mean), abs(before)), SMALL_SWING * weight)
     text = (
-        f"the hook load still swings by ±{swing / 1e3:.3g} kN at the end of the run; its mean over the last axial "
-        f"period of {period:.3g} s is {mean / 1e3:.4g} kN, and over the one before {before / 1e3:.4g} kN"
+        f"the hook load still swings by ±{quantity(swing / 1e3, 'kN', '.3g')} at the end of the run; its mean over "
+        "the last axial "
+        f"period of {period:.3g} s is {quantity(mean / 1e3, 'kN', '.4g')}, and over the one before "
+        f"{quantity(before / 1e3, 'kN', '.4g')}"
     )
     return note_beyond("hookload", text, max(swing, abs(mean - before)), bound)
 
@@ -166,7 +177,8 @@ def whirls(sideways: float, surface: float, friction_torque: float, of_sliding: 
     if not (sideways > SIDEWAYS * surface and friction_torque < SLIDES * of_sliding):
         return None
     text = (
-        f"the string whirls: its segments move sideways at {sideways:.2g} m/s, {100 * sideways / surface:.0f} % of the "
+        f"the string whirls: its segments move sideways at {quantity(sideways, 'm/s', '.2g')}, "
+        f"{100 * sideways / surface:.0f} % of the "
         f"speed of its surface, and friction has {100 * friction_torque / of_sliding:.0f} % of the torque of a string "
         "that slides"
     )
@@ -180,7 +192,8 @@ def rings(swing: float, frequency: float, depth: float, bound: float) -> Note | 
     """
     text = (
         f"the string slides over the seams between the hole's cylinders at its natural frequency, {frequency:.2f} Hz: "
-        f"near {depth:.0f} m they make the hook load swing by about ±{swing / 1e3:.2g} kN"
+        f"near {quantity(depth, 'm', '.0f')} they make the hook load swing by about "
+        f"±{quantity(swing / 1e3, 'kN', '.2g')}"
     )
     return note_beyond("ringing", text, swing, bound)
 

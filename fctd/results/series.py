@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.results.unit_systems import System, reworded
+from fctd.case.message import told
+from fctd.results.unit_systems import System
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -42,7 +43,7 @@ def series_of(chart: Chart, units: System = "si") -> list[Series]:
     """
     columns = {name: np.asarray(chart[name]) for name in map(str, chart)}
     if FRICTION_LABEL in columns:
-        names = {label: reworded(str(label), units) for label in dict.fromkeys(columns[FRICTION_LABEL])}
+        names = {label: told(label, units) for label in dict.fromkeys(columns[FRICTION_LABEL])}
         frictions = [names[label] for label in columns[FRICTION_LABEL]]
     else:
         frictions = [OWN if isnan(factor) else f"{factor:g}" for factor in columns["friction"]]

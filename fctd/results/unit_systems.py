@@ -5,9 +5,11 @@ In memory and in files the columns are SI; screen and pictures show the same qua
 
 from __future__ import annotations
 
-import re
-from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple
+from functools import partial
+from typing import TYPE_CHECKING, Final, NamedTuple
 
+from fctd.case.message import FIELD, SENTENCES, told
+from fctd.case.message import System as System  # of what stands in this file, too
 from fctd.case.units import conversion
 from fctd.results.columns import COLUMNS
 
@@ -15,8 +17,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     import pandas as pd
-
-System = Literal["si", "field"]
 
 
 class Measure(NamedTuple):
@@ -81,7 +81,7 @@ def shown_unit(unit: str, system: System) -> Shown:
     if measure is not None:
         label = measure.field if system == "field" else measure.si
     else:
-        label = IN_MESSAGES.get(unit, unit) if system == "field" else unit
+        label = FIELD.get(unit, unit) if system == "field" else unit
     return Shown(conversion(unit, _PINTS.get(label, label)) if label != unit else 1.0, label.replace("*", "·"))
 
 
@@ -92,18 +92,10 @@ def in_words(value: float, column: str, system: System) -> str:
     return f"{number:.0f} {unit.label}" if abs(number) >= 1000 else f"{number:.4g} {unit.label}"
 
 
-# Columns of sentences with SI units.
-_SENTENCES: Final = ("friction_label", "left_out", "reason")
-
-
-def _reworded(text: Any) -> Any:
-    return reworded(text, "field") if isinstance(text, str) else text
-
-
 def in_field_units(table: pd.DataFrame) -> pd.DataFrame:
     """An SI table in field units: ``hookload_N`` becomes ``hookload_klbf``, ``bit_depth_m`` ``bit_depth_ft``.
 
-    Texts that the program wrote, such as the reason of a row, are reworded.
+    Sentences of the program, such as the reason of a row, have field units too.
     """
     import pandas as pd
 
@@ -111,7 +103,7 @@ def in_field_units(table: pd.DataFrame) -> pd.DataFrame:
     for name in table.columns:
         measure = measure_of(name)
         if measure is None:
-            columns[name] = table[name].map(_reworded) if name in _SENTENCES else table[name]
+            columns[name] = table[name].map(partial(told, units="field")) if name in SENTENCES else table[name]
         else:
             # Division by 0.3048, which is exact, and rounding to 15 digits give 100 ft for 30.48 m.
             values = table[name] / _factor(measure.field, measure.table)
@@ -139,47 +131,12 @@ def _in_field(column: str, measure: Measure) -> str:
     return column.removesuffix(_ending(measure.table)) + _ending(measure.field)
 
 
-# Units of messages, which the program writes in SI.
-IN_MESSAGES: Final = {
-    "m": "ft", "mm": "in", "km": "ft", "m/s": "ft/min", "m/h": "ft/h", "kN": "klbf", "N": "lbf", "kN·m": "kft·lbf",
-    "MPa": "ksi", "bar": "psi", "kg/m^3": "ppg", "kg/m": "lb/ft",
-}  # fmt: skip
-_DOG_LEG: Final = re.compile(r"([\d.]+)°/30 m\b")
-_NUMBER = r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?"
-# A number or several with one unit, "540 to 1500 m"; what stands in quotes is the user's or an example.
-_IN_MESSAGES: Final = re.compile(
-    rf"(?<![\w.\"'(\[]){_NUMBER}(?:(?: to | and |, |–){_NUMBER})* "
-    rf"(?P<unit>{'|'.join(sorted(map(re.escape, IN_MESSAGES), key=len, reverse=True))})(?![\w/^*·])"
-)
-
-
-def reworded(text: str, system: System) -> str:
-    """A message of the program in a system of units: its lengths, loads and speeds with SI units are converted."""
-    if system == "si":
-        return text
-
-    def convert(found: re.Match[str]) -> str:
-        unit = found["unit"]
-        factor = conversion(unit.replace("·", "*"), _PINTS.get(IN_MESSAGES[unit], IN_MESSAGES[unit]))
-        numbers = found[0].removesuffix(unit)
-        return re.sub(_NUMBER, lambda n: _short(float(n[0]) * factor, n[0]), numbers) + IN_MESSAGES[unit]
-
-    text = _DOG_LEG.sub(lambda bend: f"{float(bend[1]) * _factor('ft', 'm') / 0.3:.3g}°/100 ft", text)
-    return _IN_MESSAGES.sub(convert, text)
-
-
 _PINTS: Final = {"kft·lbf": "kft*lbf", "ppg": "lb/gal"}
 
 
 def _factor(unit: str, target: str) -> float:
     """How many target units a unit is, both of a measure."""
     return conversion(_PINTS.get(unit, unit), _PINTS.get(target, target))
-
-
-def _short(value: float, before: str) -> str:
-    """A number with one digit more than it had before, three or four."""
-    digits = len(before.split("e")[0].lstrip("-0.").replace(".", ""))
-    return f"{value:.0f}" if abs(value) >= 1000 else f"{value:.{min(max(digits + 1, 3), 4)}g}"
 
 
 def _ending(unit: str) -> str:

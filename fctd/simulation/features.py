@@ -11,6 +11,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from fctd.case.errors import InputError, Table
+from fctd.case.message import quantity
 from fctd.case.rheology import RheologySpec
 from fctd.case.solver import SolverSpec
 from fctd.mechanics.law_names import STICKING
@@ -276,7 +277,7 @@ FEATURES: dict[str, Feature] = {
     ),
     "packer": Feature(
         "an end in a seal bore, which steady strings have", "none", ("mud.packer_bore",),
-        lambda run: ("mud.packer_bore", f"{bore:g} m") if (bore := run.case.mud.packer_bore) is not None else None,
+        lambda run: None if (bore := run.case.mud.packer_bore) is None else ("mud.packer_bore", quantity(bore, "m")),
     ),
     "temperature": Feature(
         "changes of temperature", "no rows", ("temperature.tvd", "temperature.change"),

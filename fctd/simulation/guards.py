@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd.arrays import Array
+from fctd.case.message import quantity, within
 from fctd.mechanics import state
 from fctd.mechanics.query import WALL_COLUMNS, Walls, walls_in
 from fctd.model.torsion import axial_period_of
@@ -157,4 +158,6 @@ class Guards(Restorable):
     def _keep(self, note: Note | None, bit_depth: float) -> None:
         """Keep a note that is new, or whose excess is larger than before."""
         if note is not None and (note.code not in self.notes or note.excess > self.notes[note.code].excess):
-            self.notes[note.code] = replace(note, text=f"{note.text}, with the bit at {bit_depth:.0f} m")
+            self.notes[note.code] = replace(
+                note, text=f"{within(note.text)}, with the bit at {quantity(bit_depth, 'm', '.0f')}"
+            )

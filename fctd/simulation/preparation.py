@@ -8,6 +8,7 @@ import numpy as np
 from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.load import Case, naming_file
+from fctd.case.message import quantity, span
 from fctd.mechanics import dynamics, state, topdrive, waves
 from fctd.mechanics.law_names import CODES
 from fctd.mechanics.moving_string import HoleWall
@@ -78,9 +79,9 @@ def _prepare(case: Case) -> tuple[Run, list[Phase]]:
     for i, depth in enumerate(case.record.profile_at):
         if not shallowest <= depth <= deepest:
             raise InputError(
-                f"a bit depth that the operations reach, {shallowest:g} to {deepest:g} m",
+                f"a bit depth that the operations reach, {span(shallowest, deepest, 'm')}",
                 key=f"record.profile_at[{i}]",
-                value=f"{depth:g} m",
+                value=quantity(depth, "m"),
             )
     hole = build_wellbore(case)
     if case.rig.feed != "stands":

@@ -10,6 +10,7 @@ import numpy as np
 
 from fctd.case.friction import FrictionChoice
 from fctd.case.load import Case, naming_file, with_friction
+from fctd.case.message import joined
 from fctd.mechanics import topdrive
 from fctd.mechanics.energy import Energy
 from fctd.mechanics.faults import UnstableError
@@ -324,7 +325,7 @@ class Simulation(Iterator[Record], Restorable):
         found = (*ended, *result.notes)
         if ledger is not None and not result.run["energy_error"] <= INACCURATE:
             return replace(result, status=RunStatus.INACCURATE, message=str(ledger), notes=found)
-        return replace(result, message="; ".join(map(str, found)), notes=found)
+        return replace(result, message=joined(note.message for note in found), notes=found)
 
 
 def simulate(

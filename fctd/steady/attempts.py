@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from fctd.case.message import within
 from fctd.mechanics import state
 from fctd.model import layouts
 from fctd.results.status import SteadyStatus
@@ -133,7 +134,7 @@ def homogenised(problem: Problem, so_far: Findings) -> Equilibrium | None:
     if point.status not in (SteadyStatus.CONVERGED, SteadyStatus.LOCKED_UP):
         return None
     why = so_far.why_homogenised or (TOO_FINE if so_far.lacks_segments else TOO_MUCH)
-    message = f"{point.message}; {why}, {HOMOGENISED}" if point.message else ""
+    message = f"{within(point.message)}; {why}, {HOMOGENISED}" if point.message else ""
     if so_far.is_fed_in_part and point.status == SteadyStatus.LOCKED_UP:
         message += f"; {EARLY}"
     return replace(point, message=message, shape="helix" if found.is_wound else "snaking")
@@ -199,7 +200,7 @@ def as_under_resolved(_: Problem, so_far: Findings) -> Equilibrium | None:
     """The string without loads of a path on segments that cannot bend; the message says which could."""
     ended = so_far.ended
     assert ended is not None  # a rung before has followed the string
-    message = f"{ended.message}; {ended._shape.buckling.shortfall(so_far.case.solver.buckling)}"
+    message = f"{within(ended.message)}; {within(ended._shape.buckling.shortfall(so_far.case.solver.buckling))}"
     return replace(ended, status=SteadyStatus.UNDER_RESOLVED, message=message)
 
 

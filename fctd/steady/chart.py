@@ -15,7 +15,7 @@ from fctd.case.text import counted
 from fctd.model.operations import SteadyRates, rates_of_all
 from fctd.results.display import Picture, drawers, html_of, picture
 from fctd.results.notes import RowNote
-from fctd.results.unit_systems import System, in_field_units, reworded
+from fctd.results.unit_systems import System, in_field_units
 from fctd.steady.torque_drag import Progress, chart_rows, table_of_rows
 
 if TYPE_CHECKING:
@@ -72,7 +72,7 @@ class Chart:
         """
         if look.get("load") not in (None, "string", "indicator"):
             raise InputError('"string" or "indicator"', key="load", value=look["load"])
-        told = [reworded(str(warning), self.units) for warning in self.warnings]
+        told = [warning.told(self.units) for warning in self.warnings]
         chosen = drawers().ChartLook(**{"rates": self.rates, "warnings": told, **look})
         return picture("chart_figure", self.rows, self.units, self.case, chosen)
 

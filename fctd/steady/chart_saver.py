@@ -4,6 +4,7 @@ import json
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from fctd.case.message import SENTENCES, kept, restored
 from fctd.steady.carried_shape import Carried
 from fctd.steady.torque_drag import Row
 from fctd.store import log
@@ -33,10 +34,10 @@ class ChartSaver(Saver):
             while True:
                 parts = log.read(self.chunks.path(self.number + 1))
                 shapes = json.loads(parts[SHAPES])
-                self.known += json.loads(parts[ROWS])
+                self.known += [[_with(restored, row) for row in rows] for rows in json.loads(parts[ROWS])]
                 self.above = {loads: Carried.restore(facts) for loads, facts in shapes.items()}
                 self.number += 1
-        except (OSError, ValueError, KeyError):
+        except (OSError, ValueError, KeyError, TypeError):
             # What follows a chunk that cannot be read is computed again, in other chunks.
             self.chunks.drop_after(self.number)
         self.kept = sum(map(len, self.known))
@@ -64,4 +65,10 @@ class ChartSaver(Saver):
         if self._describe is not None and not self.number:
             self.folder.describe(*self._describe())
         shapes = {loads: carried.facts() for loads, carried in self.above.items()}
-        return {ROWS: json.dumps(self._new).encode(), SHAPES: json.dumps(shapes).encode()}
+        rows = [[_with(kept, row) for row in at_depth] for at_depth in self._new]
+        return {ROWS: json.dumps(rows).encode(), SHAPES: json.dumps(shapes).encode()}
+
+
+def _with(change: Callable[[Any], Any], row: Row) -> Row:
+    """A row whose sentences are changed."""
+    return row | {name: change(row[name]) for name in SENTENCES if name in row}

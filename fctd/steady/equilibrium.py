@@ -13,6 +13,7 @@ from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionChoice, own_friction
 from fctd.case.load import Case, check_bit_depth, naming_file, with_friction
+from fctd.case.message import quantity
 from fctd.case.operation_names import kinds_of
 from fctd.case.solver import RESOLVING
 from fctd.mechanics import state
@@ -51,7 +52,7 @@ class Solver:
 
     def lay_out(self, bit_depth: float) -> LaidString:
         """The string with the bit at a depth [m]; raises InputError when string and hole do not fit there."""
-        check_bit_depth(bit_depth, *self.depths, "bit_depth", f"{bit_depth:g} m")
+        check_bit_depth(bit_depth, *self.depths, "bit_depth", quantity(bit_depth, "m"))
         string = lay_out(self.case, bit_depth)
         check_fit(string, self.hole, bit_depth)
         check_end(string, self.hole)

@@ -19,6 +19,7 @@ from scipy.optimize import brentq
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionChoice
 from fctd.case.load import Case, naming_file, with_friction
+from fctd.case.message import Message, frame_of, quantity, within
 from fctd.case.string import ComponentSpec
 from fctd.case.units import FORCE, LENGTH, TORQUE, Dimension, argument, bare
 from fctd.model.depths import depth_of
@@ -57,8 +58,8 @@ class Held:
         self.whole = self.solver.solve(self.kind, self.rates, self.bit_depth)
         if not self.whole.answered:
             raise InputError(
-                f"a free string that is found (its status is {self.whole.status}: {self.whole.message})",
-                key="bit_depth", value=f"{self.bit_depth:g} m",
+                f"a free string that is found (its status is {self.whole.status}: {within(self.whole.message)})",
+                key="bit_depth", value=quantity(self.bit_depth, "m"),
             )  # fmt: skip
 
     def at(self, md: float) -> StuckString:
@@ -81,7 +82,11 @@ class Held:
         if not np.isfinite([least, most]).all():
             return none | {"reason": "a reading has no steady string: check both loads"}
         if least > 0:
-            return none | {"reason": f"{SHALLOWEST:g} m of string would move more under that load: check the readings"}
+            return none | {
+                "reason": Message(
+                    f"{quantity(SHALLOWEST, 'm')} of string would move more under that load: check the readings"
+                )
+            }
         if most < 0:
             times = measured / (most + measured)
             return none | {"reason": f"a string that is stuck at its bit moves less, by a factor of {times:.3g}"}
@@ -121,8 +126,6 @@ def free_point(
         >>> round(found["free_point_md_m"]), round(found["straight_md_m"])
         (2305, 2111)
     """
-    import pandas as pd  # slow to import
-
     with naming_file(case):
         depth = depth_of(bit_depth, case, "bit_depth")
         solver = Solver(with_friction(case, friction))
@@ -144,7 +147,7 @@ def free_point(
             rows.append(_by_twist(held, *twisted, before))
         if not rows:
             raise InputError("pull and stretch, or torque and turns, that were measured", key="pull")
-    return pd.DataFrame(rows)
+    return frame_of(rows)
 
 
 def _pair(
@@ -174,8 +177,11 @@ def _by_stretch(held: Held, pull: float, stretch: float, first: float | None) ->
     start = held.whole.hookload if first is None else first
     bears = weakest(held.whole._shape.laid, "tension")
     if start + pull > bears:
-        expected = f"less than the string bears, {bears / 1e3:.0f} kN, with the {start / 1e3:.0f} kN before the pull"
-        raise InputError(expected, key="pull", value=f"{pull / 1e3:g} kN")
+        expected = (
+            f"less than the string bears, {quantity(bears / 1e3, 'kN', '.0f')}, with the "
+            f"{quantity(start / 1e3, 'kN', '.0f')} before the pull"
+        )
+        raise InputError(expected, key="pull", value=quantity(pull / 1e3, "kN"))
 
     def marks(string: StuckString) -> list[tuple[float, Equilibrium]]:
         found = (string.at_hookload(load) for load in (start, start + pull))
@@ -196,8 +202,11 @@ def _by_stretch(held: Held, pull: float, stretch: float, first: float | None) ->
 def _by_twist(held: Held, torque: float, turns: float, first: float) -> Row:
     bears = weakest(held.whole._shape.laid, "torsion")
     if first + torque > bears:
-        expected = f"less than the string bears, {bears / 1e3:.1f} kN*m, with the {first / 1e3:.1f} kN*m before"
-        raise InputError(expected, key="torque", value=f"{torque / 1e3:g} kN*m")
+        expected = (
+            f"less than the string bears, {quantity(bears / 1e3, 'kN*m', '.1f')}, with the "
+            f"{quantity(first / 1e3, 'kN*m', '.1f')} before"
+        )
+        raise InputError(expected, key="torque", value=quantity(torque / 1e3, "kN*m"))
 
     def wound(string: StuckString, at: float) -> tuple[float, float]:
         """Turns of the upper end and torque at the lower one of a surface torque [N m]."""
@@ -212,7 +221,7 @@ def _by_twist(held: Held, torque: float, turns: float, first: float) -> Row:
 
     found = held.find(moved, turns)
     if np.isnan(found["free_point_md_m"]) and first + torque <= held.whole.surface_torque:
-        found["reason"] += "; friction takes that torque on its way to the bit"
+        found["reason"] = Message(f"{within(found['reason'])}; friction takes that torque on its way to the bit")
     arrived = _arrived(held, found, lambda string: [wound(string, at)[1] for at in (first, first + torque)])
     return _row(held, TWIST, found) | {
         "straight_md_m": _straight(held, 2 * np.pi * turns / torque, _torsional), "first_torque_N_m": first,

@@ -10,6 +10,7 @@ import numpy as np
 from fctd.case.errors import InputError, nearest
 from fctd.case.friction import FrictionChoice
 from fctd.case.load import Case, naming_file, with_friction
+from fctd.case.message import frame_of, quantity
 from fctd.case.units import FORCE, argument
 from fctd.model.depths import depth_of
 from fctd.model.operations import steady_rates
@@ -81,16 +82,14 @@ def jar_forces(
         >>> bool(rows["force_at_jar_N"].iloc[0] - rows["force_at_stuck_N"].iloc[0] > 0)
         True
     """
-    import pandas as pd  # slow to import
-
     with naming_file(case):
         bit = depth_of(bit_depth, case, "bit_depth")
         stuck = bit if stuck_at is None else depth_of(stuck_at, case, "stuck_at")
         case = with_friction(case, friction)
         place = jar_depth(case, jar, bit)
         if not case.string.top_md < place <= stuck:
-            expected = f"a depth along the string, above the place where it is stuck, {stuck:g} m"
-            raise InputError(expected, key="jar", value=f"{place:g} m")
+            expected = f"a depth along the string, above the place where it is stuck, {quantity(stuck, 'm')}"
+            raise InputError(expected, key="jar", value=quantity(place, "m"))
         where = {"jar_md_m": place, "stuck_md_m": stuck, "bit_depth_m": bit}
         solver, rows = Solver(case), list[Row]()
         strings = {way: stuck_string(solver, kind, steady_rates(case, kind), bit, stuck) for way, kind in KINDS.items()}
@@ -103,7 +102,7 @@ def jar_forces(
                     rows.append({"direction": way, **where, **_row(strings[way], key, value, stuck - place)})
         if not rows:
             raise InputError("forces at the jar, or a hook load", key="up")
-    return pd.DataFrame(rows)
+    return frame_of(rows)
 
 
 def _ways(strings: dict[str, StuckString], hookload: float) -> list[str]:

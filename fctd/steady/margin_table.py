@@ -10,6 +10,7 @@ import numpy as np
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionChoice
 from fctd.case.load import Case, naming_file, with_friction
+from fctd.case.message import Message, frame_of, within
 from fctd.case.operation_names import kinds_of
 from fctd.model.depths import depth_of, depths_of
 from fctd.model.operations import SteadyRates, rates_of_all
@@ -65,8 +66,6 @@ def limits_of(
 
     Raises InputError for unusable input, and where string and hole fit at none of the depths.
     """
-    import pandas as pd  # slow to import
-
     with naming_file(case):
         kinds = kinds_of(operation)
         depths = depths_of(bit_depths, case, "bit_depths")
@@ -81,13 +80,13 @@ def limits_of(
                 rows += margin_rows(solver, kinds, rates, depth, sticks)
             except InputError as error:
                 unfit.append(error)
-                none = Margin("none", "none", reason=f"not_possible: {error}")
+                none = Margin("none", "none", reason=Message(f"not_possible: {within(error.message)}"))
                 rows += [_row(kind, depth, none) for kind in kinds]
             if progress is not None:
                 progress(done + 1, len(depths))
         if len(unfit) == len(depths):
             raise unfit[0]
-    table = pd.DataFrame(rows)
+    table = frame_of(rows)
     if sticks is not None:
         table = table.rename(columns=AT_STUCK)
         table.insert(2, "stuck_md_m", sticks)

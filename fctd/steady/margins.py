@@ -14,6 +14,7 @@ from typing import Any, ClassVar, Final, NamedTuple
 
 import numpy as np
 
+from fctd.case.message import Message, joined, quantity, within
 from fctd.case.operations import KINDS
 from fctd.case.string import ComponentSpec
 from fctd.model.fatigue import dogleg_of, endless_amplitude
@@ -156,7 +157,7 @@ def margins(loaded: Loaded, *, beyond_buckling: bool = True) -> Iterator[Margin]
     laid, rates, rig = loaded.laid, loaded.rates, loaded.solver.case.rig
     kind = KINDS[loaded.operation]
     if not loaded.free.answered:
-        yield Margin("none", "none", reason=f"{loaded.free.status}: {loaded.free.message}")
+        yield Margin("none", "none", reason=Message(f"{loaded.free.status}: {within(loaded.free.message)}"))
         return
     if kind.direction < 0:
         yield _pulled(loaded, first_limit, weakest(laid, "tension"))
@@ -185,7 +186,7 @@ def _pulled(loaded: Loaded, limit_of: LimitOf, scale: float) -> Margin:
     point, asked = loaded.pulled(found), loaded.solver.case.limits.overpull_margin
     reached, left = limit_of(point, None), point.hookload - loaded.free.hookload
     used = limit_of(loaded.free, reached.code)
-    lacking = [f"{LACKING} = {asked / 1e3:g} kN at the hook"] if left < asked else []
+    lacking = [f"{LACKING} = {quantity(asked / 1e3, 'kN')} at the hook"] if left < asked else []
     return Margin(
         OVERPULL, reached.code, reached.part, reached.md, used.share, found, point.hookload, left,
         reason=_reason([*lacking, *_said(point)]),
@@ -221,7 +222,7 @@ def swivel_of(laid: LaidString) -> str:
 def _said(point: Equilibrium) -> list[str]:
     """What the notes on a string at its limit say about its bending."""
     alone = replace(point, draw=None)  # its other balances, which two more solves would find, are not among them
-    return [f"at the limit {note.text}" for note in alone.notes if note.code in SAID]
+    return [f"at the limit {within(note.text)}" for note in alone.notes if note.code in SAID]
 
 
 def _without_make_up(laid: LaidString) -> list[str]:
@@ -235,7 +236,7 @@ def _without_make_up(laid: LaidString) -> list[str]:
 
 
 def _reason(sentences: list[str]) -> str:
-    return "; ".join(sentences) or "none"
+    return joined(sentences) if sentences else "none"
 
 
 def _load_at(at: Callable[[float], Equilibrium], limit_of: LimitOf, scale: float) -> float:
@@ -328,9 +329,9 @@ def _endless(part: ComponentSpec, section: Section, tension: float) -> str:
     if part.joint is None or stress is None:
         return "none"
     bend = dogleg_of(stress, tension, 2 * section.outer, section.wave_stiffness, part.youngs_modulus, part.joint.length)
-    return (
-        f"RP 7G bears ±{stress / 1e6:.0f} MPa without end in air under that tension, a dog-leg of "
-        f"{np.degrees(30 * bend):.3g}°/30 m"
+    return Message(
+        f"RP 7G bears ±{quantity(stress / 1e6, 'MPa', '.0f')} without end in air under that tension, a dog-leg of "
+        f"{quantity(np.degrees(30 * bend), '°/30 m', '.3g')}"
     )
 
 

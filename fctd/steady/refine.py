@@ -25,6 +25,7 @@ import numpy as np
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionChoice
 from fctd.case.load import Case, check_bit_depth, naming_file, with_friction
+from fctd.case.message import Message, quantity, within
 from fctd.case.operation_names import kinds_of
 from fctd.case.text import counted
 from fctd.case.units import bare
@@ -191,14 +192,14 @@ def _result(
         status: RefineStatus, message: str, of: Case, error: float, segments: int, shortest: float
     ) -> Refinement:
         return Refinement(
-            status, message, of, tuple(task.rates), task.bit_depth, tolerance, error, strings[0].layout, segments,
-            shortest, steps, notes, strings[answered[-1]].resolved if answered else 0,
+            status, Message(message), of, tuple(task.rates), task.bit_depth, tolerance, error, strings[0].layout,
+            segments, shortest, steps, notes, strings[answered[-1]].resolved if answered else 0,
         )  # fmt: skip
 
     if not answered:
         point = next(point for point in strings[-1].points if not counts(point))
         message = f"no string of {strings[0].segments} to {strings[-1].segments} segments has a solution for "
-        message += f"{point.operation} ({point.status}: {point.message})"
+        message += f"{point.operation} ({point.status}: {within(point.message)})"
         return finish(RefineStatus.NO_ANSWER, message, case, np.inf, 0, np.nan)
     found = strings[answered[-1]]
     error = error_of_hole + largest_error(strings[: answered[-1] + 1])
@@ -212,7 +213,7 @@ def _result(
         why = f"{lost.operation}: {lost.status}"
         message = f"strings of more than {found.segments} segments have no solution ({why}); {left} remains"
     if not judged:
-        message += f"; bent and short components ask for segments of {layouts.BESIDE_SHORT:g} m beside them"
+        message += f"; bent and short components ask for segments of {quantity(layouts.BESIDE_SHORT, 'm')} beside them"
     if tolerance < error_of_hole < np.inf:
         message += f"; {100 * error_of_hole:.3g} % of it comes from the cylinders"
     return finish(RefineStatus.NOT_REACHED, message, found.case, error, found.segments, found.shortest)
@@ -287,4 +288,4 @@ def _check(case: Case, tolerance: float, most: int, depth: float) -> None:
             )
     if case.contact.helical_force != "none":
         raise InputError('"none" in a refinement', key="contact.helical_force", value=case.contact.helical_force)
-    check_bit_depth(depth, *case.depths, "bit_depth", f"{depth:g} m")
+    check_bit_depth(depth, *case.depths, "bit_depth", quantity(depth, "m"))

@@ -20,6 +20,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fctd.arrays import Array
+from fctd.case.message import within
 from fctd.case.solver import RESOLVING
 from fctd.mechanics import state
 from fctd.results.status import SteadyStatus
@@ -81,7 +82,7 @@ def rolled(_: Problem, so_far: Findings) -> Equilibrium | None:
     if found.friction < 1:
         if found.friction > 0:
             upto = f"its slow roll round the hole was followed up to {100 * found.friction:.3g} % of the friction"
-            so_far.found = replace(unstable, message=f"{unstable.message}; {upto}")
+            so_far.found = replace(unstable, message=f"{within(unstable.message)}; {upto}")
         return None
     rolling = so_far.answer(problem, CONVERGED, unstable.iterations + found.iterations, 0)
     if rolling.status not in (SteadyStatus.CONVERGED, SteadyStatus.UNDER_RESOLVED):
@@ -92,7 +93,7 @@ def rolled(_: Problem, so_far: Findings) -> Equilibrium | None:
     return replace(
         rolling,
         status=rolling.status if coarse else SteadyStatus.ROLLING,
-        message=f"{text}; {rolling.message}" if coarse else text,
+        message=f"{text}; {within(rolling.message)}" if coarse else text,
         imbalance=found.imbalance,
         roll_rate=found.rate,
     )

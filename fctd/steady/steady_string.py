@@ -11,6 +11,7 @@ import numpy as np
 
 from fctd.arrays import Array
 from fctd.case.load import Case
+from fctd.case.message import Message, quantity, within
 from fctd.case.operations import KINDS
 from fctd.case.text import counted
 from fctd.model.frames import steady_offsets
@@ -84,6 +85,9 @@ class Equilibrium:
     draw: Callable[[], tuple[float, ...]] | None = field(default=None, repr=False)
     carried: Carried | None = field(default=None, repr=False)
     fed: tuple[Fed, ...] = field(default=(), repr=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "message", Message(self.message))
 
     def __repr__(self) -> str:
         loads = ", ".join(f"{label} {value}" for label, value in self._load_rows(MAIN).items())
@@ -231,12 +235,15 @@ def _judge(
         text = f"segment {outside} lies deeper in the wall than the hole's radius"
         return SteadyStatus.DIVERGED, f"{text}: use a stiffer wall or a smaller load"
     if code != CONVERGED:
-        return SteadyStatus.MAX_ITERATIONS, f"the iterations end with forces out of balance by {imbalance:.3g} N"
+        return (
+            SteadyStatus.MAX_ITERATIONS,
+            f"the iterations end with forces out of balance by {quantity(imbalance, 'N', '.3g')}",
+        )
     coarse = in_hole and not shape.buckling.resolved
     lacks = shape.buckling.shortfall(case.solver.buckling) if coarse else ""
     if pushed:
         text = f"{SteadyStatus.LOCKED_UP.message}; {AT_FULL}"
-        return SteadyStatus.LOCKED_UP, f"{text}; {lacks}" if coarse else text
+        return SteadyStatus.LOCKED_UP, f"{text}; {within(lacks)}" if coarse else text
     if coarse:
         return SteadyStatus.UNDER_RESOLVED, lacks
     winding = case.wellbore.tortuosity

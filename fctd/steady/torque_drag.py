@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionChoice, FrictionSet, friction_sets, own_label, table_of
 from fctd.case.load import Case, naming_file, with_friction
+from fctd.case.message import frame_of
 from fctd.case.operation_names import kinds_of
 from fctd.model.depths import depths_of
 from fctd.model.operations import SteadyRates, rates_of_all
@@ -87,10 +88,9 @@ def table_of_rows(
     drive: Mapping[str, float | str | None],
 ) -> pd.DataFrame:
     """Rows of ``chart_rows`` as the table of ``torque_drag``, with ``attrs`` (``attrs_of``)."""
-    import pandas as pd  # slow to import, and a command that prints rows needs none
 
     kinds, sets = kinds_of(operation), () if friction is None else friction_sets(friction)
-    table = pd.DataFrame(rows)
+    table = frame_of(rows)
     table.attrs = attrs_of(case, kinds, drive, sets)
     return table
 
@@ -198,7 +198,7 @@ class _Chart:
             try:
                 point = solver.solve_problem(solver.problem(kind, rates, string), above)
             except InputError as error:  # as of a resolved string with too many segments
-                return _row(label, solver, kind, depth, None, str(error))
+                return _row(label, solver, kind, depth, None, error.message)
             if point.carried is not None:
                 self._above[loads] = point.carried
             return self._answer(kind, k, depth, point)

@@ -17,6 +17,7 @@ from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionChoice
 from fctd.case.load import Case, naming_file, with_friction
+from fctd.case.message import Message, frame_of, quantity, within
 from fctd.case.operations import KINDS
 from fctd.case.units import FASTEST, LENGTH, SPEED, TIME, LikelyUnit, argument, bare, unit_hint
 from fctd.case.wall import IntervalSpec
@@ -111,8 +112,6 @@ def casing_wear(
         >>> bool(worn["high_groove_m"].max() > worn["low_groove_m"].max() > 0)
         True
     """
-    import pandas as pd  # slow to import
-
     with naming_file(case):
         low, high = _factors(wear_factor)
         if operation not in TURNING:
@@ -130,14 +129,14 @@ def casing_wear(
         for done, (depth, lasts) in enumerate(zip(depths, time, strict=True)):
             point = _string(solver, operation, rates, depth)
             if not point.status.acceptable:
-                doubted[depth] = f"{point.status}: {point.message}"
+                doubted[depth] = Message(f"{point.status}: {within(point.message)}")
             for one in worn:
                 one.add(point, lasts * rates.spin / (2 * np.pi))
             if progress is not None:
                 progress(done + 1, len(depths))
     turns = float(sum(time)) * rates.spin / (2 * np.pi)
     rows = [row for (_, of), one in zip(casings, worn, strict=False) for row in _rows(case, of, one, turns, low, high)]
-    table = pd.DataFrame(rows)
+    table = frame_of(rows)
     table.attrs = attrs_of(case, [operation], {"rpm": rpm}) | {
         "turns": turns, "time_s": float(sum(time)), "wear_factors": [low, high], "doubted": doubted,
     }  # fmt: skip
@@ -180,7 +179,9 @@ def _times(depths: Sequence[float], duration: float | str | None, penetration: f
     if penetration is not None:
         rate = argument(penetration, SPEED, "penetration")
         if not 0 < rate <= FASTEST:
-            raise InputError(f"a speed above 0 and at most {FASTEST:g} m/s", key="penetration", value=penetration)
+            raise InputError(
+                f"a speed above 0 and at most {quantity(FASTEST, 'm/s')}", key="penetration", value=penetration
+            )
         if len(depths) < 2:
             raise InputError("depths that are drilled, FROM:TO:STEP, with a rate of penetration", key="bit_depths")
         total = (depths[-1] - depths[0]) / rate
@@ -198,8 +199,8 @@ def _ends(top: float, bottom: float, step: float) -> Array:
 def _string(solver: Solver, operation: str, rates: SteadyRates, depth: float) -> Equilibrium:
     point = solver.solve(operation, rates, depth)
     if not point.answered:
-        steady = f"depths at which a steady string is found: it is {point.status}, {point.message}"
-        raise InputError(steady, key="bit_depths", value=f"{depth:g} m")
+        steady = f"depths at which a steady string is found: it is {point.status}, {within(point.message)}"
+        raise InputError(steady, key="bit_depths", value=quantity(depth, "m"))
     return point
 
 

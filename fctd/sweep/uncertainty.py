@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, Literal
 
 from fctd.case.errors import InputError, naming
+from fctd.case.message import quantity
 from fctd.case.text import counted
 from fctd.results.display import Picture, html_of, picture
 from fctd.results.unit_systems import System
@@ -150,11 +151,13 @@ def _at(rows: pd.DataFrame, bit_depth: float | None) -> tuple[float, pd.DataFram
     """The depth of the indices, and its rows."""
     if "bit_depth_m" not in rows:
         if bit_depth is not None:
-            raise InputError("no depth, as rows of runs have none", key="bit_depth", value=f"{bit_depth:g} m")
+            raise InputError("no depth, as rows of runs have none", key="bit_depth", value=quantity(bit_depth, "m"))
         return float("nan"), rows
     depths = rows["bit_depth_m"].dropna().unique()
     wanted = float(max(depths)) if bit_depth is None else bit_depth
     depth = float(min(depths, key=lambda other: abs(other - wanted)))
     if abs(depth - wanted) > ROUNDED:
-        raise InputError(f"a depth of the sweep, such as {depth:g} m", key="bit_depth", value=f"{wanted:g} m")
+        raise InputError(
+            f"a depth of the sweep, such as {quantity(depth, 'm')}", key="bit_depth", value=quantity(wanted, "m")
+        )
     return depth, rows[rows["bit_depth_m"] == depth]

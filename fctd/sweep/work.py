@@ -10,6 +10,7 @@ from typing import Any, Final
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case
+from fctd.case.message import within
 from fctd.model.depths import depth_of, depths_of
 from fctd.model.operations import rates_of_all
 from fctd.results.columns import LOADS
@@ -147,7 +148,7 @@ def simulated(case: Case, task: Task, tick: Tick) -> list[Row]:
         row |= {"status": str(result.status), "reason": result.message or "none"}
         rows.append(row)
     if not rows:
-        raise InputError(f"a run that begins ({result.status}: {result.message})")
+        raise InputError(f"a run that begins ({result.status}: {within(result.message)})")
     return rows
 
 

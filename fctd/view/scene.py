@@ -10,12 +10,13 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from fctd.arrays import Array
+from fctd.case.message import told
 from fctd.plots.loads import as_load, usual_load
 from fctd.plots.palette import DARK, EDGE, PALETTE, QUIET
 from fctd.plots.traces import plain
 from fctd.plots.tracks import lengths_of, side_force_unit
 from fctd.results.buckling import MODES
-from fctd.results.unit_systems import System, reworded, shown
+from fctd.results.unit_systems import System, shown
 from fctd.view.hole import clearance_at, exaggeration_of, rings, wall_lines
 from fctd.view.quantities import QUANTITIES, Quantity
 from fctd.view.strings import Snapshot, Strings
@@ -313,7 +314,7 @@ def caption_of(look: Look, one: Snapshot) -> str:
         stretch = (float(one.columns["md_m"][-1]) - one.bit_depth) * look.depth.factor
         if round(stretch) > 0:
             words += [f"the bit {stretch:.1f} {look.depth.label} deeper by stretch"]
-    return plain("; ".join([*words, *([reworded(one.status, look.units)] if one.status else [])]))
+    return plain("; ".join([*words, *([told(one.status, look.units)] if one.status else [])]))
 
 
 def _on_indicator(look: Look, one: Snapshot) -> str:

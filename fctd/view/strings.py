@@ -14,6 +14,7 @@ from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionChoice
 from fctd.case.load import Case, with_friction
+from fctd.case.message import Message, within
 from fctd.case.operation_names import kinds_of
 from fctd.case.operations import KINDS
 from fctd.model.depths import depths_of
@@ -207,7 +208,7 @@ def _status(point: Equilibrium) -> str:
     if point.status == SteadyStatus.CONVERGED:
         return ""
     words = point.status.replace("_", " ")
-    return f"{words}: {point.message}" if point.message else words
+    return Message(f"{words}: {within(point.message)}") if point.message else words
 
 
 def label_of_group(group: str) -> str:

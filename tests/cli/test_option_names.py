@@ -6,6 +6,7 @@ from unittest.mock import Mock
 import pytest
 
 from fctd.case.errors import InputError
+from fctd.case.message import quantity
 from fctd.cli.option_names import naming_options
 
 
@@ -28,13 +29,15 @@ def test_a_key_of_the_case_keeps_its_file() -> None:
 
 @pytest.mark.parametrize(("units", "shown", "limit"), [("si", "1000 m", "900 m"), ("field", "3281 ft", "2953 ft")])
 def test_depths_come_in_the_units_asked_for(units: Literal["si", "field"], shown: str, limit: str) -> None:
-    error = InputError("a depth within 900 m", key="bit_depth", value="1000 m", file="well.toml")
+    error = InputError(
+        f"a depth within {quantity(900, 'm')}", key="bit_depth", value=quantity(1000, "m"), file="well.toml"
+    )
     assert refusal(error, units) == f'well.toml: --depths = "{shown}": expected a depth within {limit}'
 
 
 def test_the_users_own_words_stay_and_further_problems_are_kept() -> None:
-    other = InputError("at most 5 m", key="wellbore.overlap", value="9 m")
-    error = InputError("at most 10 m (such as '2 m')", key="string.top_md", value="12 m", more=[other])
+    other = InputError(f"at most {quantity(5, 'm')}", key="wellbore.overlap", value="9 m")
+    error = InputError(f"at most {quantity(10, 'm')} (such as '2 m')", key="string.top_md", value="12 m", more=[other])
     assert refusal(error, "field").splitlines() == [
         "string.top_md = \"12 m\": expected at most 32.8 ft (such as '2 m')",
         'wellbore.overlap = "9 m": expected at most 16.4 ft',

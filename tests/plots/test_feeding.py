@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from fctd import plots
+from fctd.case.message import quantity
 from fctd.plots.feeding import ARRIVED, ROW, SNAP, STUCK
 from fctd.results.status import SteadyStatus
 from fctd.steady.feed import Fed
@@ -109,7 +110,7 @@ def test_the_limit_of_slack_off_is_drawn_where_the_hook_load_comes_near() -> Non
 
 
 def test_the_heading_has_status_and_message_in_the_units() -> None:
-    point = fed("drill_sliding", OFF_BOTTOM, status=SteadyStatus.LOCKED_UP, message="stuck below 300 m")
+    point = fed("drill_sliding", OFF_BOTTOM, status=SteadyStatus.LOCKED_UP, message=f"stuck below {quantity(300, 'm')}")
     lines = [text.get_text() for text in plots.feeding_figure(point, "field", warnings=["a warning"]).texts]
     assert "locked up: stuck below 984.3 ft" in lines
     assert "warning a warning" in lines

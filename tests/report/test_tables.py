@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from fctd.case.message import Message, quantity
 from fctd.report.tables import NONE, Cell, Table, facts, frame_table, number, short, text
 
 
@@ -41,9 +42,10 @@ def test_columns_have_units_digits_and_words() -> None:
     """A user's name is not a word of the program; a column without a value is left out."""
     frame = pd.DataFrame({
         "operation": ["trip_out", "trip_in"], "hookload_N": [1500.0, math.nan], "md_m": [30.48, 60.96],
-        "part": ["a_b", "none"], "limit": ["make_up", "none"], "reason": ["at 30.48 m", "none"],
-        "status": ["none", "none"], "torque_N_m": [math.nan, math.nan],
+        "part": ["a_b", "none"], "limit": ["make_up", "none"], "status": ["none", "none"],
+        "torque_N_m": [math.nan, math.nan],
     })  # fmt: skip
+    frame["reason"] = pd.Series([Message(f"at {quantity(30.48, 'm')}"), "none"], dtype=object)
     table = frame_table("t", frame, list(frame), "field", {"md_m": "at", "part": "component"})
     assert table.heads == ("operation", "hook load (klbf)", "at (ft)", "component", "limit", "reason")
     rows = [[cell.text for cell in row] for row in table.rows]

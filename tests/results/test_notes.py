@@ -168,7 +168,7 @@ def test_a_run_keeps_the_worst_of_each_note(tmp_path: Path) -> None:
         assert str(note) in result.message
     result.save(tmp_path)
     kept = json.loads(pq.read_schema(tmp_path / "profile.parquet").metadata[b"notes"])
-    assert [notes.Note(**note) for note in kept] == list(result.notes)
+    assert notes.from_metadata(kept) == result.notes
 
 
 def test_the_worst_of_each_code_in_the_order_of_the_table() -> None:

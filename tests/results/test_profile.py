@@ -1,7 +1,6 @@
 """Stress and buckling limits of a profile, against hand calculation."""
 
 import math
-from typing import Any
 
 import numpy as np
 import pytest
@@ -175,13 +174,13 @@ def test_the_stepper_s_long_segment_hangs_from_the_hook(operation: dict[str, obj
     ("place", "unit", "words"),
     [
         (3812.1, (1 / 0.3048, "ft"), "12500 ft + 7 ft of stretch"),
-        (3812.1, (), "3810 m + 2 m of stretch"),
-        (3810.3, (), "3810 m"),
-        (3809.9, (), "3810 m"),
-        (12.4, (), "12 m"),
+        (3812.1, (1.0, "m"), "3810 m + 2 m of stretch"),
+        (3810.3, (1.0, "m"), "3810 m"),
+        (3809.9, (1.0, "m"), "3810 m"),
+        (12.4, (1.0, "m"), "12 m"),
     ],
 )
-def test_a_place_below_the_tally_is_said_as_stretch(place: float, unit: tuple[Any, ...], words: str) -> None:
+def test_a_place_below_the_tally_is_said_as_stretch(place: float, unit: tuple[float, str], words: str) -> None:
     """12,507 ft in a well of 12,500 ft is no place of the hole."""
     assert place_in_words(place, 3810.0, *unit) == words
 

@@ -3,7 +3,7 @@
 import pandas as pd
 import pytest
 
-from fctd.results.unit_systems import in_field_units, measure_of, reworded, shown, shown_unit
+from fctd.results.unit_systems import in_field_units, measure_of, shown, shown_unit
 
 # Exact by definition (NIST SP 811, appendix B.8).
 LBF, FOOT, INCH = 4.4482216152605, 0.3048, 0.0254
@@ -69,30 +69,6 @@ def test_a_column_without_a_unit_cannot_be_shown_in_one() -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "field"),
-    [
-        ("within survey and intervals, 900 m", "within survey and intervals, 2953 ft"),
-        (
-            "helical between 540 and 1500 m, where segments of 20 m",
-            "helical between 1772 and 4921 ft, where segments of 65.6 ft",
-        ),
-        ("3598 m + 2 m of stretch", "11804 ft + 6.56 ft of stretch"),
-        ("a dog-leg of 3.61°/30 m", "a dog-leg of 3.67°/100 ft"),
-        ("12.3 mm deep", "0.4843 in deep"),
-        ("by about ±3.2 kN at 0.31 Hz", "by about ±0.719 klbf at 0.31 Hz"),
-        ("out of balance by 1.2e+03 N: the", "out of balance by 270 lbf: the"),
-        ("955 MPa, 7850 kg/m^3, 10 m/s", "138.5 ksi, 65.51 ppg, 1969 ft/min"),
-        ("case's own: 0.2 down to 1500 m, 0.3 below", "case's own: 0.2 down to 4921 ft, 0.3 below"),
-        ("the user's \"12 m\", such as '40 m' or 2 ms, 1e7 N/m, 3 modes, x10 m", None),
-    ],
-)
-def test_a_message_in_field_units(text: str, field: str | None) -> None:
-    """900 m / 0.3048 m = 2952.8 ft, and so on; what is quoted and other units stay."""
-    assert reworded(text, "field") == (text if field is None else field)
-    assert reworded(text, "si") == text
-
-
-@pytest.mark.parametrize(
     ("unit", "label", "factor"),
     [
         ("N", "klbf", 1 / (1000 * LBF)),
@@ -108,11 +84,3 @@ def test_values_whose_unit_stands_beside_them(unit: str, label: str, factor: flo
 
 def test_metric_pictures_show_thousands_of_newtons() -> None:
     assert [shown_unit(unit, "si") for unit in ("N", "N*m", "kg/m")] == [(1e-3, "kN"), (1e-3, "kN·m"), (1.0, "kg/m")]
-
-
-def test_sentences_of_a_table_are_in_field_units() -> None:
-    texts = {"reason": ["segments of 30.48 m", "none"], "name": ["a 10 m sub", "x"], "left_out": ["at 304.8 m", "none"]}
-    table = in_field_units(pd.DataFrame(texts, dtype=object))
-    assert table["reason"].tolist() == ["segments of 100 ft", "none"]
-    assert table["name"].tolist() == texts["name"]  # the user's
-    assert table["left_out"].tolist() == ["at 1000 ft", "none"]

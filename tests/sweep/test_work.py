@@ -41,7 +41,7 @@ def test_a_chart_has_the_rows_of_the_command(tmp_path: Path) -> None:
     case = load_case(case_file(tmp_path))
     found = rows(case, operations=["trip_in", "trip_out"], depths="600:900:150")
     wanted = torque_drag(case, ["trip_in", "trip_out"], [600, 750, 900])
-    pd.testing.assert_frame_equal(pd.DataFrame(found), wanted, check_exact=True)
+    pd.testing.assert_frame_equal(pd.DataFrame(found), wanted, check_exact=True, check_dtype=False)
 
 
 def test_an_equilibrium_has_the_loads_and_extremes_of_its_profile(tmp_path: Path) -> None:

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fctd.case.message import Message, quantity
 from fctd.view.quantities import QUANTITIES
 from fctd.view.scene import (
     PANELS,
@@ -94,5 +95,5 @@ def test_the_caption_counts_contacts() -> None:
     heavy = replace(made, case=made.case.model_copy(update={"rig": rig}))
     assert f"kN ({(one.hookload + 5e4) / 1e3:.1f} kN on the indicator)" in caption_of(Look(heavy), one)
     assert "indicator" not in caption_of(Look(made), one)
-    lost = replace(one, status="under resolved: segments of 30.48 m cannot bend that way")
+    lost = replace(one, status=Message(f"under resolved: segments of {quantity(30.48, 'm')} cannot bend that way"))
     assert "segments of 100 ft" in caption_of(Look(made, "field"), lost)

@@ -16,6 +16,7 @@ from fctd.case.calipers.form import ARMS, CALIPER, MOST_ARMS
 from fctd.case.calipers.reading import Measured, read_caliper
 from fctd.case.errors import InputError, Table, exclusive, known_keys
 from fctd.case.file_names import FileName, beside_case
+from fctd.case.message import quantity
 from fctd.case.surveys.form import ColumnKey, ColumnSpec, check_units
 from fctd.case.tables.headers import Choice
 
@@ -114,14 +115,15 @@ def _caliper(spec: CaliperSpec, found: Measured) -> Caliper:
     """The radii that measured rows stand for."""
     for row, md in enumerate(found.md.tolist()):
         if row and md <= found.md[row - 1]:
-            expected = f"a depth greater than that of the row above, {found.md[row - 1]:g} m"
-            raise InputError(expected, key=found.where(row, "md"), value=f"{md:g} m", file=spec.log)
+            expected = f"a depth greater than that of the row above, {quantity(found.md[row - 1], 'm')}"
+            raise InputError(expected, key=found.where(row, "md"), value=quantity(md, "m"), file=spec.log)
     bad = np.argwhere((found.values <= 0) | (found.values > units.WIDEST))
     if len(bad):
         row, arm = bad[0].tolist()
         raise InputError(
-            f"a {spec.values} above 0 and up to {units.WIDEST:g} m (check the unit; a value that is missing is empty)",
-            key=found.where(row, ARMS[arm]), value=f"{found.values[row, arm]:.6g} m", file=spec.log,
+            f"a {spec.values} above 0 and up to {quantity(units.WIDEST, 'm')} (check the unit; a value that is "
+            "missing is empty)",
+            key=found.where(row, ARMS[arm]), value=quantity(found.values[row, arm], "m", ".6g"), file=spec.log,
         )  # fmt: skip
     arms = found.values.shape[1]
     radii = found.values if spec.values == "radius" else 0.5 * found.values

@@ -8,6 +8,7 @@ from fctd.arrays import Array
 from fctd.case.doubts.usual import Doubts
 from fctd.case.hole import WellboreSpec
 from fctd.case.input_warnings import InputWarning
+from fctd.case.message import quantity, span
 from fctd.case.text import counted
 
 KEY: Final = "wellbore.caliper"
@@ -34,7 +35,7 @@ def measured_size(hole: WellboreSpec, td: float) -> Doubts:
     yield from _depths(found.md, td)
     if not known.any():
         yield InputWarning(
-            "caliper_depth", KEY, f"no row lies in open hole: it has {found.md[0]:g} to {found.md[-1]:g} m",
+            "caliper_depth", KEY, f"no row lies in open hole: it has {span(found.md[0], found.md[-1], 'm')}",
             "check the unit of its depths, and which intervals are cased",
         )  # fmt: skip
         return
@@ -51,7 +52,7 @@ def measured_size(hole: WellboreSpec, td: float) -> Doubts:
         yield InputWarning(
             "caliper_gauge", KEY,
             f"{counted(int(narrow.sum()), 'row')} of a mean diameter below the interval's, the narrowest "
-            f"{1e3 * size[at]:.4g} mm at {found.md[at]:g} m",
+            f"{quantity(1e3 * size[at], 'mm', '.4g')} at {quantity(found.md[at], 'm')}",
             "check them: the string passes there in the computation too",
         )  # fmt: skip
     inner = size[1:-1]
@@ -61,7 +62,7 @@ def measured_size(hole: WellboreSpec, td: float) -> Doubts:
         yield InputWarning(
             "caliper_spike", KEY,
             f"{counted(int((spikes & known[1:-1]).sum()), 'row')} that differ from both neighbours by a third, the "
-            f"first at {found.md[at]:g} m",
+            f"first at {quantity(found.md[at], 'm')}",
             "leave them empty if they are faults of the log",
         )  # fmt: skip
 
@@ -71,11 +72,11 @@ def _depths(md: Array, td: float) -> Doubts:
     first, last = float(md[0]), float(md[-1])
     if first < 0:
         yield InputWarning(
-            "caliper_depth", KEY, f"its first row is at {first:g} m, above the surface", "check its depths"
+            "caliper_depth", KEY, f"its first row is at {quantity(first, 'm')}, above the surface", "check its depths"
         )
     if last > td + BELOW_TD:
         feet = abs(last * FOOT / td - 1) < 0.05
         yield InputWarning(
-            "caliper_depth", KEY, f"its last row is at {last:g} m, the survey ends at {td:g} m",
+            "caliper_depth", KEY, f"its last row is at {quantity(last, 'm')}, the survey ends at {quantity(td, 'm')}",
             "check the unit of its depths, which are probably feet" if feet else "check its depths",
         )  # fmt: skip

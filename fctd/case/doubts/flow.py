@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from fctd.case.doubts.usual import Doubts
 from fctd.case.drilling import BitSpec
 from fctd.case.input_warnings import InputWarning
+from fctd.case.message import quantity
 from fctd.case.operations import Operation
 from fctd.case.rig import MudSpec
 
@@ -38,5 +39,8 @@ def of_flow(mud: MudSpec, bit: BitSpec, operations: Sequence[Operation], flow: f
         )  # fmt: skip
     for where, one in flows:
         if bit.motor is not None and one and abs(bit.motor.flow - one) > 1e-3 * one:
-            text = f"{6e4 * one:.0f} L/min, where bit.motor.flow turns the motor with {6e4 * bit.motor.flow:.0f}"
+            text = (
+                f"{quantity(6e4 * one, 'L/min', '.0f')}, where bit.motor.flow turns the motor with "
+                f"{6e4 * bit.motor.flow:.0f}"
+            )
             yield InputWarning("motor_flow", where, text, "give one flow to both")

@@ -7,6 +7,7 @@ from fctd.case.doubts.usual import Doubts
 from fctd.case.friction import FrictionSet
 from fctd.case.hole import WellboreSpec
 from fctd.case.input_warnings import InputWarning
+from fctd.case.message import quantity, span
 from fctd.case.pipes.filling import casing_named
 from fctd.case.units import LikelyUnit, unit_hint
 
@@ -28,7 +29,7 @@ def shoe_below_td(hole: WellboreSpec, td: float) -> Doubts:
         if not in_hole:
             yield InputWarning(
                 "shoe_below_td", f"wellbore.intervals[{i}].to_md",
-                f"the interval ends at {interval.to_md:g} m, the survey at {td:g} m",
+                f"the interval ends at {quantity(interval.to_md, 'm')}, the survey at {quantity(td, 'm')}",
                 f"write '{interval.to_md:g} ft' if these are feet" if feet else "check depth and unit of both",
             )  # fmt: skip
 
@@ -40,7 +41,7 @@ def hole_size(hole: WellboreSpec) -> Doubts:
         if not NARROWEST <= interval.diameter <= WIDEST:
             yield InputWarning(
                 "hole_size", f"wellbore.intervals[{i}].diameter",
-                f"a hole of {interval.diameter:g} m" + unit_hint(interval.diameter, inches),
+                f"a hole of {quantity(interval.diameter, 'm')}" + unit_hint(interval.diameter, inches),
                 "write the diameter with its unit",
             )  # fmt: skip
 
@@ -51,7 +52,7 @@ def wider_below(hole: WellboreSpec) -> Doubts:
         if here.diameter > UNDERREAMED * above.diameter:
             yield InputWarning(
                 "wider_below", f"wellbore.intervals[{i}].diameter",
-                f"the hole widens downwards, from {1e3 * above.diameter:g} to {1e3 * here.diameter:g} mm",
+                f"the hole widens downwards, from {span(1e3 * above.diameter, 1e3 * here.diameter, 'mm')}",
                 "list the intervals from the surface down",
             )  # fmt: skip
 
@@ -65,8 +66,9 @@ def casing_bore(hole: WellboreSpec) -> Doubts:
         if abs(interval.diameter / bore - 1) > OTHER_BORE:
             yield InputWarning(
                 "casing_bore", f"wellbore.intervals[{i}].diameter",
-                f"{1e3 * interval.diameter:.4g} mm, where the bore of {interval.casing} is {1e3 * bore:.4g} mm: "
-                f"its wall is taken as {1e3 * interval.wall:.3g} mm",
+                f"{quantity(1e3 * interval.diameter, 'mm', '.4g')}, where the bore of {interval.casing} is "
+                f"{quantity(1e3 * bore, 'mm', '.4g')}: "
+                f"its wall is taken as {quantity(1e3 * interval.wall, 'mm', '.3g')}",
                 "leave the diameter out, or check the casing",
             )  # fmt: skip
 

@@ -6,6 +6,7 @@ from typing import Final
 from fctd.case.doubts.usual import Doubts, Well
 from fctd.case.drilling import DriveSpec
 from fctd.case.input_warnings import InputWarning
+from fctd.case.message import quantity
 from fctd.case.operations import KINDS, Operation
 from fctd.case.rig import MudSpec, RigSpec
 from fctd.case.units import FASTEST, MOST_RPM
@@ -19,7 +20,7 @@ def no_mud(mud: MudSpec, td: float) -> Doubts:
     """A deep hole without mud, where the case does not say so."""
     if td > DEEP and mud.density == 0 and not mud.outside and "density" not in mud.model_fields_set:
         yield InputWarning(
-            "no_mud", "mud.density", f"there is no mud, so the string hangs in air in a hole of {td:g} m",
+            "no_mud", "mud.density", f"there is no mud, so the string hangs in air in a hole of {quantity(td, 'm')}",
             'give a density such as "1200 kg/m^3", or 0 for air',
         )  # fmt: skip
 
@@ -73,7 +74,7 @@ def _rates(where: str, kind: str, speed: float, rpm: float) -> Doubts:
     fastest = FASTEST_DRILLING if KINDS[kind].on_bottom else FASTEST_HOIST
     if fastest < speed <= FASTEST:  # the case refuses a higher one
         doing = "drilling" if KINDS[kind].on_bottom else "moving the string"
-        text = f"{doing} at {speed:g} m/s, which is {3600 * speed:.0f} m/h"
+        text = f"{doing} at {quantity(speed, 'm/s')}, which is {quantity(3600 * speed, 'm/h', '.0f')}"
         yield InputWarning("speed", f"{where}speed", text, "write the speed with its unit, such as '20 m/h'")
     if FASTEST_ROTATION < rpm <= MOST_RPM:
         text = f"{rpm:g} rev/min, where top drives turn at up to {FASTEST_ROTATION:g}"

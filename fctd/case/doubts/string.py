@@ -9,6 +9,7 @@ import numpy as np
 from fctd.case.doubts.usual import Doubts
 from fctd.case.hole import WellboreSpec
 from fctd.case.input_warnings import InputWarning
+from fctd.case.message import quantity
 from fctd.case.pipes.catalogue import SAME_DIAMETER, pipe_named
 from fctd.case.pipes.filling import lacks_joints
 from fctd.case.rig import MudSpec
@@ -28,10 +29,15 @@ def light_string(string: StringSpec, mud: MudSpec) -> Doubts:
         around = max((row.density for row in mud.outside), default=mud.density)
         body, displaced = float(part.density * area), float(around * area)
         if mass < displaced:
-            text = f"{_name(part)} weighs {mass:.4g} kg/m, less than the mud in its place, {displaced:.4g} kg/m"
+            text = (
+                f"{_name(part)} weighs {quantity(mass, 'kg/m', '.4g')}, less than the mud in its place, "
+                f"{quantity(displaced, 'kg/m', '.4g')}"
+            )
             yield InputWarning("floating_string", key, text, _REMEDY_OF_MASS)
         elif not LIGHT * body <= mass <= HEAVY * body:
-            text = f"{_name(part)} weighs {mass:.4g} kg/m, its body alone {body:.4g} kg/m"
+            text = (
+                f"{_name(part)} weighs {quantity(mass, 'kg/m', '.4g')}, its body alone {quantity(body, 'kg/m', '.4g')}"
+            )
             yield InputWarning("linear_mass", key, text, _REMEDY_OF_MASS)
 
 
@@ -61,7 +67,10 @@ def unlike_pipe(string: StringSpec) -> Doubts:
         pipe = pipe_named(part.pipe)
         own, named = (part.outer_diameter, part.inner_diameter), (pipe.worn_outer, pipe.inner)
         if max(abs(x - y) for x, y in zip(own, named, strict=True)) > SAME_DIAMETER:
-            sizes = [f"{1e3 * outer:.6g} mm by {1e3 * inner:.6g} mm" for outer, inner in (own, named)]
+            sizes = [
+                f"{quantity(1e3 * outer, 'mm', '.6g')} by {quantity(1e3 * inner, 'mm', '.6g')}"
+                for outer, inner in (own, named)
+            ]
             yield InputWarning(
                 "unlike_pipe", f"string.components[{i}].pipe",
                 f"{_name(part)} has a body of {sizes[0]}, its pipe one of {sizes[1]}",
@@ -88,8 +97,8 @@ def bit_size(string: StringSpec, hole: WellboreSpec, td: float) -> Doubts:
     if bits[0] and widest.contact_diameter > first.contact_diameter:
         yield InputWarning(
             "bit_size", "string.components[0].outer_diameter",
-            f"{_name(first)} has {1e3 * first.contact_diameter:.6g} mm, {_name(widest)} above it "
-            f"{1e3 * widest.contact_diameter:.6g} mm",
+            f"{_name(first)} has {quantity(1e3 * first.contact_diameter, 'mm', '.6g')}, {_name(widest)} above it "
+            f"{quantity(1e3 * widest.contact_diameter, 'mm', '.6g')}",
             "check both diameters",
         )  # fmt: skip
     elif others and any(bits) and not bits[0]:
@@ -115,8 +124,9 @@ def bent_along_gauge(string: StringSpec, hole: WellboreSpec) -> Doubts:
         if aside > room:
             yield InputWarning(
                 "bent_along_gauge", f"string.components[{i}].contact_diameter",
-                f"{_name(part)} touches along all of its {part.length:.4g} m, is bent by "
-                f"{1e3 * aside:.3g} mm over this length, and has {1e3 * room:.3g} mm of room in the hole",
+                f"{_name(part)} touches along all of its {quantity(part.length, 'm', '.4g')}, is bent by "
+                f"{quantity(1e3 * aside, 'mm', '.3g')} over this length, and has "
+                f"{quantity(1e3 * room, 'mm', '.3g')} of room in the hole",
                 "give its stabiliser sleeve, the part up to the bend and the body above it as components of their own",
             )  # fmt: skip
 
@@ -131,8 +141,9 @@ def does_not_drift(string: StringSpec, hole: WellboreSpec, deepest: float) -> Do
             key = "contact_diameter" if "contact_diameter" in part.model_fields_set else "outer_diameter"
             yield InputWarning(
                 "does_not_drift", f"string.components[{i}].{key}",
-                f"{_name(part)} has {1e3 * part.contact_diameter:.6g} mm and cannot have passed the hole of "
-                f"{1e3 * tight.diameter:.6g} mm above {tight.to_md:g} m",
+                f"{_name(part)} has {quantity(1e3 * part.contact_diameter, 'mm', '.6g')} and cannot have passed the "
+                "hole of "
+                f"{quantity(1e3 * tight.diameter, 'mm', '.6g')} above {quantity(tight.to_md, 'm')}",
                 "check both diameters; of a tool that opens below a shoe only the rows below are meant",
             )  # fmt: skip
 

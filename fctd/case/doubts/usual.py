@@ -8,6 +8,7 @@ from typing import Final, NamedTuple, Protocol
 from fctd.case.drilling import BitSpec
 from fctd.case.hole import WellboreSpec
 from fctd.case.input_warnings import InputWarning
+from fctd.case.message import span
 from fctd.case.operations import Operation
 from fctd.case.rig import MudSpec, RigSpec
 from fctd.case.solver import SolverSpec
@@ -89,47 +90,47 @@ USUAL: Final = {
         (LikelyUnit(10, 450, " GPa"), LikelyUnit(10e3, 450e3, " MPa")),
     ),
     "string.components.yield_strength": Usual(
-        "yield_strength", "a strength", "Pa", 50e6, 3e9, "50 to 3000 MPa",
+        "yield_strength", "a strength", "Pa", 50e6, 3e9, span(50, 3000, "MPa"),
         (LikelyUnit(30, 250, " ksi"), LikelyUnit(250, 3000, " MPa")),
     ),
     # Below, a weight in kN or t or a torque in kN*m was written as a bare number; above, in a unit a thousand times too
     # large.  Blocks weigh up to 100 t, bits carry up to 60 t and 60 kN*m.
     "bit.weight_on_bit": Usual(
-        "bit_load", "a weight on bit", "N", 1e3, 2e6, "1 to 2000 kN",
+        "bit_load", "a weight on bit", "N", 1e3, 2e6, span(1, 2000, "kN"),
         (LikelyUnit(1, 999, " kN"), LikelyUnit(1, 99, " klbf")),
     ),
     "bit.torque": Usual(
-        "bit_load", "a bit torque", "N*m", 20, 200e3, "0.02 to 200 kN·m",
+        "bit_load", "a bit torque", "N*m", 20, 200e3, span(0.02, 200, "kN·m"),
         (LikelyUnit(0.5, 19.99, " kN*m"),),
     ),
     "bit.rock.wear_flat": Usual(
-        "wear_flat", "wear flats", "m", 1e-4, 0.05, "0.1 to 50 mm",
+        "wear_flat", "wear flats", "m", 1e-4, 0.05, span(0.1, 50, "mm"),
         (LikelyUnit(0.1, 50, " mm"),),
     ),
     "rig.block_weight": Usual(
-        "rig_load", "a block weight", "N", 1e3, 5e6, "1 to 5000 kN",
+        "rig_load", "a block weight", "N", 1e3, 5e6, span(1, 5000, "kN"),
         (LikelyUnit(10, 999, " kN"), LikelyUnit(5, 250, " klbf")),
     ),
     "rig.hoist_capacity": Usual(
-        "rig_load", "a hoist capacity", "N", 50e3, 30e6, "50 to 30000 kN", (LikelyUnit(49, 30e3, " kN"),)
+        "rig_load", "a hoist capacity", "N", 50e3, 30e6, span(50, 30000, "kN"), (LikelyUnit(49, 30e3, " kN"),)
     ),
     "rig.largest_torque": Usual(
-        "rig_load", "a drive torque", "N*m", 500, 300e3, "0.5 to 300 kN·m", (LikelyUnit(1, 300, " kN*m"),)
+        "rig_load", "a drive torque", "N*m", 500, 300e3, span(0.5, 300, "kN·m"), (LikelyUnit(1, 300, " kN*m"),)
     ),
     "rig.slip_length": Usual(
-        "rig_load", "a length of slips", "m", 0.1, 1.5, "0.1 to 1.5 m", (LikelyUnit(4, 40, " in"),)
+        "rig_load", "a length of slips", "m", 0.1, 1.5, span(0.1, 1.5, "m"), (LikelyUnit(4, 40, " in"),)
     ),
     "rig.guide_friction": Usual(
-        "rig_load", "friction of the guides", "N", 100, 200e3, "0.1 to 200 kN", (LikelyUnit(0.1, 99, " kN"),)
+        "rig_load", "friction of the guides", "N", 100, 200e3, span(0.1, 200, "kN"), (LikelyUnit(0.1, 99, " kN"),)
     ),
     "rig.torque_offset": Usual(
-        "rig_load", "a torque offset", "N*m", 5, 50e3, "0.005 to 50 kN·m", (LikelyUnit(0.1, 4.99, " kN*m"),)
+        "rig_load", "a torque offset", "N*m", 5, 50e3, span(0.005, 50, "kN·m"), (LikelyUnit(0.1, 4.99, " kN*m"),)
     ),
     "rig.surface_bore": Usual(
         "surface_bore", "a bore of surface lines", "m", 0.03, 0.25, "1.5 to 10 in", (LikelyUnit(1.5, 10, " in"),)
     ),
     "string.components.pressure_drop": Usual(
-        "pressure_drop", "a pressure drop of a tool", "Pa", 1e4, 5e7, "0.1 to 500 bar",
+        "pressure_drop", "a pressure drop of a tool", "Pa", 1e4, 5e7, span(0.1, 500, "bar"),
         (LikelyUnit(10, 7000, " psi"), LikelyUnit(1, 500, " bar")),
     ),
     "wellbore.window.pore": WINDOW,

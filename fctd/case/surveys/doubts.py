@@ -11,6 +11,7 @@ from typing import Final
 import numpy as np
 
 from fctd.case.input_warnings import InputWarning
+from fctd.case.message import quantity
 from fctd.case.surveys.directions import dogleg, severity
 from fctd.case.surveys.rounding import rounded, spinning
 from fctd.case.surveys.stations import StationKey, Survey
@@ -72,8 +73,9 @@ def _sharp(survey: Survey) -> Iterator[InputWarning]:
         yield InputWarning(
             "dog_leg",
             survey.rows(worst, worst + 1),
-            f"the hole bends by {bend[worst]:.3g} deg in {np.diff(survey.stations[:, 0])[worst]:.4g} m, a dog-leg of "
-            f"{rate[worst]:.3g} deg/30 m{more}",
+            f"the hole bends by {bend[worst]:.3g} deg in "
+            f"{quantity(np.diff(survey.stations[:, 0])[worst], 'm', '.4g')}, a dog-leg of "
+            f"{quantity(rate[worst], 'deg/30 m', '.3g')}{more}",
             "check these rows and their neighbours for a slip of the pen",
         )
 
@@ -112,7 +114,7 @@ def _above_surface(survey: Survey) -> Iterator[InputWarning]:
         yield InputWarning(
             "above_surface",
             survey.rows(highest, highest),
-            f"the hole rises to {-depth[highest]:.4g} m above its first station",
+            f"the hole rises to {quantity(-depth[highest], 'm', '.4g')} above its first station",
             "check that inclinations are measured from the vertical: 0 is straight down, 90 level, 180 straight up",
         )
 
@@ -129,8 +131,8 @@ def _vertical(survey: Survey) -> Iterator[InputWarning]:
         yield InputWarning(
             "tvd_below_md",
             written.rows(worst, worst),
-            f"a true vertical depth of {written.vertical[worst]:.4g} m beside a measured depth of "
-            f"{measured[worst]:.4g} m, which cannot be less",
+            f"a true vertical depth of {quantity(written.vertical[worst], 'm', '.4g')} beside a measured depth of "
+            f"{quantity(measured[worst], 'm', '.4g')}, which cannot be less",
             "check that the two columns are not exchanged, and that both begin at the same height",
         )
 
@@ -147,7 +149,8 @@ def _gap(survey: Survey) -> Iterator[InputWarning]:
         yield InputWarning(
             "gap_in_curve",
             survey.rows(worst, worst + 1),
-            f"no station for {length[worst]:.4g} m, in which the hole turns by {turn[worst]:.3g} deg{more}",
+            f"no station for {quantity(length[worst], 'm', '.4g')}, in which the hole turns by {turn[worst]:.3g} "
+            f"deg{more}",
             "check that no rows are missing; a single arc hides the dog-legs between",
         )
 
@@ -182,7 +185,7 @@ def _depth_unit(survey: Survey) -> Iterator[InputWarning]:
     if stands:
         text = f"most stations are {np.median(steps):.3g} {unit} apart, which is a stand in {word}"
     elif unit == "m" and depths[-1] > _LONGEST:
-        text = f"the well is {depths[-1] / 1e3:.3g} km long, which looks like a depth in feet"
+        text = f"the well is {quantity(depths[-1] / 1e3, 'km', '.3g')} long, which looks like a depth in feet"
     else:
         return
     yield InputWarning(

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.input_warnings import InputWarning
+from fctd.case.message import quantity
 from fctd.case.surveys.directions import severity, tangents
 from fctd.case.surveys.smoothing import LARGEST_ANGLE, smooth
 from fctd.case.surveys.stations import Survey
@@ -89,7 +90,8 @@ def rounded(survey: Survey) -> Iterator[InputWarning]:
     yield InputWarning(
         "rounded_survey",
         survey.rows(worst, worst + 1),
-        f"rounding ({', '.join(steps)}) makes dog-legs of about {typical:.2g} deg/30 m in the whole well",
+        f"rounding ({', '.join(steps)}) makes dog-legs of about {quantity(typical, 'deg/30 m', '.2g')} in the whole "
+        "well",
         effect,
     )
 
@@ -113,7 +115,7 @@ def spinning(survey: Survey) -> Iterator[InputWarning]:
         "azimuth_noise",
         survey.rows(int(first), int(last) + 1),
         f"the azimuth turns by up to {spin[spins].max():.3g} deg between stations whose inclination is at most "
-        f"twice its last digit, which bends a vertical hole by {bend:.2g} deg/30 m",
+        f"twice its last digit, which bends a vertical hole by {quantity(bend, 'deg/30 m', '.2g')}",
         effect,
     )
 
@@ -134,5 +136,5 @@ def _effect(survey: Survey, angle: float, courses: NDArray[np.bool_]) -> tuple[i
     moved = float(np.linalg.norm(path, axis=1).max())
     return int(np.argmax(before - after)), (
         f'survey_smoothing = "{angle:g} deg" brings the greatest of these dog-legs from {before.max():.3g} to '
-        f"{after.max():.3g} deg/30 m, and moves the path by at most {moved:.2g} m"
+        f"{quantity(after.max(), 'deg/30 m', '.3g')}, and moves the path by at most {quantity(moved, 'm', '.2g')}"
     )

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from fctd.arrays import Array
 from fctd.case.errors import InputError
+from fctd.case.message import within
 from fctd.case.surveys.directions import tangents
 
 LARGEST_ANGLE: Final = 0.02  # [rad]: whole degrees turn a direction by up to 0.0123
@@ -61,7 +62,7 @@ def smooth(stations: Array, angle: float) -> Array:
         method="highs",
     )
     if found.x is None:
-        raise InputError(f"stations that can be smoothed ({found.message})", key="wellbore.survey_smoothing")
+        raise InputError(f"stations that can be smoothed ({within(found.message)})", key="wellbore.survey_smoothing")
     u, v = (found.x[: 2 * count] - found.x[2 * count : 4 * count]).reshape(2, count)
     return _turned(stations, t + (u * down + v * right).T, (u != 0.0) | (v != 0.0))
 

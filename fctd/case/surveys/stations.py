@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd.case.errors import MISSING, InputError
+from fctd.case.message import quantity
 from fctd.case.units import DEEPEST
 
 StationKey = Literal["md", "inc", "azi"]
@@ -107,7 +108,7 @@ def check(written: Written) -> Survey:
     for row in np.flatnonzero(stations[:, 0] < 0.0).tolist():
         raise refuse(row, 0, "a measured depth of at least 0")
     for row in np.flatnonzero(stations[:, 0] > DEEPEST).tolist():
-        raise refuse(row, 0, f"a measured depth of at most {DEEPEST / 1e3:g} km")
+        raise refuse(row, 0, f"a measured depth of at most {quantity(DEEPEST / 1e3, 'km')}")
     for row in np.flatnonzero((stations[:, 1] < 0.0) | (stations[:, 1] > 180.0)).tolist():
         raise refuse(row, 1, f"an inclination from 0 to {angle(180.0, 1)} {written.units[1]}")
     # The bound admits unwrapped azimuths and excludes -999.25 and the other null values of well logs.

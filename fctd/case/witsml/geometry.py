@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Final
 
 from fctd.case.errors import InputError, naming
+from fctd.case.message import quantity
 from fctd.case.units import DEEPEST, FRICTION, LENGTH, Quantity
 from fctd.case.wall import IntervalKind
 from fctd.case.witsml.objects import GEOMETRY, Item, read_object
@@ -113,8 +114,8 @@ def _section(number: int, item: Item) -> Section:
         depths[name] = depth
     top, bottom = depths["mdTop"], depths["mdBottom"]
     if bottom <= top:
-        expected = f"a depth below mdTop, {top:g} m"
-        raise InputError(expected, key=f"{item.place}, mdBottom", value=f"{bottom:g} m")
+        expected = f"a depth below mdTop, {quantity(top, 'm')}"
+        raise InputError(expected, key=f"{item.place}, mdBottom", value=quantity(bottom, "m"))
     return Section(
         number, item.text("typeHoleCasing"), top, bottom, item.quantity("idSection", DIAMETER),
         item.quantity("odSection", DIAMETER), item.number("factFric", FRICTION),
