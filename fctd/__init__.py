@@ -25,6 +25,10 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     __version__: str
+    from fctd.answers.chart import Chart, chart
+    from fctd.answers.checked import CheckedCase, check_case
+    from fctd.answers.comparison import Comparison, compare
+    from fctd.answers.swept import Swept, run_sweep, run_uncertainty
     from fctd.calibration.calibrate import calibrate, predict
     from fctd.calibration.result import Calibration
     from fctd.case.errors import InputError
@@ -34,11 +38,8 @@ if TYPE_CHECKING:
     from fctd.model.first_case import new_case
     from fctd.model.wellbore import Contacts, Wellbore, build_wellbore, find_contacts
     from fctd.monitoring.monitor import Monitored, monitor
-    from fctd.results.checked import CheckedCase, check_case
     from fctd.results.tables import SimulationResult, open_result
     from fctd.simulation.simulate import Simulation, simulate
-    from fctd.steady.chart import Chart, chart
-    from fctd.steady.comparison import Comparison, compare
     from fctd.steady.equilibrium import equilibrium, lie_along
     from fctd.steady.free_point import free_point
     from fctd.steady.jar import jar_forces
@@ -47,16 +48,15 @@ if TYPE_CHECKING:
     from fctd.steady.steady_string import Equilibrium
     from fctd.steady.torque_drag import torque_drag
     from fctd.steady.wear import casing_wear
-    from fctd.sweep.swept import Swept, run_sweep, run_uncertainty
     from fctd.sweep.uncertainty import Uncertainty
 
 # Where each public name stands; it is imported at its first use.
 _HOMES = {
     "Calibration": "fctd.calibration.result",
     "Case": "fctd.case.load",
-    "Chart": "fctd.steady.chart",
-    "CheckedCase": "fctd.results.checked",
-    "Comparison": "fctd.steady.comparison",
+    "Chart": "fctd.answers.chart",
+    "CheckedCase": "fctd.answers.checked",
+    "Comparison": "fctd.answers.comparison",
     "Contacts": "fctd.model.wellbore",
     "Equilibrium": "fctd.steady.steady_string",
     "InputError": "fctd.case.errors",
@@ -64,15 +64,15 @@ _HOMES = {
     "Refinement": "fctd.steady.refine",
     "Simulation": "fctd.simulation.simulate",
     "SimulationResult": "fctd.results.tables",
-    "Swept": "fctd.sweep.swept",
+    "Swept": "fctd.answers.swept",
     "Uncertainty": "fctd.sweep.uncertainty",
     "Wellbore": "fctd.model.wellbore",
     "build_wellbore": "fctd.model.wellbore",
     "calibrate": "fctd.calibration.calibrate",
     "casing_wear": "fctd.steady.wear",
-    "chart": "fctd.steady.chart",
-    "check_case": "fctd.results.checked",
-    "compare": "fctd.steady.comparison",
+    "chart": "fctd.answers.chart",
+    "check_case": "fctd.answers.checked",
+    "compare": "fctd.answers.comparison",
     "equilibrium": "fctd.steady.equilibrium",
     "fastest_trips": "fctd.hydraulics.surge",
     "find_contacts": "fctd.model.wellbore",
@@ -87,8 +87,8 @@ _HOMES = {
     "open_result": "fctd.results.tables",
     "predict": "fctd.calibration.calibrate",
     "refine": "fctd.steady.refine",
-    "run_sweep": "fctd.sweep.swept",
-    "run_uncertainty": "fctd.sweep.swept",
+    "run_sweep": "fctd.answers.swept",
+    "run_uncertainty": "fctd.answers.swept",
     "simulate": "fctd.simulation.simulate",
     "surge_pressures": "fctd.hydraulics.surge",
     "torque_drag": "fctd.steady.torque_drag",

@@ -7,6 +7,8 @@ from typing import Annotated, Any
 
 import typer
 
+from fctd.answers.chart import Chart, chart
+from fctd.answers.comparison import FEWEST, compare, names_of
 from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionSet, parse_frictions
@@ -51,8 +53,6 @@ from fctd.results.notes import meanings_of
 from fctd.results.status import SteadyStatus
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, reworded, shown
-from fctd.steady.chart import Chart, chart
-from fctd.steady.comparison import FEWEST, compare, names_of
 from fctd.steady.margin_table import USUAL
 
 # Keys that differ, on the screen and in a picture.

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from fctd.answers.chart import Chart
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.results.differences import Difference, differences
 from fctd.results.display import Picture, drawers, html_of, picture
 from fctd.results.series import CASE
 from fctd.results.unit_systems import System, in_field_units
-from fctd.steady.chart import Chart
 
 if TYPE_CHECKING:
     import pandas as pd
