@@ -25,55 +25,49 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     __version__: str
-    from fctd.answers.chart import Chart, chart
     from fctd.answers.checked import CheckedCase, check_case
     from fctd.answers.comparison import Comparison, compare
-    from fctd.answers.swept import Swept, run_sweep, run_uncertainty
-    from fctd.calibration.calibrate import calibrate, predict
-    from fctd.calibration.result import Calibration
+    from fctd.answers.rig import Calibration, Monitored, calibrate, monitor
+    from fctd.answers.run import Simulation, SimulationResult, open_result, simulate
+    from fctd.answers.steady import Chart, Equilibrium, Refinement, chart, equilibrium, refine, torque_drag
+    from fctd.answers.swept import Swept, Uncertainty, run_sweep, run_uncertainty
+    from fctd.calibration.calibrate import predict
     from fctd.case.errors import InputError
     from fctd.case.load import Case, load_case
     from fctd.hydraulics.pressures import hydraulics_of
     from fctd.hydraulics.surge import fastest_trips, surge_pressures
     from fctd.model.first_case import new_case
     from fctd.model.wellbore import Contacts, Wellbore, build_wellbore, find_contacts
-    from fctd.monitoring.monitor import Monitored, monitor
-    from fctd.results.tables import SimulationResult, open_result
-    from fctd.simulation.simulate import Simulation, simulate
-    from fctd.steady.equilibrium import equilibrium, lie_along
+    from fctd.steady.equilibrium import lie_along
     from fctd.steady.free_point import free_point
     from fctd.steady.jar import jar_forces
     from fctd.steady.margin_table import limits_of
-    from fctd.steady.refine import Refinement, refine
-    from fctd.steady.steady_string import Equilibrium
-    from fctd.steady.torque_drag import torque_drag
     from fctd.steady.wear import casing_wear
-    from fctd.sweep.uncertainty import Uncertainty
 
 # Where each public name stands; it is imported at its first use.
 _HOMES = {
-    "Calibration": "fctd.calibration.result",
+    "Calibration": "fctd.answers.rig",
     "Case": "fctd.case.load",
-    "Chart": "fctd.answers.chart",
+    "Chart": "fctd.answers.steady",
     "CheckedCase": "fctd.answers.checked",
     "Comparison": "fctd.answers.comparison",
     "Contacts": "fctd.model.wellbore",
-    "Equilibrium": "fctd.steady.steady_string",
+    "Equilibrium": "fctd.answers.steady",
     "InputError": "fctd.case.errors",
-    "Monitored": "fctd.monitoring.monitor",
-    "Refinement": "fctd.steady.refine",
-    "Simulation": "fctd.simulation.simulate",
-    "SimulationResult": "fctd.results.tables",
+    "Monitored": "fctd.answers.rig",
+    "Refinement": "fctd.answers.steady",
+    "Simulation": "fctd.answers.run",
+    "SimulationResult": "fctd.answers.run",
     "Swept": "fctd.answers.swept",
-    "Uncertainty": "fctd.sweep.uncertainty",
+    "Uncertainty": "fctd.answers.swept",
     "Wellbore": "fctd.model.wellbore",
     "build_wellbore": "fctd.model.wellbore",
-    "calibrate": "fctd.calibration.calibrate",
+    "calibrate": "fctd.answers.rig",
     "casing_wear": "fctd.steady.wear",
-    "chart": "fctd.answers.chart",
+    "chart": "fctd.answers.steady",
     "check_case": "fctd.answers.checked",
     "compare": "fctd.answers.comparison",
-    "equilibrium": "fctd.steady.equilibrium",
+    "equilibrium": "fctd.answers.steady",
     "fastest_trips": "fctd.hydraulics.surge",
     "find_contacts": "fctd.model.wellbore",
     "free_point": "fctd.steady.free_point",
@@ -82,16 +76,16 @@ _HOMES = {
     "lie_along": "fctd.steady.equilibrium",
     "limits_of": "fctd.steady.margin_table",
     "load_case": "fctd.case.load",
-    "monitor": "fctd.monitoring.monitor",
+    "monitor": "fctd.answers.rig",
     "new_case": "fctd.model.first_case",
-    "open_result": "fctd.results.tables",
+    "open_result": "fctd.answers.run",
     "predict": "fctd.calibration.calibrate",
-    "refine": "fctd.steady.refine",
+    "refine": "fctd.answers.steady",
     "run_sweep": "fctd.answers.swept",
     "run_uncertainty": "fctd.answers.swept",
-    "simulate": "fctd.simulation.simulate",
+    "simulate": "fctd.answers.run",
     "surge_pressures": "fctd.hydraulics.surge",
-    "torque_drag": "fctd.steady.torque_drag",
+    "torque_drag": "fctd.answers.steady",
 }
 __all__ = [
     "Calibration",

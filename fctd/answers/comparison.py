@@ -8,11 +8,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from fctd.answers.chart import Chart
+from fctd import plots
+from fctd.answers.display import Picture, html_of, picture
+from fctd.answers.steady import Chart
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.results.differences import Difference, differences
-from fctd.results.display import Picture, drawers, html_of, picture
 from fctd.results.series import CASE
 from fctd.results.unit_systems import System, in_field_units
 
@@ -58,8 +59,8 @@ class Comparison:
 
     def plot(self, **look: Any) -> Picture:
         """The curves of all cases; look : of ``fctd.plots.ChartLook``, such as load = "string"."""
-        chosen = drawers().ChartLook(**{"told": self.sentences, **look})
-        return picture("chart_figure", self.rows, self.units, self.charts, chosen)
+        chosen = plots.ChartLook(**{"told": self.sentences, **look})
+        return picture(lambda: plots.chart_figure(self.rows, self.units, self.charts, chosen))
 
     def __repr__(self) -> str:
         return f"Comparison({', '.join(self.charts)}: {len(self.differences)} keys differ)"

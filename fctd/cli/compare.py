@@ -7,8 +7,8 @@ from typing import Annotated, Any
 
 import typer
 
-from fctd.answers.chart import Chart, chart
 from fctd.answers.comparison import FEWEST, compare, names_of
+from fctd.answers.steady import Chart, chart
 from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionSet, parse_frictions

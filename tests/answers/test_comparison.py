@@ -5,8 +5,8 @@ from typing import Any
 
 import pytest
 
-from fctd.answers.chart import Chart, chart
 from fctd.answers.comparison import Comparison, compare, names_of
+from fctd.answers.steady import Chart, chart
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from tests.cases import make_case

@@ -2,8 +2,8 @@
 
 import pytest
 
-from fctd.answers.chart import chart
 from fctd.answers.comparison import compare
+from fctd.answers.steady import chart
 from fctd.cli.compare_table import SCREEN_ROWS, print_comparison
 from tests.cases import make_case, pipe
 

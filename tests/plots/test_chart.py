@@ -8,7 +8,7 @@ import pytest
 from matplotlib.text import Annotation
 
 from fctd import plots
-from fctd.answers.chart import Chart
+from fctd.answers.steady import Chart
 from fctd.case.operations import KINDS
 from fctd.plots.chart import LEADER
 from fctd.plots.describe import describe

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from fctd.answers.chart import Chart as CaseChart
+from fctd.answers.steady import Chart as CaseChart
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.operations import KINDS

@@ -1,15 +1,18 @@
-"""Results as notebooks show them: a small table, and a picture."""
+"""Answers as notebooks show them: a small table, and a picture; and records that become answers."""
 
 from __future__ import annotations
 
 import io
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import fields
+from functools import wraps
 from html import escape
-from importlib import import_module
+from inspect import getdoc
 from math import isnan
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
+from fctd import plots
 from fctd.case.errors import InputError
 from fctd.results.columns import COLUMNS, LOADS
 from fctd.results.unit_systems import System, shown
@@ -20,6 +23,8 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
+Asked = ParamSpec("Asked")
+Answer = TypeVar("Answer")
 # Loads that say most: hook load and surface torque.
 MAIN = LOADS[:2]
 
@@ -56,8 +61,7 @@ class Picture:
 
     def save(self, path: str | PathLike[str]) -> list[Path]:
         """Write it as .png, .svg or .pdf; returns the file.  Raises InputError where it cannot be written."""
-        files: list[Path] = drawers().save(self.figure, Path(path))
-        return files
+        return plots.save(self.figure, Path(path))
 
     def _repr_png_(self) -> bytes:
         image = io.BytesIO()
@@ -65,14 +69,29 @@ class Picture:
         return image.getvalue()
 
 
-def drawers() -> Any:
-    """``fctd.plots``, which stands above the rooms of the results, and so is found by its name."""
-    return import_module("fctd.plots")
-
-
-def picture(name: str, *of: Any, **options: Any) -> Picture:
+def picture(draw: Callable[[], Figure]) -> Picture:
     """The picture that a function of ``fctd.plots`` draws; raises InputError where its package is missing."""
     try:
-        return Picture(getattr(drawers(), name)(*of, **options))
+        return Picture(draw())
     except ModuleNotFoundError as error:
         raise InputError(f"the package {error.name} (pip install 'fctd[plot]')", key="plot") from None
+
+
+def answer(kind: Callable[..., Answer], record: Any) -> Answer:
+    """A record of a lower room as an answer; kind : the class of the answer, a subclass of the record's."""
+    return kind(**{field.name: getattr(record, field.name) for field in fields(record)})
+
+
+def answering(kind: type[Answer], compute: Callable[Asked, object]) -> Callable[Asked, Answer]:
+    """The function of a lower room, with its arguments and errors, whose record becomes an answer.
+
+    The answer has the docstring of its record, and so the meaning of each field.
+    """
+
+    @wraps(compute)
+    def asked(*args: Asked.args, **kwargs: Asked.kwargs) -> Answer:
+        return answer(kind, compute(*args, **kwargs))
+
+    kind.__doc__ = getdoc(kind)
+    asked.__module__ = kind.__module__  # where pickle looks for it
+    return asked
