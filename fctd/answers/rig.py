@@ -1,7 +1,6 @@
 """Answers from the rig's readings: monitored friction, and a calibrated case."""
 
 from html import escape
-from typing import Final
 
 from fctd import plots
 from fctd.answers.display import Picture, answering, html_of, picture
@@ -12,7 +11,7 @@ from fctd.monitoring import monitor as monitoring
 from fctd.results.unit_systems import System
 
 # Columns of the short table that a notebook shows.
-SHOWN: Final = ("mode", "bit_depth_m", "samples", "friction", "friction_low", "friction_high", "left_out")
+_SHOWN = ("mode", "bit_depth_m", "samples", "friction", "friction_low", "friction_high", "left_out")
 
 
 class Monitored(monitoring.Monitored):
@@ -26,7 +25,7 @@ class Monitored(monitoring.Monitored):
 
     def _repr_html_(self) -> str:
         told = "".join(f"<p>{escape(alarm.sentence)}</p>" for alarm in self.alarms)
-        return told + html_of(repr(self), self.stretches[list(SHOWN)])
+        return told + html_of(repr(self), self.stretches[list(_SHOWN)])
 
 
 class Calibration(result.Calibration):

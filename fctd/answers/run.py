@@ -1,7 +1,7 @@
 """Runs in time that show themselves."""
 
 from fctd import plots
-from fctd.answers.display import MAIN, Picture, answer, answering, html_table, load_rows, picture
+from fctd.answers.display import MAIN, Picture, answering, html_table, load_rows, picture
 from fctd.case.text import counted
 from fctd.results import tables
 from fctd.results.unit_systems import System
@@ -34,7 +34,7 @@ class Simulation(in_time.Simulation):
 
     def result(self) -> SimulationResult:
         """The records so far, with status ``interrupted`` before the end.  A complete schedule gets its final notes."""
-        return answer(SimulationResult, super().result())
+        return answering(SimulationResult, in_time.Simulation.result)(self)
 
 
 simulate = answering(SimulationResult, in_time.simulate)
