@@ -2,8 +2,8 @@
 
 import ast
 import sys
+from functools import cache
 from importlib import import_module
-from pathlib import Path
 from typing import Any
 
 
@@ -13,11 +13,12 @@ def offer(package: str, *packages: str) -> tuple[Any, Any, list[str]]:
     The names are those that its source imports below ``if TYPE_CHECKING:``, as ``from module import name as name``.
     packages : of more public names, which need packages of their own.
     """
-    source = Path(str(sys.modules[package].__file__)).read_text(encoding="utf-8")
+    source = vars(sys.modules[package])["__loader__"].get_source(package)
     below = (node for block in ast.parse(source).body if isinstance(block, ast.If) for node in block.body)
     homes = {name.name: str(node.module) for node in below if isinstance(node, ast.ImportFrom) for name in node.names}
     names = sorted(homes.keys() - {"__version__"})
 
+    @cache  # a loop may ask for a name each time
     def find(name: str) -> Any:
         if name in packages:
             return import_module(f"{package}.{name}")
