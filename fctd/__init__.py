@@ -20,140 +20,57 @@
 Units are SI; x is north, y east, z down.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    __version__: str
-    from fctd.calibration.calibrate import calibrate, predict
-    from fctd.calibration.result import Calibration
-    from fctd.case.errors import InputError
-    from fctd.case.load import Case, load_case
-    from fctd.hydraulics.pressures import hydraulics_of
-    from fctd.hydraulics.surge import fastest_trips, surge_pressures
-    from fctd.model.first_case import new_case
-    from fctd.model.wellbore import Contacts, Wellbore, build_wellbore, find_contacts
-    from fctd.monitoring.monitor import Monitored, monitor
-    from fctd.results.checked import CheckedCase, check_case
-    from fctd.results.tables import SimulationResult, open_result
-    from fctd.simulation.simulate import Simulation, simulate
-    from fctd.steady.chart import Chart, chart
-    from fctd.steady.comparison import Comparison, compare
-    from fctd.steady.equilibrium import equilibrium, lie_along
-    from fctd.steady.free_point import free_point
-    from fctd.steady.jar import jar_forces
-    from fctd.steady.margin_table import limits_of
-    from fctd.steady.refine import Refinement, refine
-    from fctd.steady.steady_string import Equilibrium
-    from fctd.steady.torque_drag import torque_drag
-    from fctd.steady.wear import casing_wear
-    from fctd.sweep.swept import Swept, run_sweep, run_uncertainty
-    from fctd.sweep.uncertainty import Uncertainty
+from fctd.public import offer
 
-# Where each public name stands; it is imported at its first use.
-_HOMES = {
-    "Calibration": "fctd.calibration.result",
-    "Case": "fctd.case.load",
-    "Chart": "fctd.steady.chart",
-    "CheckedCase": "fctd.results.checked",
-    "Comparison": "fctd.steady.comparison",
-    "Contacts": "fctd.model.wellbore",
-    "Equilibrium": "fctd.steady.steady_string",
-    "InputError": "fctd.case.errors",
-    "Monitored": "fctd.monitoring.monitor",
-    "Refinement": "fctd.steady.refine",
-    "Simulation": "fctd.simulation.simulate",
-    "SimulationResult": "fctd.results.tables",
-    "Swept": "fctd.sweep.swept",
-    "Uncertainty": "fctd.sweep.uncertainty",
-    "Wellbore": "fctd.model.wellbore",
-    "build_wellbore": "fctd.model.wellbore",
-    "calibrate": "fctd.calibration.calibrate",
-    "casing_wear": "fctd.steady.wear",
-    "chart": "fctd.steady.chart",
-    "check_case": "fctd.results.checked",
-    "compare": "fctd.steady.comparison",
-    "equilibrium": "fctd.steady.equilibrium",
-    "fastest_trips": "fctd.hydraulics.surge",
-    "find_contacts": "fctd.model.wellbore",
-    "free_point": "fctd.steady.free_point",
-    "hydraulics_of": "fctd.hydraulics.pressures",
-    "jar_forces": "fctd.steady.jar",
-    "lie_along": "fctd.steady.equilibrium",
-    "limits_of": "fctd.steady.margin_table",
-    "load_case": "fctd.case.load",
-    "monitor": "fctd.monitoring.monitor",
-    "new_case": "fctd.model.first_case",
-    "open_result": "fctd.results.tables",
-    "predict": "fctd.calibration.calibrate",
-    "refine": "fctd.steady.refine",
-    "run_sweep": "fctd.sweep.swept",
-    "run_uncertainty": "fctd.sweep.swept",
-    "simulate": "fctd.simulation.simulate",
-    "surge_pressures": "fctd.hydraulics.surge",
-    "torque_drag": "fctd.steady.torque_drag",
-}
-__all__ = [
-    "Calibration",
-    "Case",
-    "Chart",
-    "CheckedCase",
-    "Comparison",
-    "Contacts",
-    "Equilibrium",
-    "InputError",
-    "Monitored",
-    "Refinement",
-    "Simulation",
-    "SimulationResult",
-    "Swept",
-    "Uncertainty",
-    "Wellbore",
-    "build_wellbore",
-    "calibrate",
-    "casing_wear",
-    "chart",
-    "check_case",
-    "compare",
-    "equilibrium",
-    "fastest_trips",
-    "find_contacts",
-    "free_point",
-    "hydraulics_of",
-    "jar_forces",
-    "lie_along",
-    "limits_of",
-    "load_case",
-    "monitor",
-    "new_case",
-    "open_result",
-    "predict",
-    "refine",
-    "run_sweep",
-    "run_uncertainty",
-    "simulate",
-    "surge_pressures",
-    "torque_drag",
-]
+if TYPE_CHECKING:  # what ``offer`` reads
+    from fctd.answers.checked import CheckedCase as CheckedCase, check_case as check_case
+    from fctd.answers.comparison import Comparison as Comparison, compare as compare
+    from fctd.answers.rig import (
+        Calibration as Calibration,
+        Monitored as Monitored,
+        calibrate as calibrate,
+        monitor as monitor,
+    )
+    from fctd.answers.run import (
+        Simulation as Simulation,
+        SimulationResult as SimulationResult,
+        open_result as open_result,
+        simulate as simulate,
+    )
+    from fctd.answers.steady import (
+        Chart as Chart,
+        Equilibrium as Equilibrium,
+        Refinement as Refinement,
+        chart as chart,
+        equilibrium as equilibrium,
+        refine as refine,
+        torque_drag as torque_drag,
+    )
+    from fctd.answers.swept import (
+        Swept as Swept,
+        Uncertainty as Uncertainty,
+        run_sweep as run_sweep,
+        run_uncertainty as run_uncertainty,
+    )
+    from fctd.calibration.calibrate import predict as predict
+    from fctd.case.errors import InputError as InputError
+    from fctd.case.load import Case as Case, load_case as load_case
+    from fctd.hydraulics.pressures import hydraulics_of as hydraulics_of
+    from fctd.hydraulics.surge import fastest_trips as fastest_trips, surge_pressures as surge_pressures
+    from fctd.model.first_case import new_case as new_case
+    from fctd.model.wellbore import (
+        Contacts as Contacts,
+        Wellbore as Wellbore,
+        build_wellbore as build_wellbore,
+        find_contacts as find_contacts,
+    )
+    from fctd.steady.equilibrium import lie_along as lie_along
+    from fctd.steady.free_point import free_point as free_point
+    from fctd.steady.jar import jar_forces as jar_forces
+    from fctd.steady.margin_table import limits_of as limits_of
+    from fctd.steady.wear import casing_wear as casing_wear
+    from fctd.store.origin import __version__ as __version__
 
-
-# Packages of public names, which need packages of their own.
-_PACKAGES = ("plots", "view")
-
-
-def __getattr__(name: str) -> Any:
-    if name in _PACKAGES:
-        return import_module(f"fctd.{name}")
-    if name == "__version__":
-        found: Any = import_module("importlib.metadata").version("fctd")
-    elif name in _HOMES:
-        found = getattr(import_module(_HOMES[name]), name)
-    else:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    globals()[name] = found
-    return found
-
-
-def __dir__() -> list[str]:
-    """The public names, and the packages of more."""
-    return sorted([*__all__, *_PACKAGES])
+__getattr__, __dir__, __all__ = offer(__name__, "plots", "view")

@@ -9,6 +9,7 @@ import sys
 import tomllib
 from importlib.resources import files
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
@@ -132,6 +133,14 @@ def test_packages_list_their_public_names() -> None:
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     listed = [sorted([*fctd.__all__, "plots", "view"]), sorted(fctd.plots.__all__), sorted(fctd.view.__all__)]
     assert done.stdout.strip() == "; ".join(map(str, listed))
+
+
+@pytest.mark.parametrize("package", [fctd, fctd.plots, fctd.view])
+def test_every_public_name_is_found_and_no_other(package: ModuleType) -> None:
+    assert len(package.__all__) >= 8
+    assert all(getattr(package, name).__class__ is not ModuleType for name in package.__all__)
+    with pytest.raises(AttributeError, match=f"module '{package.__name__}' has no attribute 'nothing'"):
+        _ = package.nothing
 
 
 def test_no_public_function_has_the_name_of_a_room() -> None:

@@ -21,7 +21,7 @@ def directive_for(package: str, name: str) -> str:
     """What describes a public name of a package."""
     thing = getattr(import_module(package), name)
     if inspect.isclass(thing):
-        return f".. autoclass:: {package}.{name}\n"
+        return f".. autoclass:: {package}.{name}\n   :inherited-members: BaseModel, BaseException, tuple\n"
     if inspect.isfunction(thing):
         return f".. autofunction:: {package}.{name}\n"
     return f".. py:data:: {package}.{name}\n"

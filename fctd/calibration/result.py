@@ -18,8 +18,6 @@ from fctd.calibration.unknowns import Unknown, with_values
 from fctd.case.load import Case
 from fctd.case.text import counted
 from fctd.hydraulics.channel import has_flow_curve
-from fctd.results.display import Picture, html_of, picture
-from fctd.results.unit_systems import System
 
 
 @dataclass(frozen=True, repr=False)
@@ -64,17 +62,6 @@ class Calibration:
     def strings(self) -> dict[str, Case]:
         """The case of each string of the rows with the values."""
         return {name: with_values(case, self.values) for name, case in self.forward.strings.items()}
-
-    def __repr__(self) -> str:
-        values = ", ".join(f"{name} {value:.4g}" for name, value in self.values.items())
-        return f"Calibration({self.base.name!r}, {counted(len(self.fit.used), 'row')}: {values})"
-
-    def _repr_html_(self) -> str:
-        return html_of(repr(self), self.table)
-
-    def plot(self, units: System = "si") -> Picture:
-        """Measured and fitted readings with bands, residuals, and correlations of the unknowns."""
-        return picture("calibration_figure", self, units)
 
     @cached_property
     def residuals(self) -> pd.DataFrame:

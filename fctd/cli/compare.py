@@ -7,6 +7,8 @@ from typing import Annotated, Any
 
 import typer
 
+from fctd.answers.comparison import FEWEST, compare, names_of
+from fctd.answers.steady import chart
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionSet, parse_frictions
 from fctd.case.load import SAME_DEPTH, Case, naming_file, with_friction
@@ -41,8 +43,6 @@ from fctd.plots.palette import CASES
 from fctd.results.differences import differences
 from fctd.results.status import SteadyStatus
 from fctd.results.unit_systems import System, shown
-from fctd.steady.chart import chart
-from fctd.steady.comparison import FEWEST, compare, names_of
 from fctd.steady.margin_table import USUAL
 
 # Keys that differ, on the screen and in a picture.

@@ -7,6 +7,7 @@ import numpy as np
 from rich.box import SIMPLE_HEAD
 from rich.table import Column, Table
 
+from fctd.answers.comparison import Comparison
 from fctd.case.message import told
 from fctd.case.operations import KINDS
 from fctd.case.text import printable
@@ -18,7 +19,6 @@ from fctd.results.columns import COLUMNS, DEPTH
 from fctd.results.series import FRICTION_LABEL
 from fctd.results.status import SteadyStatus
 from fctd.results.unit_systems import System, shown
-from fctd.steady.comparison import Comparison
 from fctd.steady.torque_drag import Row
 
 SCREEN_ROWS: Final = 24  # of a table

@@ -8,6 +8,7 @@ import typer
 from rich.table import Column, Table
 
 from fctd import plots
+from fctd.answers.swept import dataset_of
 from fctd.case.errors import InputError
 from fctd.case.operation_names import kinds_of
 from fctd.case.text import counted, printable
@@ -23,7 +24,6 @@ from fctd.results.unit_systems import System, in_field_units, long_in_field_unit
 from fctd.store.origin import versions
 from fctd.sweep.indices import WITH_UNIT
 from fctd.sweep.spec import read_sweep
-from fctd.sweep.swept import dataset_of
 from fctd.sweep.uncertainty import Uncertainty, assess
 
 if TYPE_CHECKING:

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from html import escape
 from os import PathLike
 from typing import Final
 
@@ -18,8 +17,6 @@ from fctd.monitoring.friction import Apparent, Uncertainty, apparent
 from fctd.monitoring.rows import Cleaner
 from fctd.monitoring.series import read_series
 from fctd.monitoring.stretches import Finder, Rules, Stretch, by_depth
-from fctd.results.display import Picture, html_of, picture
-from fctd.results.unit_systems import System
 
 READINGS: Final = {"weight_indicator": "N", "drive_torque": "N_m"}
 ENDS: Final = ("_p25", "", "_p75", "_error")
@@ -28,9 +25,6 @@ COLUMNS: Final = (
     *(f"{name}{end}_{unit}" for name, unit in READINGS.items() for end in ENDS),
     "friction", "friction_low", "friction_high", "friction_baseline", "friction_baseline_error", "lift_N", "left_out",
 )  # fmt: skip
-
-# Columns of the short table that a notebook shows.
-SHOWN: Final = ("mode", "bit_depth_m", "samples", "friction", "friction_low", "friction_high", "left_out")
 
 
 class Monitor:
@@ -109,18 +103,6 @@ class Monitored:
     alarms: tuple[Alarm, ...]
     told: tuple[str, ...]
     chart: Chart
-
-    def plot(self, units: System = "si") -> Picture:
-        """Readings and apparent friction factor over bit depth, with the alarms."""
-        return picture("monitor_figure", self, self.chart.case, units)
-
-    def __repr__(self) -> str:
-        found = f"{counted(len(self.stretches), 'stretch')}, {counted(len(self.alarms), 'alarm')}"
-        return f"Monitored({self.chart.case.name!r}: {found})"
-
-    def _repr_html_(self) -> str:
-        told = "".join(f"<p>{escape(alarm.sentence)}</p>" for alarm in self.alarms)
-        return told + html_of(repr(self), self.stretches[list(SHOWN)])
 
 
 def monitor(

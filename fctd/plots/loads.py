@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Final, Literal, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,11 +21,7 @@ from fctd.results.unit_systems import System, shown
 if TYPE_CHECKING:
     import pandas as pd
 
-    from fctd.steady.chart import Chart
-
 Load = Literal["string", "indicator"]
-# The case of a chart, or the charts of the cases that its column ``case`` names.
-Compared: TypeAlias = "Case | Mapping[str, Chart] | None"
 
 LOAD_COLUMNS: Final[dict[Load, str]] = {"string": "hookload_N", "indicator": "weight_indicator_N"}
 NAMES: Final = {
@@ -42,6 +38,22 @@ AIR = 0.05  # of the span of an axis, beyond the loads
 # Least span of an axis as a share of the largest load, and of torques as a lever [m] times the largest of hook loads
 # and contact forces: friction has ten times this lever, and less is the torque of a string that slides.
 LEAST_SHARE, LEVER = 0.01, 2e-3
+
+
+class OfCase(Protocol):
+    """What a chart of several cases says of one of them, as a ``Chart`` does."""
+
+    @property
+    def case(self) -> Case:
+        """The case."""
+
+    @property
+    def rates(self) -> Mapping[str, SteadyRates]:
+        """The rates of its operations."""
+
+
+# The case of a chart, or what is said of the cases that its column ``case`` names.
+Compared: TypeAlias = Case | Mapping[str, OfCase] | None
 
 
 @dataclass(frozen=True)

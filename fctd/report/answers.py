@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final
 
+from fctd.answers.steady import torque_drag
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionSet
 from fctd.case.load import Case, naming_file, with_friction
@@ -16,7 +17,6 @@ from fctd.results.status import SteadyStatus
 from fctd.steady.equilibrium import Solver, lie_along
 from fctd.steady.margin_table import USUAL, margin_rows, of_lines
 from fctd.steady.steady_string import Equilibrium
-from fctd.steady.torque_drag import torque_drag
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -1,8 +1,6 @@
 """What a table knows of itself: units, case, warnings and version, as JSON in the ``attrs`` of its DataFrame."""
 
 from collections.abc import Hashable, Mapping, Sequence
-from functools import cache
-from importlib.metadata import version
 from typing import Any
 
 from fctd.case.doubts import warnings_of
@@ -10,9 +8,9 @@ from fctd.case.friction import FrictionSet
 from fctd.case.load import Case
 from fctd.case.units import FLOW, ROTATION, SPEED, argument
 from fctd.results.unit_systems import System
+from fctd.store.origin import __version__
 
 _DIMENSIONS = {"speed": SPEED, "rpm": ROTATION, "flow": FLOW}
-_version = cache(version)
 
 
 def attrs_of(
@@ -36,5 +34,5 @@ def attrs_of(
         "units": units,
         "case": {"name": case.name, "digest": case.digest},
         "warnings": [warning.as_metadata() for warning in warnings],
-        "version": _version("fctd"),
+        "version": __version__,
     }

@@ -14,8 +14,6 @@ from fctd.case.errors import InputError
 from fctd.case.input_file import check_regular
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case
-from fctd.case.text import counted
-from fctd.results.display import MAIN, Picture, html_table, load_rows, picture
 from fctd.results.notes import Note, as_metadata, from_metadata
 from fctd.results.status import RunStatus
 from fctd.results.unit_systems import System, in_field_units
@@ -63,25 +61,6 @@ class SimulationResult:
     operations: pd.DataFrame = field(default_factory=_no_rows)
     segments: pd.DataFrame = field(default_factory=_no_rows)
     identity: str = field(default_factory=lambda: uuid4().hex)
-
-    def __repr__(self) -> str:
-        return f"SimulationResult({self.case.name!r}: {self.status}, {counted(len(self.history), 'record')}{self._end})"
-
-    def _repr_html_(self) -> str:
-        loads = {load.name: float(self.history[load.name].iloc[-1]) for load in MAIN} if len(self.history) else {}
-        rows = {"status": str(self.status), "records": str(len(self.history)), **load_rows(loads)}
-        return html_table(f"{self.case.name}{self._end}", rows)
-
-    def plot(self, units: System = "si") -> Picture:
-        """Hook load, torque, rotation and depth over time, and where the string touched."""
-        return picture("run_figure", self, units)
-
-    @property
-    def _end(self) -> str:
-        if self.history.empty:
-            return ""
-        last = self.history.iloc[-1]
-        return f", {last['operation']} at {last['bit_depth_m']:.1f} m"
 
     def save(self, folder: str | os.PathLike[str], csv: bool = False, units: System = "si") -> list[Path]:
         """Write the tables of ``TABLES`` as the results in ``folder``; returns the files written.

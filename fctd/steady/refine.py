@@ -27,13 +27,11 @@ from fctd.case.friction import FrictionChoice
 from fctd.case.load import Case, check_bit_depth, naming_file, with_friction
 from fctd.case.message import Message, quantity, within
 from fctd.case.operation_names import kinds_of
-from fctd.case.text import counted
 from fctd.case.units import bare
 from fctd.mechanics.state import MAX_SEGMENTS
 from fctd.model import layouts
 from fctd.model.depths import depth_of
 from fctd.model.operations import rates_of_all
-from fctd.results.display import html_of
 from fctd.results.notes import Note, worst
 from fctd.results.status import RefineStatus
 from fctd.steady.chords import largest_chord, shorter_cylinders
@@ -84,13 +82,6 @@ class Refinement:
     steps: pd.DataFrame
     notes: tuple[Note, ...] = ()
     resolved: int = 0
-
-    def __repr__(self) -> str:
-        found = f"{counted(self.segments, 'segment')}, {100 * self.error:.2g} % left"
-        return f"Refinement({self.case.name!r}: {self.status}, {found})"
-
-    def _repr_html_(self) -> str:
-        return html_of(repr(self), self.steps)
 
 
 def refine(

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
@@ -19,13 +19,10 @@ from fctd.model.operations import SteadyRates, drive_torque, weight_indicator
 from fctd.model.tortuosity import shortfall
 from fctd.model.wellbore import Wellbore
 from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling
-from fctd.results.columns import IN_CHART, Column
-from fctd.results.display import MAIN, Picture, html_table, load_rows, picture
 from fctd.results.limits import WORST
 from fctd.results.notes import Note, flow_law, flow_lie, homogenised, limit_notes, rig_notes, several_balances
 from fctd.results.profile import profile_table
 from fctd.results.status import SteadyStatus
-from fctd.results.unit_systems import System
 from fctd.steady.continuation import CONVERGED, NOT_FINITE
 from fctd.steady.laid_string import LaidString
 from fctd.steady.pose import PLACE
@@ -89,27 +86,12 @@ class Equilibrium:
     def __post_init__(self) -> None:
         object.__setattr__(self, "message", Message(self.message))
 
-    def __repr__(self) -> str:
-        loads = ", ".join(f"{label} {value}" for label, value in self._load_rows(MAIN).items())
-        return f"Equilibrium({self.operation}, bit at {self.bit_depth:g} m: {self.status}, {loads})"
-
-    def _repr_html_(self) -> str:
-        title = f"{self.case.name}: {self.operation}, bit at {self.bit_depth:g} m"
-        return html_table(title, {"status": str(self.status), **self._load_rows(IN_CHART)})
-
-    def plot(self, units: System = "si") -> Picture:
-        """The string from the top to the bit: tension, torque, side force and so on over depth."""
-        return picture("profile_figure", [self], units)
-
-    def _load_rows(self, of: Sequence[Column]) -> dict[str, str]:
-        return load_rows({load.name: load.value(self) if self.answered else float("nan") for load in of})
-
     @property
     def answered(self) -> bool:
         """Whether the numbers belong to a balance of forces."""
         return self.status.has_loads and bool(np.isfinite(self.hookload))
 
-    def without_loads(self) -> Equilibrium:
+    def without_loads(self) -> Self:
         """A copy without hook load, torques and contact force, for a string that has no balance at its loads."""
         none = float("nan")
         return replace(

@@ -8,12 +8,10 @@ from typing import TYPE_CHECKING, Any
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionChoice, FrictionSet, friction_sets, own_label, table_of
 from fctd.case.load import Case, naming_file, with_friction
-from fctd.case.message import frame_of
 from fctd.case.operation_names import kinds_of
 from fctd.model.depths import depths_of
 from fctd.model.operations import SteadyRates, rates_of_all
 from fctd.model.wellbore import Wellbore, build_wellbore
-from fctd.results.attrs import attrs_of
 from fctd.results.buckling import UNKNOWN
 from fctd.results.columns import IN_CHART, SHAPES, SHARES
 from fctd.results.notes import Note, RowNote, codes_of
@@ -27,72 +25,13 @@ from fctd.steady.steady_string import Equilibrium
 from fctd.store.limits import cores
 
 if TYPE_CHECKING:
-    import pandas as pd
+    pass
 
 # Called after every row with the number of rows done and their total.
 Progress = Callable[[int, int], None]
 Row = dict[str, Any]
 # Largest number of rows in a batch: the progress of a chart comes in steps of it.
 ROWS = 16
-
-
-def torque_drag(
-    case: Case,
-    operation: str | Sequence[str],
-    bit_depths: float | str | Sequence[float | str],
-    friction: FrictionChoice | Sequence[FrictionChoice] | None = None,
-    speed: float | str | None = None,
-    rpm: float | str | None = None,
-    flow: float | str | None = None,
-    progress: Progress | None = None,
-    threads: int | None = None,
-) -> pd.DataFrame:
-    """A row per operation, friction and depth.
-
-    operation : kind or kinds.  bit_depths [m], or texts as of ``equilibrium`` : one or several, rising, or those of a
-    text FROM:TO:STEP such as "shoe:td:50".  friction : None for the case's own,
-    or what is set in turn, each a kinetic factor for every interval or factors by kind, such as {"cased": 0.2,
-    "open": 0.3}; a text "0.3/0.2" is a factor along the hole and one around it.  speed [m/s], rpm : see
-    ``equilibrium``; only for kinds that have them.  flow [m³/s] : of the pumps, for all kinds.  threads : by
-    default as many as processors; the rows do not depend on it.
-
-    Columns:
-
-    - operation, bit_depth_m; friction and rotational_friction (along and around the hole, NaN where intervals differ)
-      and friction_label ("0.25", "0.3/0.2", "cased 0.20, open 0.30", or the case's own factors with their depths);
-    - the loads of ``columns.IN_CHART``, hookload_N and so on;
-    - buckling (none, sinusoidal, helical, or unknown without loads), buckled_from_md_m and buckled_to_md_m (NaN where
-      the string is not buckled);
-    - of a resolved string shape (none, snaking or helix), hookload_low_N and hookload_high_N (of both shapes, NaN where
-      they do not differ), slack_off_spent_at and locked_up_at (shares of the friction, NaN where not found);
-    - status (of ``SteadyStatus``), iterations, notes (codes of ``notes.MEANINGS``, or none), and reason (of a status
-      other than converged, or none).
-
-    A row without a balance has NaN in place of loads.  So has a row that is ``locked_up`` where no push suffices, and
-    one that is ``unstable`` because no steady shape was found.  At a depth where string and hole do not fit the status
-    is ``not_possible``.
-
-    ``attrs`` of the table say its units, case, warnings and version (``attrs_of``).  Raises InputError for unusable
-    input, and where string and hole fit at none of the depths.
-    """
-    drive: dict[str, Any] = {"speed": speed, "rpm": rpm, "flow": flow}
-    rows = chart_rows(case, operation, bit_depths, friction, **drive, progress=progress, threads=threads)
-    return table_of_rows(rows, case, operation, friction, drive)
-
-
-def table_of_rows(
-    rows: Sequence[Row],
-    case: Case,
-    operation: str | Sequence[str],
-    friction: FrictionChoice | Sequence[FrictionChoice] | None,
-    drive: Mapping[str, float | str | None],
-) -> pd.DataFrame:
-    """Rows of ``chart_rows`` as the table of ``torque_drag``, with ``attrs`` (``attrs_of``)."""
-
-    kinds, sets = kinds_of(operation), () if friction is None else friction_sets(friction)
-    table = frame_of(rows)
-    table.attrs = attrs_of(case, kinds, drive, sets)
-    return table
 
 
 def chart_rows(
@@ -111,7 +50,7 @@ def chart_rows(
     keep: Callable[[list[Row]], None] | None = None,
     notes: list[RowNote] | None = None,
 ) -> list[Row]:
-    """The rows of ``torque_drag``, each a mapping from column to value.
+    """The rows of ``fctd.torque_drag``, each a mapping from column to value.
 
     known : the rows of the first depths, where another process has computed them; above : the shapes of its last
     resolved rows by their loads, which change with the rows; keep : called with the rows of each other depth, in their

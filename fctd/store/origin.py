@@ -10,11 +10,12 @@ from pathlib import Path
 
 Origin = dict[str, str]
 GONE, SOURCES = "gone", "sources of fctd"
+__version__ = version("fctd")
 
 
 def versions() -> dict[str, str]:
     """Versions of the engine and of the packages that its numbers depend on, and the commit of the checkout if any."""
-    found = {"fctd": version("fctd"), "python": platform.python_version()}
+    found = {"fctd": __version__, "python": platform.python_version()}
     found |= {name: version(name) for name in ("numpy", "numba")}
     root = Path(__file__).resolve().parents[2]
     try:

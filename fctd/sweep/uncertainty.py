@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final, Literal
+from typing import TYPE_CHECKING, Final
 
 from fctd.case.errors import InputError, naming
 from fctd.case.message import quantity
-from fctd.case.text import counted
-from fctd.results.display import Picture, html_of, picture
-from fctd.results.unit_systems import System
 from fctd.sweep.dataset import Dataset
 from fctd.sweep.indices import indices_of
 from fctd.sweep.percentiles import columns_of, convergence_table, percentile_table
@@ -50,25 +47,6 @@ class Uncertainty:
     bit_depth: float
     trouble: str
     noise: frozenset[tuple[str, str]]
-
-    def plot(
-        self, of: Literal["bands", "tornado"] | None = None, units: System = "si", operation: str | None = None
-    ) -> Picture:
-        """Bands of the loads over depth, or the influence of each parameter on the loads of an operation.
-
-        of : by default bands where there are several depths.  operation : of the tornado, by default the first.
-        """
-        several = len(set(self.percentiles.get("bit_depth_m", []))) > 1
-        if of == "bands" or (of is None and several):
-            return picture("bands_figure", self, units)
-        return picture("tornado_figure", self, operation, units)
-
-    def __repr__(self) -> str:
-        samples = counted(int(self.rows["sample"].nunique()), "sample")
-        return f"Uncertainty({self.spec.name!r}, {samples}: {', '.join(self.columns)})"
-
-    def _repr_html_(self) -> str:
-        return html_of(repr(self), self.percentiles)
 
 
 def assess(dataset: Dataset, spec: SweepSpec, bit_depth: float | None = None) -> Uncertainty:

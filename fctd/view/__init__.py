@@ -8,36 +8,15 @@ Needs plotly, which the package installs as its extra ``html``; a still picture 
 playwright, the extra ``browser``.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from fctd.view.figure import view_figure
-    from fctd.view.page import save_view
-    from fctd.view.quantities import QUANTITIES
-    from fctd.view.still import save_still
-    from fctd.view.strings import Strings, of_chart, of_points, of_run
+from fctd.public import offer
 
-_HOMES = {
-    "QUANTITIES": "quantities",
-    "Strings": "strings",
-    "of_chart": "strings",
-    "of_points": "strings",
-    "of_run": "strings",
-    "save_still": "still",
-    "save_view": "page",
-    "view_figure": "figure",
-}
-__all__ = ["QUANTITIES", "Strings", "of_chart", "of_points", "of_run", "save_still", "save_view", "view_figure"]
-
-
-def __getattr__(name: str) -> Any:
-    """A public name, from the module that has it."""
-    if name not in _HOMES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
-
-
-def __dir__() -> list[str]:
-    """The public names."""
-    return sorted(__all__)
+if TYPE_CHECKING:  # what ``offer`` reads
+    from fctd.view.figure import view_figure as view_figure
+    from fctd.view.page import save_view as save_view
+    from fctd.view.quantities import QUANTITIES as QUANTITIES
+    from fctd.view.still import save_still as save_still
+    from fctd.view.strings import Strings as Strings, of_chart as of_chart, of_points as of_points, of_run as of_run
+else:
+    __getattr__, __dir__, __all__ = offer(__name__)

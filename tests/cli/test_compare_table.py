@@ -2,9 +2,9 @@
 
 import pytest
 
+from fctd.answers.comparison import compare
+from fctd.answers.steady import chart
 from fctd.cli.compare_table import SCREEN_ROWS, print_comparison
-from fctd.steady.chart import chart
-from fctd.steady.comparison import compare
 from tests.cases import make_case, pipe
 
 STATIONS = [[0.0, 0, 0], [400, 0, 0], [850, 90, 0], [1200, 90, 0]]

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from fctd import torque_drag
 from fctd.mechanics import state
 from fctd.mechanics.state_memory import Blocks, columns_of
 from fctd.simulation.preparation import prepare
-from fctd.steady.torque_drag import torque_drag
 from tests.cases import make_case, pipe, trip
 
 ROWS, STRIDE, LANES = 5, 19 * 8, 8

@@ -6,13 +6,13 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from fctd import torque_drag
 from fctd.case.friction import FrictionSet
 from fctd.model.operations import weight_indicator
 from fctd.monitoring.friction import Apparent
 from fctd.monitoring.monitor import Monitor
 from fctd.monitoring.roadmap import FAN, LOADS, Roadmap, roadmap
 from fctd.monitoring.synthetic import steady_readings
-from fctd.steady.torque_drag import torque_drag
 from tests.monitoring.made import chart, readings, series, shared_chart, well
 
 DEPTHS = [700.0, 900.0]

@@ -8,12 +8,12 @@ import pytest
 from matplotlib.text import Annotation
 
 from fctd import plots
+from fctd.answers.steady import Chart
 from fctd.case.operations import KINDS
 from fctd.plots.chart import LEADER
 from fctd.plots.describe import describe
 from fctd.results.notes import MEANINGS
 from fctd.results.series import FRICTION_LABEL
-from fctd.steady.chart import Chart
 from tests.plots.made import (
     DEPTHS,
     chart,

@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from fctd.answers.steady import Chart as CaseChart
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
@@ -11,7 +12,6 @@ from fctd.plots.describe import MOST_GROUPS, SAME, describe
 from fctd.plots.description import Description
 from fctd.plots.loads import ChartLook
 from fctd.plots.palette import CASES, DASHES, LOOKS, SOLID
-from fctd.steady.chart import Chart as CaseChart
 from tests.plots.made import BLOCK, FOOT, LBF, chart, locked_chart, well
 
 CASE = well(rig={"block_weight": BLOCK})

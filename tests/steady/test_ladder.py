@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 
 import fctd
+from fctd import torque_drag
 from fctd.case.load import Case
 from fctd.model.operations import steady_rates
 from fctd.results.status import SteadyStatus
@@ -14,7 +15,6 @@ from fctd.steady.findings import Findings
 from fctd.steady.ladder import HELIX, LADDER, NEWTON, Rung
 from fctd.steady.problem import Problem
 from fctd.steady.steady_string import Equilibrium
-from fctd.steady.torque_drag import torque_drag
 from tests.steady.buckled import level_case, with_tables
 from validation.cases import load
 

@@ -76,6 +76,23 @@ def test_a_lock_that_its_holder_removed_does_not_count(tmp_path: Path) -> None:
     second.release()
 
 
+def test_the_holder_is_seen_by_who_may_only_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As ``fctd status`` does with the run of another user; a library that opens a lock for writing does not see it."""
+    lock, opened = FolderLock.take(tmp_path), os.open
+
+    def reading(path: Path, flags: int, mode: int = 0o777) -> int:
+        if flags & (os.O_RDWR | os.O_WRONLY | os.O_CREAT):
+            raise PermissionError(13, "Permission denied")
+        return opened(path, flags, mode)
+
+    monkeypatch.setattr(os, "open", reading)
+    holder = holder_of(tmp_path)
+    assert holder is not None
+    assert holder.process == os.getpid()
+    lock.release()
+    assert holder_of(tmp_path) is None
+
+
 def test_no_folder_has_no_holder(tmp_path: Path) -> None:
     assert holder_of(tmp_path / "none") is None
     with pytest.raises(OSError, match="No such file"):

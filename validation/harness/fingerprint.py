@@ -1,6 +1,7 @@
 """The inputs of a result: a study is repeated when, and only when, one of them has changed.
 
 The code: the study's module, and every module of the project that it imports or that a registry names, "module:class".
+Of ``fctd.plots``, which answers import and which changes no number, it is the list of names alone.
 The files that are read while it runs.  The packages of engine and suite, and the processor.  ``expected.toml`` is no
 input: it changes verdicts, not numbers.
 """
@@ -36,6 +37,7 @@ LENGTH = "quick or full"
 VARIED = tuple(f"environment {name}" for name in (PERTURBED, *targets.VARIABLES))
 # What studies are made of.
 PACKAGES = ("fctd", "references", "validation")
+PICTURES = "fctd.plots"
 # An entry of a registry, "module:class".
 REGISTERED = re.compile(rb'"([A-Za-z_][\w.]*):[A-Za-z_]\w*"')
 
@@ -163,7 +165,8 @@ class Sources:
             if name in found or name not in self._graph.modules:
                 continue
             found.add(name)
-            waiting |= self._graph.find_modules_directly_imported_by(name) | self._registered.get(name, set())
+            if name != PICTURES:
+                waiting |= self._graph.find_modules_directly_imported_by(name) | self._registered.get(name, set())
             waiting.add(name.rpartition(".")[0])  # importing a.b runs a/__init__.py
         return dict(self._digests[name] for name in sorted(found) if name in self._digests)
 

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 
-from fctd import Case, Equilibrium
+from fctd import Case
 from fctd.arrays import Array
 from fctd.case.string import ComponentSpec
 from fctd.mechanics import state
@@ -19,6 +19,7 @@ from fctd.steady.equilibrium import Solver
 from fctd.steady.first_guess import MD, OFFSET, TENSION
 from fctd.steady.pose import PLACE, QUATERNION
 from fctd.steady.relaxation import Creep
+from fctd.steady.steady_string import Equilibrium
 from references.beams.cosserat import Bit, rest
 from references.buckling.onset import Pipe
 

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from fctd import Case, Equilibrium
+from fctd import Case
 from fctd.model.operations import SteadyRates, steady_rates
 from fctd.model.section import section_of
 from fctd.results.buckling import HANGING_SINUSOIDAL
@@ -13,6 +13,7 @@ from fctd.steady.equilibrium import Solver
 from fctd.steady.laid_string import LaidString
 from fctd.steady.problem import Pose, Problem
 from fctd.steady.shape import Shape
+from fctd.steady.steady_string import Equilibrium
 
 OPERATION = "drill_sliding"
 # Outer and inner diameter of pipes and least and largest hole [in].

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 
-from fctd import Case, Equilibrium
+from fctd import Case
 from fctd.case.errors import InputError
 from fctd.case.load import with_friction
 from fctd.mechanics import state
@@ -29,7 +29,7 @@ from fctd.steady.continuation import CONVERGED
 from fctd.steady.equilibrium import Solver
 from fctd.steady.feed import ARRIVING, End, FedString, Start
 from fctd.steady.problem import Allowance, Problem, Share
-from fctd.steady.steady_string import HOMOGENISED
+from fctd.steady.steady_string import HOMOGENISED, Equilibrium
 from fctd.steady.tangent import NORMAL_FORCE
 from validation.cases.wells import real_well
 from validation.harness.study import Context

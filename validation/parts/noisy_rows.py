@@ -7,10 +7,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from fctd import Case, Equilibrium
+from fctd import Case
 from fctd.case.errors import InputError
 from fctd.model.perturbed import with_noise
 from fctd.results.notes import HARDLY
+from fctd.steady.steady_string import Equilibrium
 from fctd.steady.torque_drag import chart_rows
 from validation.harness.study import Context
 from validation.parts import compressed, fed_strings

@@ -12,13 +12,14 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 
-from fctd import Case, Equilibrium
+from fctd import Case
 from fctd.case.load import with_friction
 from fctd.case.operations import KINDS
 from fctd.model import layouts
 from fctd.model.operations import steady_rates
 from fctd.results.status import SteadyStatus
 from fctd.steady.equilibrium import Solver
+from fctd.steady.steady_string import Equilibrium
 from validation.cases.wells import real_well
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts import random_wells

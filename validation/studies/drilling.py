@@ -6,14 +6,13 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from fctd import Case, SimulationResult, equilibrium
+from fctd import Case, Simulation, SimulationResult, equilibrium
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.frames import hole_frame
 from fctd.model.section import section_of
 from fctd.simulation.preparation import contact_points
 from fctd.simulation.run import Run
-from fctd.simulation.simulate import Simulation
 from validation.harness.study import Check, Context, Outcome, Study
 
 RPM, WEIGHT = 120.0, 60e3  # [rev/min]; [N] that the autodriller is to hold

@@ -8,7 +8,7 @@ from itertools import count, islice
 
 import pandas as pd
 
-from fctd import Equilibrium
+from fctd.steady.steady_string import Equilibrium
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts.fed_strings import (
     ARRIVES,

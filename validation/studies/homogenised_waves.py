@@ -10,9 +10,8 @@ from itertools import count, islice
 import numpy as np
 import pandas as pd
 
-from fctd import Equilibrium
 from fctd.results.status import SteadyStatus
-from fctd.steady.steady_string import HOMOGENISED
+from fctd.steady.steady_string import HOMOGENISED, Equilibrium
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts.fed_strings import Drawn, Row, drawn, solved, weight_of
 

@@ -7,13 +7,14 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from fctd import Case, Equilibrium, equilibrium
+from fctd import Case, equilibrium
 from fctd.case.operations import KINDS
 from fctd.model.operations import steady_rates
 from fctd.steady.batch import Row, solve_batch
 from fctd.steady.equilibrium import Solver
 from fctd.steady.laws import hole_of
 from fctd.steady.problem import Workspace
+from fctd.steady.steady_string import Equilibrium
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
 from validation.parts.plausible_rows import LESS, REPEATED, Drawn, drawn
 from validation.parts.stepped_rows import DURATION, FED, MOVING, SHIFTED, TURNS, damped, step

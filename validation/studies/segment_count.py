@@ -7,11 +7,12 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 
-from fctd import Case, Equilibrium, simulate
+from fctd import Case, simulate
 from fctd.arrays import Array
 from fctd.model import survey
 from fctd.model.operations import steady_rates
 from fctd.steady.equilibrium import Solver
+from fctd.steady.steady_string import Equilibrium
 from validation.cases import load, rotation
 from validation.cases.segmented_wells import WELLS, Well
 from validation.harness.study import Check, Context, Outcome, Rows, Study, log_slope, table_of_rows

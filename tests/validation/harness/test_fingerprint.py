@@ -325,6 +325,7 @@ def test_every_registered_contact_method_and_engine_counts():
     overlap = found.used_by("validation.studies.overlap")
     assert "validation/cases/__init__.py" in overlap
     assert not {name for name in overlap if name.startswith("references/engines/")}
+    assert {name for name in overlap if name.startswith("fctd/plots/")} == {"fctd/plots/__init__.py"}
 
 
 def test_the_packages_are_those_of_engine_and_suite():

@@ -6,15 +6,17 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import count, filterfalse
 from typing import TYPE_CHECKING, Any
 
+from fctd import plots
+from fctd.answers.display import Picture, html_of, picture
+from fctd.answers.steady import Chart
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.results.differences import Difference, differences
-from fctd.results.display import Picture, drawers, html_of, picture
 from fctd.results.series import CASE
 from fctd.results.unit_systems import System, in_field_units
-from fctd.steady.chart import Chart
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -58,8 +60,8 @@ class Comparison:
 
     def plot(self, **look: Any) -> Picture:
         """The curves of all cases; look : of ``fctd.plots.ChartLook``, such as load = "string"."""
-        chosen = drawers().ChartLook(**{"told": self.sentences, **look})
-        return picture("chart_figure", self.rows, self.units, self.charts, chosen)
+        chosen = plots.ChartLook(**{"told": self.sentences, **look})
+        return picture(lambda: plots.chart_figure(self.rows, self.units, self.charts, chosen))
 
     def __repr__(self) -> str:
         return f"Comparison({', '.join(self.charts)}: {len(self.differences)} keys differ)"
@@ -94,24 +96,11 @@ def compare(charts: Iterable[Chart] | Mapping[str, Chart], units: System = "si")
 
 def names_of(cases: Sequence[Case]) -> list[str]:
     """The names of cases; of those with one name, its file is told too where files differ, and else a number."""
-    names = [case.name for case in cases]
-    repeated = {name for name, count in Counter(names).items() if count > 1}
-    files = [case.file.stem if case.file else "" for case in cases]
-    found = [
-        f"{name} ({file})" if name in repeated and file and _told_apart(name, names, files) else name
-        for name, file in zip(names, files, strict=True)
-    ]
-    counts, numbers = Counter(found), Counter[str]()
-    taken = {name for name, count in counts.items() if count == 1}
-    for k, name in enumerate(found):
-        if counts[name] > 1:
-            while (numbered := f"{name} {numbers[name] + 1}") in taken:
-                numbers[name] += 1
-            numbers[name] += 1
-            found[k] = numbered
-    return found
-
-
-def _told_apart(name: str, names: Sequence[str], files: Sequence[str]) -> bool:
-    """Whether the files of the cases with a name have more than one name."""
-    return len({file for own, file in zip(names, files, strict=True) if own == name}) > 1
+    pairs = [(case.name, case.file.stem if case.file else "") for case in cases]
+    apart = {name for name, file in pairs if any(name == own and file != other for own, other in pairs)}
+    found = [f"{name} ({file})" if name in apart else name for name, file in pairs]
+    counts = Counter(found)
+    taken = {name for name, number in counts.items() if number == 1}
+    # Of each name, with a number behind it, the texts that no case has.
+    numbered = {name: filterfalse(taken.__contains__, map(f"{name} ".__add__, map(str, count(1)))) for name in counts}
+    return [next(numbered[name]) if counts[name] > 1 else name for name in found]

@@ -8,13 +8,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, Literal
 
+from fctd import plots
+from fctd.answers.display import Picture, answering, html_of, picture
 from fctd.case.errors import InputError
 from fctd.case.text import counted, file_name
 from fctd.case.units import LENGTH, argument
-from fctd.results.display import Picture, html_of
 from fctd.results.unit_systems import System
+from fctd.sweep import uncertainty
 from fctd.sweep.chunk import NO_ROWS, as_table
 from fctd.sweep.cluster import ClusterChoice
 from fctd.sweep.dataset import Dataset, alone, begin_dataset, identity_of, open_dataset
@@ -22,13 +24,36 @@ from fctd.sweep.design import sample_of, samples_of
 from fctd.sweep.run import PART, SampleProgress, prepare, sweep
 from fctd.sweep.spec import SweepSpec, read_sweep
 from fctd.sweep.template import template_of
-from fctd.sweep.uncertainty import Uncertainty, assess
 
 if TYPE_CHECKING:
     import pandas as pd
 
 SweepFile = str | os.PathLike[str] | Mapping[str, Any]
 HERE: Final = 0  # workers: none beside this process
+
+
+class Uncertainty(uncertainty.Uncertainty):
+    def plot(
+        self, of: Literal["bands", "tornado"] | None = None, units: System = "si", operation: str | None = None
+    ) -> Picture:
+        """Bands of the loads over depth, or the influence of each parameter on the loads of an operation.
+
+        of : by default bands where there are several depths.  operation : of the tornado, by default the first.
+        """
+        several = len(set(self.percentiles.get("bit_depth_m", []))) > 1
+        if of == "bands" or (of is None and several):
+            return picture(lambda: plots.bands_figure(self, units))
+        return picture(lambda: plots.tornado_figure(self, operation, units))
+
+    def __repr__(self) -> str:
+        samples = counted(int(self.rows["sample"].nunique()), "sample")
+        return f"Uncertainty({self.spec.name!r}, {samples}: {', '.join(self.columns)})"
+
+    def _repr_html_(self) -> str:
+        return html_of(repr(self), self.percentiles)
+
+
+assess = answering(Uncertainty, uncertainty.assess)
 
 
 @dataclass(frozen=True, repr=False)

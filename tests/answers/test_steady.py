@@ -1,4 +1,4 @@
-"""A chart as an object: the rows of the table, notes with their place, both systems of units, its picture."""
+"""A chart: the rows of the table, notes with their place, both systems of units, its picture; an equilibrium."""
 
 from pathlib import Path
 
@@ -8,6 +8,7 @@ import pytest
 
 import fctd
 from fctd.results.notes import codes_of
+from tests.cases import make_case
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "my_well.toml"
 # Drill pipe of weak steel, which picking up with much friction overloads.
@@ -56,3 +57,20 @@ def test_units_and_loads_that_nobody_knows_are_refused(chart: fctd.Chart) -> Non
         chart.to_units("ft")  # type: ignore[arg-type]
     with pytest.raises(fctd.InputError, match='load = "torque": expected "string" or "indicator"'):
         chart.plot(load="torque")
+
+
+def test_an_equilibrium() -> None:
+    point = fctd.equilibrium(make_case(), "trip_out", 900)
+    assert repr(point).startswith("Equilibrium(trip_out, bit at 900 m: converged, hook load ")
+    assert len(repr(point)) < 120
+    assert "weight indicator" in point._repr_html_()
+    assert "–" in repr(point.without_loads())
+
+
+def test_an_equilibrium_draws_itself() -> None:
+    """Notebooks show what a method ``plot`` returns."""
+    point = fctd.equilibrium(make_case(), "trip_out", "td", friction=0.3)
+    assert point.case.wellbore.intervals[0].friction == 0.3
+    drawn = point.plot("field")
+    assert drawn._repr_png_().startswith(b"\x89PNG")
+    assert "ft" in drawn.figure.axes[0].get_ylabel()

@@ -1,18 +1,21 @@
-"""Results as notebooks show them: a small table, and a picture."""
+"""Answers as notebooks show them: a small table, and a picture; and records that become answers."""
 
 from __future__ import annotations
 
 import io
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
+from functools import wraps
 from html import escape
-from importlib import import_module
+from inspect import getdoc
 from math import isnan
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
+from fctd import plots
 from fctd.case.errors import InputError
 from fctd.results.columns import COLUMNS, LOADS
-from fctd.results.unit_systems import System, shown
+from fctd.results.unit_systems import shown
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -20,6 +23,8 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
+Asked = ParamSpec("Asked")
+Answer = TypeVar("Answer")
 # Loads that say most: hook load and surface torque.
 MAIN = LOADS[:2]
 
@@ -37,27 +42,25 @@ def html_of(title: str, table: pd.DataFrame, most: int = 12) -> str:
     return f"<p><b>{escape(title)}</b></p>{table.to_html(max_rows=most, index=False, float_format='{:.5g}'.format)}"
 
 
-def load_rows(loads: Mapping[str, float], units: System = "si") -> dict[str, str]:
+def load_rows(loads: Mapping[str, float]) -> dict[str, str]:
     """Labels of columns and their values with units, "hook load": "957.9 kN"; a dash for NaN."""
-    rows = {}
-    for name, value in loads.items():
-        unit = shown(name, units)
-        rows[COLUMNS[name].label] = (
-            "–" if isnan(value) else f"{value * unit.factor:z.{COLUMNS[name].digits}f} {unit.label}"
-        )
-    return rows
+    return {
+        COLUMNS[name].label: "–"
+        if isnan(value)
+        else f"{value * (unit := shown(name, 'si')).factor:z.{COLUMNS[name].digits}f} {unit.label}"
+        for name, value in loads.items()
+    }
 
 
+@dataclass(eq=False, repr=False)
 class Picture:
     """A picture of a result, which notebooks show.  figure : matplotlib's, to change or to add to."""
 
-    def __init__(self, figure: Figure) -> None:
-        self.figure = figure
+    figure: Figure
 
     def save(self, path: str | PathLike[str]) -> list[Path]:
         """Write it as .png, .svg or .pdf; returns the file.  Raises InputError where it cannot be written."""
-        files: list[Path] = drawers().save(self.figure, Path(path))
-        return files
+        return plots.save(self.figure, Path(path))
 
     def _repr_png_(self) -> bytes:
         image = io.BytesIO()
@@ -65,14 +68,26 @@ class Picture:
         return image.getvalue()
 
 
-def drawers() -> Any:
-    """``fctd.plots``, which stands above the rooms of the results, and so is found by its name."""
-    return import_module("fctd.plots")
-
-
-def picture(name: str, *of: Any, **options: Any) -> Picture:
+def picture(draw: Callable[[], Figure]) -> Picture:
     """The picture that a function of ``fctd.plots`` draws; raises InputError where its package is missing."""
     try:
-        return Picture(getattr(drawers(), name)(*of, **options))
+        return Picture(draw())
     except ModuleNotFoundError as error:
         raise InputError(f"the package {error.name} (pip install 'fctd[plot]')", key="plot") from None
+
+
+def answering(kind: type[Answer], compute: Callable[Asked, Any]) -> Callable[Asked, Answer]:
+    """The function of a lower room, with its arguments and errors, whose record becomes an answer.
+
+    kind : the class of the answer, a subclass of the record's.  It gets the docstring of its record, and so the meaning
+    of each field.
+    """
+
+    @wraps(compute)
+    def asked(*args: Asked.args, **kwargs: Asked.kwargs) -> Answer:
+        record = compute(*args, **kwargs)
+        return kind(**{field.name: getattr(record, field.name) for field in fields(record)})
+
+    kind.__doc__ = getdoc(kind)
+    asked.__module__ = kind.__module__  # where pickle looks for it
+    return asked

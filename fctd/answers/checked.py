@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fctd.answers.display import html_of, html_table
 from fctd.case.friction import factors_label
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case, naming_file
 from fctd.case.text import counted
 from fctd.model.summary import Summary, segments_in_words, summarise
-from fctd.results.display import html_of, html_table
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -5,10 +5,10 @@ from typing import Any
 
 import pytest
 
+from fctd.answers.comparison import Comparison, compare, names_of
+from fctd.answers.steady import Chart, chart
 from fctd.case.errors import InputError
 from fctd.case.load import Case
-from fctd.steady.chart import Chart, chart
-from fctd.steady.comparison import Comparison, compare, names_of
 from tests.cases import make_case
 
 
