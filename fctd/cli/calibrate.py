@@ -19,8 +19,8 @@ from fctd.calibration.predict import coverage, posterior_file
 from fctd.calibration.result import Calibration
 from fctd.calibration.unknowns import NAMES
 from fctd.case.doubts import warnings_of
+from fctd.case.systems import FLOW
 from fctd.case.text import counted, printable
-from fctd.case.units import conversion
 from fctd.cli.options import (
     CaseFile,
     Friction,
@@ -240,8 +240,8 @@ def _pumps(row: Mapping[Any, Any], units: System) -> str:
     """What a row says of pumps and flow, in brackets."""
     said = [f"pumps {row['pumps']}"] if row["pumps"] else []
     if not np.isnan(row["flow_m3_s"]):
-        unit = "gal/min" if units == "field" else "L/min"
-        said.append(f"{row['flow_m3_s'] * conversion('m^3/s', unit):.4g} {unit}")
+        factor, unit = FLOW.shown(units)
+        said.append(f"{row['flow_m3_s'] * factor:.4g} {unit}")
     return f" ({', '.join(said)})" if said else ""
 
 

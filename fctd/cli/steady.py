@@ -12,7 +12,8 @@ from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case
 from fctd.case.operation_names import USUAL, kinds_of, split_names
 from fctd.case.operations import KINDS
-from fctd.case.units import FLOW, LENGTH, MOST_FLOW, ROTATION, SPEED
+from fctd.case.systems import FLOW, LENGTH, ROTATION, SPEED
+from fctd.case.units import MOST_FLOW
 from fctd.cli.options import check_target, messages, screen
 from fctd.cli.pictures import PICTURES, check_package, check_pictures
 from fctd.cli.quantities import Given, QuantityOption, quantity, si

@@ -10,8 +10,8 @@ from rich.table import Column, Table
 
 from fctd.case.errors import InputError
 from fctd.case.operation_names import kinds_of
+from fctd.case.systems import LENGTH
 from fctd.case.text import counted, printable
-from fctd.case.units import LENGTH
 from fctd.cli.options import Quiet, Units, check_target, messages, print_written, screen
 from fctd.cli.pictures import DRAWN, check_pictures
 from fctd.cli.quantities import Given, QuantityOption, quantity, si

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from fctd.arrays import Array
 from fctd.case.errors import InputError
+from fctd.case.systems import ACROSS
 from fctd.case.text import printable
 from fctd.case.witsml.geometry import Geometry, read_geometry
 from fctd.case.witsml.tubular import Tubular, read_tubular
@@ -68,8 +69,8 @@ def _check_room(parts: Laid, narrowest: float, write: Writer) -> None:
     """Raise InputError where a template's string is wider than the hole at its narrowest [m]."""
     widest = max(component.contact_diameter for component, _ in parts)
     if narrowest <= widest:
-        expected = f"a hole wider than the string of the template, {write('diameter', widest)}, or a string of its own"
-        raise InputError(expected, key="hole", value=write("diameter", narrowest))
+        expected = f"a hole wider than the string of the template, {write(ACROSS, widest)}, or a string of its own"
+        raise InputError(expected, key="hole", value=write(ACROSS, narrowest))
 
 
 def _name(path: Path | None) -> str:

@@ -18,7 +18,7 @@ from fctd.results.columns import LOADS
 from fctd.results.notes import MEANINGS
 from fctd.results.series import FRICTION_LABEL
 from fctd.results.status import SteadyStatus
-from fctd.results.unit_systems import System, in_words, reworded, shown
+from fctd.results.unit_systems import System, digits_of, in_words, reworded, shown
 from fctd.steady.margins import FATIGUE, OVERPULL, SET_DOWN, SLIPS, TORQUE
 from fctd.steady.steady_string import Equilibrium
 from fctd.store.origin import versions
@@ -144,7 +144,7 @@ def _loads_of(points: Sequence[Equilibrium], units: System) -> Table:
     for load in LOADS:
         unit = shown(load.name, units)
         values = [load.value(point) if point.answered else float("nan") for point in points]
-        cells = (number(value * unit.factor, load.digits) for value in values)
+        cells = (number(value * unit.factor, digits_of(load.name, units)) for value in values)
         rows.append((text(load.label), text(unit.label), *cells))
     heads = ("load", "unit", *(KINDS[point.operation].label for point in points))
     status = "; ".join(f"{KINDS[point.operation].label}: {point.status.replace('_', ' ')}" for point in points)

@@ -22,8 +22,6 @@ NONE: Final = "–"  # of a cell without a value
 # Columns of words of the program, and of its sentences; other texts are the user's.
 _WORDS: Final = ("margin", "limit", "status", "buckling", "notes", "shape")
 _SENTENCES: Final = ("reason", "friction_label")
-# Digits of columns after the point, where a workbook has more.
-_DIGITS: Final = {"cycles_per_hour": 0, "jet_speed_m_s": 1, "speed_m_s": 2}
 
 
 class Cell(NamedTuple):
@@ -157,7 +155,7 @@ def frame_table(
     heads, cells = [], []
     for k, name in enumerate(map(str, kept)):
         heading = heading_of(str(shown.columns[k]))
-        digits = _DIGITS.get(name, len(heading.format.partition(".")[2]))
+        digits = len(heading.format.partition(".")[2])
         heads.append(_named(heading.text, (words or {}).get(name, "")))
         cells.append([_cell(name, value, heading.factor, digits, units) for value in shown.iloc[:, k]])
     return Table(title, tuple(heads), tuple(zip(*cells, strict=True)), tuple(map(printable, notes)))

@@ -15,20 +15,15 @@ from fctd.case.key_quantities import quantities_of
 from fctd.case.load import Case
 from fctd.case.raw_case import look_up
 from fctd.case.spellings import split
+from fctd.case.systems import in_field, signed
 from fctd.case.text import counted, printable
 from fctd.case.units import Quantity
-from fctd.results.unit_systems import IN_MESSAGES, System, shown
+from fctd.results.unit_systems import System, shown
 
 ALIKE: Final = 1e-9  # share of a number by which two spellings of it may differ
 # Keys of the files of a survey and a caliper: what they hold is compared, and the files may have any names.
 _OF_SURVEY: Final = "survey", "columns", "sheet", "stations"
 _OF_CALIPER: Final = "log", "columns", "sheet"
-# Units in which cases are written and messages are not, and those of the field.
-_METRIC: Final = {
-    "sg": "ppg", "g/cm^3": "ppg", "t": "klbf", "daN": "klbf", "N·m": "ft·lbf", "daN·m": "ft·lbf", "Pa": "psi",
-    "GPa": "ksi", "L/min": "gpm", "L/s": "gpm", "m^3/s": "gpm", "cm": "in",
-}  # fmt: skip
-_SIGNS: Final = {"*": "·", "^2": "²", "^3": "³"}
 
 
 class Difference(NamedTuple):
@@ -218,11 +213,8 @@ def _unit_of(quantity: Quantity, written: Sequence[Any], units: System) -> tuple
     """The unit in which a quantity is told, with a blank before it, and what it is in SI."""
     unit = next(filter(None, map(_written_unit, written)), quantity.dimension.unit)
     if units == "field":
-        unit = (IN_MESSAGES | _METRIC).get(unit.replace("*", "·"), unit)
-    factor = quantity.dimension.factor(unit.replace("·", "*"))
-    for sign, plain in _SIGNS.items():
-        unit = unit.replace(sign, plain)
-    return f" {unit}", factor
+        unit = in_field(unit)
+    return f" {signed(unit)}", quantity.dimension.factor(unit)
 
 
 def _written_unit(text: Any) -> str | None:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from fctd.case.errors import InputError
 from fctd.results.columns import COLUMNS, LOADS
-from fctd.results.unit_systems import System, shown
+from fctd.results.unit_systems import System, digits_of, shown
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -43,7 +43,7 @@ def load_rows(loads: Mapping[str, float], units: System = "si") -> dict[str, str
     for name, value in loads.items():
         unit = shown(name, units)
         rows[COLUMNS[name].label] = (
-            "–" if isnan(value) else f"{value * unit.factor:z.{COLUMNS[name].digits}f} {unit.label}"
+            "–" if isnan(value) else f"{value * unit.factor:z.{digits_of(name, units)}f} {unit.label}"
         )
     return rows
 
