@@ -72,9 +72,9 @@ class Calibration:
     def _repr_html_(self) -> str:
         return html_of(repr(self), self.table)
 
-    def plot(self, units: System = "si") -> Picture:
+    def plot(self, units: System | None = None) -> Picture:
         """Measured and fitted readings with bands, residuals, and correlations of the unknowns."""
-        return picture("calibration_figure", self, units)
+        return picture("calibration_figure", self, units or self.base.system)
 
     @cached_property
     def residuals(self) -> pd.DataFrame:

@@ -49,7 +49,7 @@ MISFIT = 2.0
 LOADS = {"hookload": "N", "torque": "N*m"}
 _MOST_ROWS = 3  # that are named beside a friction factor
 Units = Annotated[
-    System, units_option("Units of screen and picture, and of rows that name none; files are in SI units.")
+    System, units_option("Units of screen and picture, and of rows that name none; files are in SI units")
 ]
 
 

@@ -157,7 +157,7 @@ def chart_command(
     })  # fmt: skip
     if resume is not None:
         with resumed_folder(resume, PROGRAM, accept_changes=accept_changes) as (folder, about):
-            asked = ChartRequest.read(about["options"])
+            asked = ChartRequest.read({**about["options"], "units": units})
             kept = ChartSaver(folder, keeping.interval(EVERY_CHART), key="--resume")
             _chart(case_of(folder.path, about), asked, keeping, quiet, resume, lambda _: nullcontext(kept))
         return

@@ -65,7 +65,7 @@ from fctd.simulation.run_saver import RunSaver
 from fctd.simulation.simulate import simulate
 from fctd.store.run_folder import RunFolder
 
-ShownUnits = Annotated[System, units_option("Units of screen and CSV files; the Parquet files are in SI units.")]
+ShownUnits = Annotated[System, units_option("Units of screen and CSV files; the Parquet files are in SI units")]
 
 
 def simulate_command(
@@ -115,8 +115,9 @@ class RunOutput:
     def beside(self, kept: Mapping[str, Any]) -> "RunOutput":
         """These options beside those with which the run began."""
         plot = None if kept["plot"] is None else Path(kept["plot"])
-        units = kept["units"] if self.units == "si" else self.units
-        return RunOutput(self.csv or kept["csv"], units, self.plot or plot, self.strict or kept["strict"], self.quiet)
+        return RunOutput(
+            self.csv or kept["csv"], self.units, self.plot or plot, self.strict or kept["strict"], self.quiet
+        )
 
 
 def simulate_file(

@@ -14,7 +14,7 @@ from fctd.case.witsml.tubular import Tubular, read_tubular
 from fctd.model.first_numbers import Laid, laid, narrowest_of, stiff_wall
 from fctd.model.given.hole import GivenHole, lay_hole
 from fctd.model.given.string import GivenString, lay_string
-from fctd.model.given.table import Writer
+from fctd.model.given.table import Writer, writer
 from fctd.model.new_case import Blank, Given, Plan
 
 
@@ -38,7 +38,7 @@ def with_files(plan: Plan, stations: Array, files: Files) -> Plan:
             raise InputError(f"a file of the {name} beside it", key=f"{name}_name", value=chosen)
     if files.string is None and files.hole is None:
         return plan
-    template, write, end = plan.template, Writer(plan.units), float(stations[-1, 0])
+    template, write, end = plan.template, writer(plan.units), float(stations[-1, 0])
     geometry = None if files.hole is None else read_geometry(files.hole, files.hole_name)
     tubular = None if files.string is None else read_tubular(files.string, files.string_name)
     hole = GivenHole(shoe=plan.shoe, depth=plan.depth, narrowest=narrowest_of(template))

@@ -122,6 +122,7 @@ class Plan:
             '# A quantity is a text with its unit ("8.5 in", "1250 kg/m^3"), or a bare number in SI.',
             "# A pipe is one of the catalogue, which `fctd pipes` lists: sizes, mass, joints and limits come with it.",
             f"name = {json.dumps(self.name, ensure_ascii=False)}",
+            *([aligned('units = "field"', "in which results are shown")] if self.units == "field" else []),
         )
         stiffness = f"{self.stiffness:.0e}".replace("e+0", "e")
         yield (

@@ -110,9 +110,9 @@ class Monitored:
     told: tuple[str, ...]
     chart: Chart
 
-    def plot(self, units: System = "si") -> Picture:
+    def plot(self, units: System | None = None) -> Picture:
         """Readings and apparent friction factor over bit depth, with the alarms."""
-        return picture("monitor_figure", self, self.chart.case, units)
+        return picture("monitor_figure", self, self.chart.case, units or self.chart.case.system)
 
     def __repr__(self) -> str:
         found = f"{counted(len(self.stretches), 'stretch')}, {counted(len(self.alarms), 'alarm')}"

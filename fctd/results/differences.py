@@ -76,7 +76,8 @@ def in_a_row(names: Sequence[str]) -> str:
 
 
 def differences(cases: Sequence[Case], units: System = "si") -> list[Difference]:
-    """What differs between cases, in the order of the keys of a case; names of cases and files do not count.
+    """What differs between cases, in the order of the keys of a case; names of cases and files, and units of
+    display, do not count.
 
     Values are compared once validated, so that 5 in and 127 mm are the same, and so is a default that one case writes.
     A value that a case derives from another key differs with that key alone.  units : of depths in the words of a
@@ -87,7 +88,7 @@ def differences(cases: Sequence[Case], units: System = "si") -> list[Difference]
     >>> [found.sentence(["light", "heavy"]) for found in differences([light, heavy])]
     ['mud.density: 1250 kg/m³ (light), 1400 kg/m³ (heavy)']
     """
-    dumps = [case.model_dump(exclude={"file", "name"}) for case in cases]
+    dumps = [case.model_dump(exclude={"file", "name", "units"}) for case in cases]
     for dump in dumps:
         for key in _OF_SURVEY:
             dump["wellbore"].pop(key)

@@ -37,7 +37,7 @@ def html_of(title: str, table: pd.DataFrame, most: int = 12) -> str:
     return f"<p><b>{escape(title)}</b></p>{table.to_html(max_rows=most, index=False, float_format='{:.5g}'.format)}"
 
 
-def load_rows(loads: Mapping[str, float], units: System = "si") -> dict[str, str]:
+def load_rows(loads: Mapping[str, float], units: System) -> dict[str, str]:
     """Labels of columns and their values with units, "hook load": "957.9 kN"; a dash for NaN."""
     rows = {}
     for name, value in loads.items():

@@ -69,12 +69,12 @@ class SimulationResult:
 
     def _repr_html_(self) -> str:
         loads = {load.name: float(self.history[load.name].iloc[-1]) for load in MAIN} if len(self.history) else {}
-        rows = {"status": str(self.status), "records": str(len(self.history)), **load_rows(loads)}
+        rows = {"status": str(self.status), "records": str(len(self.history)), **load_rows(loads, self.case.system)}
         return html_table(f"{self.case.name}{self._end}", rows)
 
-    def plot(self, units: System = "si") -> Picture:
+    def plot(self, units: System | None = None) -> Picture:
         """Hook load, torque, rotation and depth over time, and where the string touched."""
-        return picture("run_figure", self, units)
+        return picture("run_figure", self, units or self.case.system)
 
     @property
     def _end(self) -> str:
@@ -83,12 +83,12 @@ class SimulationResult:
         last = self.history.iloc[-1]
         return f", {last['operation']} at {last['bit_depth_m']:.1f} m"
 
-    def save(self, folder: str | os.PathLike[str], csv: bool = False, units: System = "si") -> list[Path]:
+    def save(self, folder: str | os.PathLike[str], csv: bool = False, units: System | None = None) -> list[Path]:
         """Write the tables of ``TABLES`` as the results in ``folder``; returns the files written.
 
         They take the place of an earlier run's tables all at once; other files in the folder stay.  units : of the CSV
-        files; the Parquet files are SI, as ``open_result`` reads them.  Raises InputError where the folder cannot be
-        written.
+        files, by default those of the case; the Parquet files are SI, as ``open_result`` reads them.  Raises InputError
+        where the folder cannot be written.
         """
         folder = Path(folder)
         metadata = {
@@ -107,7 +107,8 @@ class SimulationResult:
                 frame: pd.DataFrame = getattr(self, name)
                 to_parquet(frame, new / f"{name}.parquet", metadata)
                 if csv:
-                    to_csv(in_field_units(frame) if units == "field" else frame, new / f"{name}.csv")
+                    field = (units or self.case.system) == "field"
+                    to_csv(in_field_units(frame) if field else frame, new / f"{name}.csv")
         return [folder / name for name in result_files(csv)]
 
 

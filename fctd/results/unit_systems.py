@@ -60,6 +60,11 @@ def shown(column: str, system: System) -> Shown:
     return kind.shown(system)
 
 
+def shown_if_any(column: str, system: System) -> Shown:
+    """The same; the numbers as they are for a column without a unit."""
+    return shown(column, system) if column.endswith("_deg") or kind_of(column) else Shown(1.0, "")
+
+
 def digits_of(column: str, system: System) -> int:
     """Digits after the point of a column of an SI table: its own, or those of its kind."""
     own, kind = COLUMNS[column].digits if column in COLUMNS else None, kind_of(column)

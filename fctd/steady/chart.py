@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, get_args
+from typing import TYPE_CHECKING, Any
 
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionChoice
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case
+from fctd.case.systems import SYSTEMS
 from fctd.case.text import counted
 from fctd.model.operations import SteadyRates, rates_of_all
 from fctd.results.display import Picture, drawers, html_of, picture
@@ -60,7 +61,7 @@ class Chart:
 
     def to_units(self, units: System) -> Chart:
         """The same chart in "field" units, or in "si"; InputError for others."""
-        if units not in get_args(System):
+        if units not in SYSTEMS:
             raise InputError('"si" or "field"', key="units", value=units)
         return replace(self, units=units)
 
@@ -95,12 +96,16 @@ def chart(
     flow: float | str | None = None,
     progress: Progress | None = None,
     threads: int | None = None,
+    units: System | None = None,
 ) -> Chart:
-    """The chart of ``torque_drag``, with the same arguments, as an object that plots itself; raises as it does."""
+    """The chart of ``torque_drag``, with the same arguments, as an object that plots itself; raises as it does.
+
+    units : of the chart, by default those of the case, else SI.
+    """
     notes: list[RowNote] = []
     drive: dict[str, Any] = {"speed": speed, "rpm": rpm, "flow": flow}
     rows = chart_rows(case, operation, bit_depths, friction, **drive, progress=progress, threads=threads, notes=notes)
     table = table_of_rows(rows, case, operation, friction, drive)
     warnings = tuple(InputWarning(**told) for told in table.attrs["warnings"])
     rates = rates_of_all(case, list(dict.fromkeys(table["operation"])), **drive)
-    return Chart(case, table, tuple(notes), warnings, rates)
+    return Chart(case, table, tuple(notes), warnings, rates).to_units(units or case.system)

@@ -93,12 +93,14 @@ class Equilibrium:
         title = f"{self.case.name}: {self.operation}, bit at {self.bit_depth:g} m"
         return html_table(title, {"status": str(self.status), **self._load_rows(IN_CHART)})
 
-    def plot(self, units: System = "si") -> Picture:
+    def plot(self, units: System | None = None) -> Picture:
         """The string from the top to the bit: tension, torque, side force and so on over depth."""
-        return picture("profile_figure", [self], units)
+        return picture("profile_figure", [self], units or self.case.system)
 
     def _load_rows(self, of: Sequence[Column]) -> dict[str, str]:
-        return load_rows({load.name: load.value(self) if self.answered else float("nan") for load in of})
+        return load_rows(
+            {load.name: load.value(self) if self.answered else float("nan") for load in of}, self.case.system
+        )
 
     @property
     def answered(self) -> bool:

@@ -21,7 +21,7 @@ from fctd.model.from_files import Files, with_files
 from fctd.model.given.hole import GivenHole, lay_hole
 from fctd.model.given.pieces import pieces_of
 from fctd.model.given.string import GivenString, lay_string
-from fctd.model.given.table import Writer
+from fctd.model.given.table import writer
 from fctd.model.new_case import Plan, from_survey
 from fctd.model.section import section_of
 from fctd.model.templates import TEMPLATES
@@ -45,13 +45,13 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def string_of(folder: Path, *parts: Element, assembly: str = "", depth: float = DEPTH) -> GivenString:
     (folder / "s.xml").write_text(tubular(parts, assembly=assembly), encoding="utf-8")
-    return lay_string(read_tubular(folder / "s.xml"), "s.xml", depth, Writer("si"))
+    return lay_string(read_tubular(folder / "s.xml"), "s.xml", depth, writer("si"))
 
 
 def hole_of(folder: Path, *sections: Element, bottom: float = DEPTH) -> GivenHole:
     (folder / "h.xml").write_text(geometry(sections, bottom=bottom), encoding="utf-8")
     found = read_geometry(folder / "h.xml")
-    return lay_hole(found, "h.xml", TEMPLATES["build-hold"], DEPTH, Writer("si"))
+    return lay_hole(found, "h.xml", TEMPLATES["build-hold"], DEPTH, writer("si"))
 
 
 def tables(string: GivenString) -> list[dict[str, Any]]:

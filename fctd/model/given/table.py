@@ -1,20 +1,18 @@
 """A table of a new case with what a file gives, and with blanks where it gives nothing that can be used."""
 
 import textwrap
+from collections.abc import Callable
 
 from fctd.case.systems import Kind, System
 from fctd.model.first_runs import aligned, entry
 from fctd.model.new_case import FILL_IN, WIDEST, Blank, Block
 
+Writer = Callable[[Kind, float], str]
 
-class Writer:
+
+def writer(units: System) -> Writer:
     """Writes SI values in the units of a system, with nine digits: files have them with the noise of a conversion."""
-
-    def __init__(self, units: System) -> None:
-        self.system = units
-
-    def __call__(self, kind: Kind, value: float) -> str:
-        return f"{value / kind.si(self.system):.9g} {kind.unit(self.system)}"
+    return lambda kind, value: f"{value / kind.si(units):.9g} {kind.unit(units)}"
 
 
 class GivenTable:
