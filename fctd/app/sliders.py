@@ -20,8 +20,7 @@ from fctd.model.layouts import is_cut
 RPM: Final = "rpm"
 FLOW: Final = "flow"
 # Kind, step and usual ends [shown] in the two systems.
-Scale = tuple[float, float, float]
-SCALES: Final[dict[str, tuple[Kind | None, Scale, Scale]]] = {
+SCALES: Final[dict[str, tuple[Kind | None, Sequence[float], Sequence[float]]]] = {
     "friction": (None, (0.01, 0.0, 0.6), (0.01, 0.0, 0.6)),
     "mud": (systems.DENSITY, (10.0, 800.0, 2200.0), (0.1, 7.0, 18.0)),
     "wob": (systems.FORCE, (5.0, 0.0, 300.0), (1.0, 0.0, 70.0)),

@@ -27,14 +27,14 @@ class Kind:
     """A kind of quantity.
 
     dimension : with its SI unit, that of tables.  units : in which people read it, metric and of the field; digits :
-    after the point in these.  bare : units of a bare number that a user types, by default the same; none where a number
+    after the point in these.  bare : units of a bare number that a user types, by default the same; None where a number
     must have its unit.  also : other metric units of cases, which become that of the field too.
     """
 
     dimension: Dimension
     units: tuple[str, str]
     digits: tuple[int, int] = (3, 3)
-    bare: tuple[str, ...] | None = None
+    bare: tuple[str | None, str | None] | None = None
     also: tuple[str, ...] = ()
 
     def unit(self, system: System) -> str:
@@ -43,8 +43,7 @@ class Kind:
 
     def bare_unit(self, system: System) -> str | None:
         """The unit of a bare number; None where a number must have its unit."""
-        bare = self.units if self.bare is None else self.bare
-        return bare[SYSTEMS.index(system)] if bare else None
+        return (self.bare or self.units)[SYSTEMS.index(system)]
 
     def digits_in(self, system: System) -> int:
         """Digits after the point in the unit of a system."""
@@ -75,20 +74,19 @@ def ending(unit: str) -> str:
     return "_" + unit.replace("*", "_").replace("/", "_").replace("^", "")
 
 
-# No key of a case has these.
-_FORCE_PER_LENGTH: Final = Dimension("a force per length", "N/m", "'1 kN/m'", ("N/m", "kN/m", "lbf/ft"))
-_POWER: Final = Dimension("a power", "W", "'100 kW'", ("W", "kW", "hp"))
 # Of kinds with one dimension the first is that of a column whose name says no more than the unit.
 LENGTH: Final = Kind(units.LENGTH, ("m", "ft"), (1, 1), also=("km",))
 ACROSS: Final = Kind(units.LENGTH, ("mm", "in"), (1, 3), bare=("m", "in"), also=("cm",))  # across the hole
 AREA: Final = Kind(units.AREA, ("mm^2", "in^2"), (0, 3))
-FORCE: Final = Kind(units.FORCE, ("kN", "klbf"), (1, 1), bare=(), also=("t", "daN"))
+FORCE: Final = Kind(units.FORCE, ("kN", "klbf"), (1, 1), bare=(None, None), also=("t", "daN"))
 SMALL_FORCE: Final = Kind(units.FORCE, ("N", "lbf"))
 JOINT_FORCE: Final = Kind(units.FORCE, ("kN", "lbf"))  # on a joint of pipe
-TORQUE: Final = Kind(units.TORQUE, ("kN*m", "kft*lbf"), (3, 3), bare=())
+TORQUE: Final = Kind(units.TORQUE, ("kN*m", "kft*lbf"), (3, 3), bare=(None, None))
 SMALL_TORQUE: Final = Kind(units.TORQUE, ("N*m", "ft*lbf"), also=("daN*m",))
 BIT_TORQUE: Final = Kind(units.TORQUE, ("kN*m", "ft*lbf"))  # as a new case has it
-FORCE_PER_LENGTH: Final = Kind(_FORCE_PER_LENGTH, ("kN/m", "lbf/ft"))
+FORCE_PER_LENGTH: Final = Kind(
+    Dimension("a force per length", "N/m", "'1 kN/m'", ("N/m", "kN/m", "lbf/ft")), ("kN/m", "lbf/ft")
+)
 STRESS: Final = Kind(units.STRESS, ("MPa", "ksi"), (1, 1), also=("GPa",))
 PRESSURE: Final = Kind(units.PRESSURE, ("bar", "psi"), (1, 0), also=("Pa",))
 STRENGTH: Final = Kind(units.PRESSURE, ("MPa", "psi"), (1, 0))  # pressures that a pipe of the catalogue bears
@@ -100,7 +98,7 @@ FLOW: Final = Kind(units.FLOW, ("L/min", "gpm"), (0, 0), also=("L/s", "m^3/s"))
 SPEED: Final = Kind(units.SPEED, ("m/s", "ft/min"), (3, 1))
 ROP: Final = Kind(units.SPEED, ("m/h", "ft/h"), (1, 1))  # rate of penetration
 JET: Final = Kind(units.SPEED, ("m/s", "ft/s"), (1, 1))
-POWER: Final = Kind(_POWER, ("kW", "hp"), (1, 1))
+POWER: Final = Kind(Dimension("a power", "W", "'100 kW'", ("W", "kW", "hp")), ("kW", "hp"), (1, 1))
 TIME: Final = Kind(units.TIME, ("s", "s"), (1, 1))
 HOURS: Final = Kind(units.TIME, ("h", "h"))
 ROTATION: Final = Kind(units.ROTATION, ("rev/min", "rev/min"), (1, 1))

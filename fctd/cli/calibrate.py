@@ -19,7 +19,6 @@ from fctd.calibration.predict import coverage, posterior_file
 from fctd.calibration.result import Calibration
 from fctd.calibration.unknowns import NAMES
 from fctd.case.doubts import warnings_of
-from fctd.case.systems import FLOW
 from fctd.case.text import counted, printable
 from fctd.cli.options import (
     CaseFile,
@@ -42,7 +41,7 @@ from fctd.cli.options import (
 from fctd.cli.pictures import DRAWN, check_pictures
 from fctd.cli.steady import file_option, metadata_of_case
 from fctd.results.table_files import write_table
-from fctd.results.unit_systems import System, reworded, shown_unit
+from fctd.results.unit_systems import System, in_words, reworded, shown_unit
 
 # Mean square of the residuals over the noise, by degree of freedom, beyond which the intervals are doubtful.
 MISFIT = 2.0
@@ -240,8 +239,7 @@ def _pumps(row: Mapping[Any, Any], units: System) -> str:
     """What a row says of pumps and flow, in brackets."""
     said = [f"pumps {row['pumps']}"] if row["pumps"] else []
     if not np.isnan(row["flow_m3_s"]):
-        factor, unit = FLOW.shown(units)
-        said.append(f"{row['flow_m3_s'] * factor:.4g} {unit}")
+        said.append(in_words(row["flow_m3_s"], "flow_m3_s", units))
     return f" ({', '.join(said)})" if said else ""
 
 

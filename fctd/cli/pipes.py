@@ -88,10 +88,9 @@ def _table(pipes: list[Pipe], pages: list[str], units: System) -> Table:
         Column("pipe", min_width=10), *(Column(heading, justify="right", no_wrap=True) for heading in headings),
         Column("from", no_wrap=True), box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
     )  # fmt: skip
-    at = SYSTEMS.index(units)
     for pipe in pipes:
         cells = [
-            NONE if value is None else f"{value * kind.shown(units).factor:.{digits[at]}f}"
+            NONE if value is None else f"{value * kind.shown(units).factor:.{digits[SYSTEMS.index(units)]}f}"
             for value, (_, kind, digits) in zip(_values(pipe), COLUMNS, strict=True)
         ]
         numbers = dict.fromkeys(pages.index(key) + 1 for key in pipe.sources)

@@ -257,11 +257,11 @@ RATE = {
 }
 
 
+@dataclass(frozen=True)
 class Quantities:
     """Writes SI values with the units of a system, rounded to digits that a person would write."""
 
-    def __init__(self, units: System) -> None:
-        self.units = units
+    units: System
 
     def __call__(self, kind: Kind, value: float) -> str:
         digits = WRITTEN[kind][SYSTEMS.index(self.units)]

@@ -12,7 +12,7 @@ from fctd.case.operations import KINDS
 from fctd.case.text import printable
 from fctd.results.case_facts import Row
 from fctd.results.unit_systems import System, in_field_units, reworded
-from fctd.results.workbook import heading_of
+from fctd.results.workbook import Heading, heading_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -155,9 +155,8 @@ def frame_table(
     heads, cells = [], []
     for k, name in enumerate(map(str, kept)):
         heading = heading_of(str(shown.columns[k]))
-        digits = len(heading.format.partition(".")[2])
         heads.append(_named(heading.text, (words or {}).get(name, "")))
-        cells.append([_cell(name, value, heading.factor, digits, units) for value in shown.iloc[:, k]])
+        cells.append([_cell(name, value, heading, units) for value in shown.iloc[:, k]])
     return Table(title, tuple(heads), tuple(zip(*cells, strict=True)), tuple(map(printable, notes)))
 
 
@@ -168,9 +167,9 @@ def _named(heading: str, word: str) -> str:
     return f"{word} {heading[heading.rindex('(') :]}" if heading.endswith(")") else word
 
 
-def _cell(column: str, value: Any, factor: float, digits: int, units: System) -> Cell:
+def _cell(column: str, value: Any, heading: Heading, units: System) -> Cell:
     if not isinstance(value, str):
-        return number(float(value) * factor, digits)
+        return number(float(value) * heading.factor, len(heading.format.partition(".")[2]))
     if column == "operation":
         return Cell(KINDS[value].label)
     if column in _WORDS:

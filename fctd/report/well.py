@@ -144,7 +144,7 @@ def string(summary: Summary, units: System) -> Section:
         ))  # fmt: skip
     note = "Of the body at yield, each load by itself; make-up torque is the largest that is recommended, where known."
     parts = [
-        Table(f"String, the bit at {_depth(summary.bit_depth, units)}", heads, tuple(rows)),
+        Table(f"String, the bit at {_cell(LENGTH, summary.bit_depth, units).text} {depth}", heads, tuple(rows)),
         Table("Capacities", bears, tuple(capacities), (note,)),
     ]
     if rows_of := fitting_facts(case, units):
@@ -323,7 +323,3 @@ def _rates(case: Case, rates: Mapping[str, SteadyRates], drive: Mapping[str, Any
     )  # fmt: skip
     heads = ("operation", f"speed ({SPEED.label(units)})", "rotation (rev/min)", f"flow ({FLOW.label(units)})", "from")
     return Table("Rates", heads, rows)
-
-
-def _depth(value: float, units: System) -> str:
-    return f"{_cell(LENGTH, value, units).text} {LENGTH.label(units)}"

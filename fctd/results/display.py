@@ -39,13 +39,11 @@ def html_of(title: str, table: pd.DataFrame, most: int = 12) -> str:
 
 def load_rows(loads: Mapping[str, float], units: System) -> dict[str, str]:
     """Labels of columns and their values with units, "hook load": "957.9 kN"; a dash for NaN."""
-    rows = {}
-    for name, value in loads.items():
-        unit = shown(name, units)
-        rows[COLUMNS[name].label] = (
-            "–" if isnan(value) else f"{value * unit.factor:z.{digits_of(name, units)}f} {unit.label}"
-        )
-    return rows
+    return {
+        COLUMNS[name].label: "–" if isnan(value) else f"{value * factor:z.{digits_of(name, units)}f} {unit}"
+        for name, value in loads.items()
+        for factor, unit in [shown(name, units)]
+    }
 
 
 class Picture:

@@ -36,10 +36,10 @@ if TYPE_CHECKING:
 _BY_UNIT: Final = sorted(
     {ending(kind.dimension.unit): kind for kind in reversed(SHOWN_APART)}.items(), key=lambda item: -len(item[0])
 )
-# Columns of another kind: pressures, for which MPa and ksi are too coarse, jets, which are fast, and grooves.
+# Columns of another kind: pressures, for which MPa and ksi are too coarse, jets, which are fast, grooves and gaps.
 _BY_END: Final = {
     **dict.fromkeys(("drop_Pa", "standpipe_Pa", "surge_Pa", "burst_Pa"), PRESSURE), "jet_speed_m_s": JET,
-    "groove_m": ACROSS,
+    **dict.fromkeys(("groove_m", "gap_m"), ACROSS),
 }  # fmt: skip
 
 

@@ -44,8 +44,7 @@ def heading_of(column: str) -> Heading:
     factor, digits = 1.0, _DIGITS.get(unit, 3)
     if kind is not None and unit == kind.dimension.unit:
         factor, unit, digits = kind.shown("si").factor, kind.unit("si"), kind.digits_in("si")
-    if known is not None and known.digits is not None:
-        digits = known.digits
+    digits = digits if known is None or known.digits is None else known.digits
     sign = signed(unit).replace("deg", "°")
     return Heading(label + (f" ({sign})" if sign else ""), factor, f"0.{'0' * digits}".removesuffix("."))
 
