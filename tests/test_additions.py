@@ -1,4 +1,5 @@
-"""In a copy of the package, one line adds a result column or a limit with its note, one file and one line a law."""
+"""In a copy of the package, one line adds a result column, a kind of quantity, or a limit with its note, and one file
+and one line a law."""
 
 import json
 import os
@@ -106,6 +107,39 @@ def test_a_result_column_is_one_line(copy: Path) -> None:
     assert "spare" in screen
     assert all(f"{value:.2f}" in screen for value in spare)
     assert "spare pull" in point
+
+
+VOLUMES = """
+import pandas as pd
+from fctd.case.systems import VOLUME
+from fctd.cli.quantities import QuantityOption
+from fctd.results.unit_systems import digits_of, in_field_units, shown
+from fctd.results.workbook import heading_of
+
+print(*in_field_units(pd.DataFrame({"pit_m3": [0.028316846592]})).items(), *shown("pit_m3", "field"))
+print(digits_of("pit_m3", "field"), heading_of("pit_ft3"), heading_of("pit_m3"))
+print(QuantityOption("--pit", VOLUME).read("1", "field"), QuantityOption("--pit", VOLUME).read("1 m^3", "field"))
+"""
+
+
+def test_a_kind_of_quantity_is_one_line(copy: Path) -> None:
+    """It is in tables, on the screen, in workbooks, and read from options."""
+    dimension = """Dimension("a volume", "m^3", "'1 m^3'", ("m^3", "ft^3"))"""
+    add_line(
+        copy / "fctd" / "case" / "systems.py", "# Of kinds with one dimension the first is that of a column whose name "
+        "says no more than the unit.", f'VOLUME: Final = Kind({dimension}, ("m^3", "ft^3"), (1, 2))',
+    )  # fmt: skip
+    done = subprocess.run(
+        [sys.executable, "-c", VOLUMES], cwd=copy, env=os.environ | {"PYTHONPATH": str(copy)}, capture_output=True,
+        text=True,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    table, headings, read = done.stdout.rsplit("\n", 4)[-4:-1]
+    assert "pit_ft3" in done.stdout
+    assert table.endswith("35.3146667214886 ft³")
+    assert headings.startswith("2 Heading(text='pit (ft³)', factor=1.0, format='0.00')")
+    assert headings.endswith("Heading(text='pit (m³)', factor=1.0, format='0.0')")
+    assert read == "0.028316846592 1.0"
 
 
 MAKE_UP = """

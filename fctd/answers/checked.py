@@ -12,6 +12,7 @@ from fctd.answers.display import html_of, html_table
 from fctd.case.friction import factors_label
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case, naming_file
+from fctd.case.systems import DOG_LEG, FORCE, LENGTH
 from fctd.case.text import counted
 from fctd.model.summary import Summary, segments_in_words, summarise
 
@@ -33,17 +34,18 @@ class CheckedCase:
 
     @property
     def facts(self) -> dict[str, str]:
-        """Path and weights with their units."""
+        """Path and weights with their units, those of the case."""
         path, case = self.summary.path, self.summary.case
+        (long, m), (load, kN), (per, course) = LENGTH.shown(case.system), FORCE.shown(case.system), DOG_LEG[case.system]
         return {
-            "total depth, measured": f"{path.depth:.1f} m ({counted(path.stations, 'station')})",
-            "true vertical depth": f"{path.vertical_depth:.1f} m",
-            "departure": f"{path.departure:.1f} m",
-            "greatest inclination": f"{np.degrees(path.inclination):.1f}° at {path.inclination_at:.0f} m",
-            "greatest dog-leg": f"{np.degrees(path.dogleg) * 30:.2f}°/30 m from {path.dogleg_from:.0f} m",
-            "string in air": f"{self.summary.air / 1e3:.1f} kN",
-            "string in mud": f"{self.summary.buoyed / 1e3:.1f} kN",
-            "block weight": f"{case.rig.block_weight / 1e3:.1f} kN",
+            "total depth, measured": f"{path.depth * long:.1f} {m} ({counted(path.stations, 'station')})",
+            "true vertical depth": f"{path.vertical_depth * long:.1f} {m}",
+            "departure": f"{path.departure * long:.1f} {m}",
+            "greatest inclination": f"{np.degrees(path.inclination):.1f}° at {path.inclination_at * long:.0f} {m}",
+            "greatest dog-leg": f"{np.degrees(path.dogleg) * per:.2f}{course} from {path.dogleg_from * long:.0f} {m}",
+            "string in air": f"{self.summary.air * load:.1f} {kN}",
+            "string in mud": f"{self.summary.buoyed * load:.1f} {kN}",
+            "block weight": f"{case.rig.block_weight * load:.1f} {kN}",
             "segments": self.segments,
         }
 
@@ -96,4 +98,6 @@ def check_case(case: Case) -> CheckedCase:
     """
     with naming_file(case):
         summary = summarise(case)
-        return CheckedCase(summary, segments_in_words(case, summary.string()), case.warnings)
+        return CheckedCase(
+            summary, segments_in_words(case, summary.string(), *LENGTH.shown(case.system)), case.warnings
+        )

@@ -70,11 +70,11 @@ class Comparison:
         return html_of("; ".join(self.sentences) or "no key differs", self.table)
 
 
-def compare(charts: Iterable[Chart] | Mapping[str, Chart], units: System = "si") -> Comparison:
+def compare(charts: Iterable[Chart] | Mapping[str, Chart], units: System | None = None) -> Comparison:
     """Charts of cases beside one another; what differs between the inputs of the cases comes with them.
 
-    charts : of ``fctd.chart``, two or more, or by names that are better than those of their cases.  Raises InputError
-    for fewer.
+    charts : of ``fctd.chart``, two or more, or by names that are better than those of their cases.  units : by
+    default those of the charts, of charts in both systems SI.  Raises InputError for fewer.
 
     >>> import fctd
     >>> cases = [fctd.load_case("examples/my_well.toml", {"mud.density": mud}) for mud in ("1250 kg/m^3", "1.4 sg")]
@@ -91,7 +91,7 @@ def compare(charts: Iterable[Chart] | Mapping[str, Chart], units: System = "si")
         charts = dict(zip(names_of([chart.case for chart in found]), found, strict=True))
     if len(charts) < FEWEST:
         raise InputError(f"{FEWEST} charts or more", key="charts", value=len(charts))
-    return Comparison(charts, units)
+    return Comparison(charts, units or ("field" if {of.units for of in charts.values()} == {"field"} else "si"))
 
 
 def names_of(cases: Sequence[Case]) -> list[str]:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 from fctd import plots
 from fctd.case.errors import InputError
 from fctd.results.columns import COLUMNS, LOADS
-from fctd.results.unit_systems import shown
+from fctd.results.unit_systems import System, digits_of, shown
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -42,13 +42,12 @@ def html_of(title: str, table: pd.DataFrame, most: int = 12) -> str:
     return f"<p><b>{escape(title)}</b></p>{table.to_html(max_rows=most, index=False, float_format='{:.5g}'.format)}"
 
 
-def load_rows(loads: Mapping[str, float]) -> dict[str, str]:
+def load_rows(loads: Mapping[str, float], units: System) -> dict[str, str]:
     """Labels of columns and their values with units, "hook load": "957.9 kN"; a dash for NaN."""
     return {
-        COLUMNS[name].label: "–"
-        if isnan(value)
-        else f"{value * (unit := shown(name, 'si')).factor:z.{COLUMNS[name].digits}f} {unit.label}"
+        COLUMNS[name].label: "–" if isnan(value) else f"{value * factor:z.{digits_of(name, units)}f} {unit}"
         for name, value in loads.items()
+        for factor, unit in [shown(name, units)]
     }
 
 

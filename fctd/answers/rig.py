@@ -15,9 +15,9 @@ _SHOWN = ("mode", "bit_depth_m", "samples", "friction", "friction_low", "frictio
 
 
 class Monitored(monitoring.Monitored):
-    def plot(self, units: System = "si") -> Picture:
+    def plot(self, units: System | None = None) -> Picture:
         """Readings and apparent friction factor over bit depth, with the alarms."""
-        return picture(lambda: plots.monitor_figure(self, self.chart.case, units))
+        return picture(lambda: plots.monitor_figure(self, self.chart.case, units or self.chart.case.system))
 
     def __repr__(self) -> str:
         found = f"{counted(len(self.stretches), 'stretch')}, {counted(len(self.alarms), 'alarm')}"
@@ -36,9 +36,9 @@ class Calibration(result.Calibration):
     def _repr_html_(self) -> str:
         return html_of(repr(self), self.table)
 
-    def plot(self, units: System = "si") -> Picture:
+    def plot(self, units: System | None = None) -> Picture:
         """Measured and fitted readings with bands, residuals, and correlations of the unknowns."""
-        return picture(lambda: plots.calibration_figure(self, units))
+        return picture(lambda: plots.calibration_figure(self, units or self.base.system))
 
 
 calibrate = answering(Calibration, calibrating.calibrate)

@@ -14,12 +14,12 @@ class SimulationResult(tables.SimulationResult):
 
     def _repr_html_(self) -> str:
         loads = {load.name: float(self.history[load.name].iloc[-1]) for load in MAIN} if len(self.history) else {}
-        rows = {"status": str(self.status), "records": str(len(self.history)), **load_rows(loads)}
+        rows = {"status": str(self.status), "records": str(len(self.history)), **load_rows(loads, self.case.system)}
         return html_table(f"{self.case.name}{self._end}", rows)
 
-    def plot(self, units: System = "si") -> Picture:
+    def plot(self, units: System | None = None) -> Picture:
         """Hook load, torque, rotation and depth over time, and where the string touched."""
-        return picture(lambda: plots.run_figure(self, units))
+        return picture(lambda: plots.run_figure(self, units or self.case.system))
 
     @property
     def _end(self) -> str:

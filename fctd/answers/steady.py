@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, get_args
+from typing import TYPE_CHECKING, Any
 
 from fctd import plots
 from fctd.answers.display import MAIN, Picture, answering, html_of, html_table, load_rows, picture
@@ -15,6 +15,7 @@ from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case
 from fctd.case.message import frame_of
 from fctd.case.operation_names import kinds_of
+from fctd.case.systems import SYSTEMS
 from fctd.case.text import counted
 from fctd.model.operations import SteadyRates, rates_of_all
 from fctd.results.attrs import attrs_of
@@ -68,7 +69,7 @@ class Chart:
 
     def to_units(self, units: System) -> Chart:
         """The same chart in "field" units, or in "si"; InputError for others."""
-        if units not in get_args(System):
+        if units not in SYSTEMS:
             raise InputError('"si" or "field"', key="units", value=units)
         return replace(self, units=units)
 
@@ -103,8 +104,12 @@ def chart(
     flow: float | str | None = None,
     progress: Progress | None = None,
     threads: int | None = None,
+    units: System | None = None,
 ) -> Chart:
-    """The chart of ``torque_drag``, with the same arguments, as an object that plots itself; raises as it does."""
+    """The chart of ``torque_drag``, with the same arguments, as an object that plots itself; raises as it does.
+
+    units : of the chart, by default those of the case, else SI.
+    """
     notes: list[RowNote] = []
     drive: dict[str, Any] = {"speed": speed, "rpm": rpm, "flow": flow}
     rows = chart_rows(case, operation, bit_depths, friction, **drive, progress=progress, threads=threads, notes=notes)
@@ -112,7 +117,7 @@ def chart(
     table.attrs = attrs_of(case, kinds_of(operation), drive, () if friction is None else friction_sets(friction))
     warnings = tuple(InputWarning(**told) for told in table.attrs["warnings"])
     rates = rates_of_all(case, list(dict.fromkeys(table["operation"])), **drive)
-    return Chart(case, table, tuple(notes), warnings, rates)
+    return Chart(case, table, tuple(notes), warnings, rates).to_units(units or case.system)
 
 
 def torque_drag(
@@ -166,12 +171,13 @@ class Equilibrium(steady_string.Equilibrium):
         title = f"{self.case.name}: {self.operation}, bit at {self.bit_depth:g} m"
         return html_table(title, {"status": str(self.status), **self._load_rows(IN_CHART)})
 
-    def plot(self, units: System = "si") -> Picture:
+    def plot(self, units: System | None = None) -> Picture:
         """The string from the top to the bit: tension, torque, side force and so on over depth."""
-        return picture(lambda: plots.profile_figure([self], units))
+        return picture(lambda: plots.profile_figure([self], units or self.case.system))
 
     def _load_rows(self, of: Sequence[Column]) -> dict[str, str]:
-        return load_rows({load.name: load.value(self) if self.answered else float("nan") for load in of})
+        loads = {load.name: load.value(self) if self.answered else float("nan") for load in of}
+        return load_rows(loads, self.case.system)
 
 
 class Refinement(cut.Refinement):

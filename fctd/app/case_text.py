@@ -17,10 +17,11 @@ from fctd.case.input_file import LARGEST_FILE, tables_of
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case, make_case
 from fctd.case.raw_case import look_up, set_key, split_key
+from fctd.case.systems import System
 from fctd.case.tables.workbook import ZIP, check_workbook
 from fctd.case.xml_file import has_doctype
 from fctd.model.layouts import segments_in_hole
-from fctd.model.new_case import UnitSystem, from_survey, read_survey
+from fctd.model.new_case import from_survey, read_survey
 
 MOST_UNPACKED: Final = 50 * 2**20  # bytes of a survey's parts
 MOST_STATIONS: Final = 50_000
@@ -125,7 +126,7 @@ def check_size(case: Case) -> None:
         raise InputError(f"a string of at most {MOST_SEGMENTS} segments in the hole, here about {segments}")
 
 
-def from_upload(name: str, survey: bytes, units: UnitSystem, folder: Path) -> tuple[Source, str]:
+def from_upload(name: str, survey: bytes, units: System, folder: Path) -> tuple[Source, str]:
     """A case of an uploaded survey, as ``fctd init`` makes it, and what is to be said of the unit of its depths.
 
     Raises InputError for a file that is no survey.

@@ -7,32 +7,28 @@ from typing import Any, Final
 
 import numpy as np
 
+from fctd.case import systems
 from fctd.case.errors import MISSING, InputError
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
 from fctd.case.raw_case import scaled_static
-from fctd.case.units import conversion
+from fctd.case.systems import Kind, System
 from fctd.hydraulics.channel import has_flow_curve
 from fctd.model.drillstring import lay_out
 from fctd.model.layouts import is_cut
-from fctd.results.unit_systems import System
 
 RPM: Final = "rpm"
 FLOW: Final = "flow"
-# SI unit, shown units, step and usual ends [shown], by system.
-Scale = tuple[str, str, float, float, float]
-SCALES: Final[dict[str, dict[System, Scale]]] = {
-    "friction": {"si": ("", "", 0.01, 0.0, 0.6), "field": ("", "", 0.01, 0.0, 0.6)},
-    "mud": {
-        "si": ("kg/m^3", "kg/m^3", 10.0, 800.0, 2200.0), "field": ("kg/m^3", "lb/gal", 0.1, 7.0, 18.0),
-    },
-    "wob": {"si": ("N", "kN", 5.0, 0.0, 300.0), "field": ("N", "klbf", 1.0, 0.0, 70.0)},
-    "bit_torque": {"si": ("N*m", "kN*m", 0.5, 0.0, 30.0), "field": ("N*m", "kft*lbf", 0.5, 0.0, 22.0)},
-    RPM: {"si": ("", "", 5.0, 5.0, 240.0), "field": ("", "", 5.0, 5.0, 240.0)},
-    FLOW: {"si": ("m^3/s", "L/min", 50.0, 0.0, 4000.0), "field": ("m^3/s", "gallon/min", 10.0, 0.0, 1100.0)},
-    "segment": {"si": ("m", "m", 1.0, 5.0, 60.0), "field": ("m", "ft", 2.0, 16.0, 200.0)},
-}  # fmt: skip
-LABELS: Final = {"kg/m^3": "kg/m³", "lb/gal": "ppg", "kN*m": "kN·m", "kft*lbf": "kft·lbf", "gallon/min": "gpm", "": ""}
+# Kind, step and usual ends [shown] in the two systems.
+SCALES: Final[dict[str, tuple[Kind | None, Sequence[float], Sequence[float]]]] = {
+    "friction": (None, (0.01, 0.0, 0.6), (0.01, 0.0, 0.6)),
+    "mud": (systems.DENSITY, (10.0, 800.0, 2200.0), (0.1, 7.0, 18.0)),
+    "wob": (systems.FORCE, (5.0, 0.0, 300.0), (1.0, 0.0, 70.0)),
+    "bit_torque": (systems.TORQUE, (0.5, 0.0, 30.0), (0.5, 0.0, 22.0)),
+    RPM: (systems.ROTATION, (5.0, 5.0, 240.0), (5.0, 5.0, 240.0)),
+    FLOW: (systems.FLOW, (50.0, 0.0, 4000.0), (10.0, 0.0, 1100.0)),
+    "segment": (systems.LENGTH, (1.0, 5.0, 60.0), (2.0, 16.0, 200.0)),
+}
 KIND_LABELS: Final = {"cased": "friction, cased", "open": "friction, open hole", None: "friction"}
 
 
@@ -146,12 +142,12 @@ def rates_at(case: Case, rpm: float, flow: float) -> Case:
 
 
 def _slider(name: str, label: str, scale: str, value: float, units: System) -> Slider:
-    si, unit, step, low, high = SCALES[scale][units]
-    factor = conversion(unit, si) if unit != si else 1.0
+    kind, *of = SCALES[scale]
+    step, low, high = of[systems.SYSTEMS.index(units)]
+    factor, unit = (1.0, "") if kind is None else (kind.si(units), kind.label(units))
     shown = float(f"{value / factor:.6g}")
     high = max(high, ceil(1.5 * shown / step) * step)
-    label_of_unit = "rev/min" if name == RPM else LABELS.get(unit, unit)
-    return Slider(name, label, label_of_unit, min(low, shown), high, step, shown, factor)
+    return Slider(name, label, unit, min(low, shown), high, step, shown, factor)
 
 
 def _lacks_kinds(case: Case) -> bool:

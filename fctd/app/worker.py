@@ -21,9 +21,9 @@ from fctd.app.runs_view import records
 from fctd.app.sessions import Source
 from fctd.app.warm_up import warm_up
 from fctd.case.errors import InputError
+from fctd.case.systems import System
 from fctd.case.text import printable_lines
 from fctd.mechanics.compile_cache import WAITING, KeptCode
-from fctd.model.new_case import UnitSystem
 
 MOST_MEMORY: Final = 2**30  # bytes of addresses
 KEPT_WELLS: Final = 12
@@ -66,7 +66,7 @@ def answer(wells: Wells, request: Request) -> dict[str, Any]:
         return {"refused": f"fctd cannot work with this ({type(error).__name__}: {printable_lines(str(error))})"}
 
 
-def new_case(folder: Path, name: str, survey: str, given_units: UnitSystem) -> dict[str, str]:
+def new_case(folder: Path, name: str, survey: str, given_units: System) -> dict[str, str]:
     """The text of a case for an uploaded survey, and a note about it."""
     source, note = from_upload(name, base64.b64decode(survey), given_units, folder)
     return {"text": source.text, "note": note}

@@ -3,7 +3,8 @@
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from fctd.case.message import Message, System, told
+from fctd.case.message import Message
+from fctd.case.systems import System, told
 from fctd.case.text import printable
 
 

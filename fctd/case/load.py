@@ -39,6 +39,7 @@ from fctd.case.raw_case import (
 from fctd.case.rig import MudSpec, RigSpec
 from fctd.case.solver import RESOLVING, RecordSpec, SolverSpec
 from fctd.case.string import StringSpec
+from fctd.case.systems import System
 from fctd.case.wall import ContactSpec, check_friction
 
 _OF_SURVEYS: Final = (".csv", ".txt", ".tsv", ".dat", ".xlsx", ".xml")
@@ -56,9 +57,14 @@ class _Written:
 
 
 class Case(Table):
-    """A case: hole, string, rig and operations. `file` is the case file that it was read from, or None."""
+    """A case: hole, string, rig and operations.
+
+    units : in which its results are shown where nobody asks for others; it changes none of them.  file : the case file
+    that it was read from, or None.
+    """
 
     name: str = Field(description="a name in quotes")
+    units: System | None = Field(default=None, exclude_if=lambda named: named is None)
     datum: DatumSpec = DatumSpec()
     wellbore: WellboreSpec = Field(description="a table [wellbore]")
     string: StringSpec = Field(description="a table [string]")
@@ -159,6 +165,11 @@ class Case(Table):
                     raise InputError("none below a swivel, which no torque passes", key=f"bit.{key}")
 
     @property
+    def system(self) -> System:
+        """The system of units in which its results are shown."""
+        return self.units or "si"
+
+    @property
     def end(self) -> str:
         """What the lower end lets through: it is "open", "closed", or has a "float"."""
         return self.bit.end or ("float" if self.mud.float else "open")
@@ -200,7 +211,7 @@ class Case(Table):
         It reads survey and caliper; the same well has the same one on every machine, whatever its file is called.
         """
         of_files: Any = {"survey": True, "columns": True, "sheet": True, "stations": True, "caliper": {"log": True}}
-        told = self.model_dump_json(exclude={"file": True, "wellbore": of_files}, warnings=False)
+        told = self.model_dump_json(exclude={"file": True, "units": True, "wellbore": of_files}, warnings=False)
         caliper = self.wellbore.calipers
         parts = [told.encode(), self.wellbore.trajectory.tobytes()]
         parts += [] if caliper is None else [caliper.md.tobytes(), caliper.radii.tobytes()]

@@ -1,7 +1,7 @@
 """Sentences of the program.  Their quantities are told in the reader's units; a user's text in them stays as it is.
 
 A sentence is an f-string with its values in it: ``Message(f"the hole ends at {quantity(depth, 'm')}")``.  As a string
-it is in SI units; `told` writes it in others.
+it is in SI units; `told` (systems.py) writes it in others.
 """
 
 from __future__ import annotations
@@ -9,26 +9,16 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple, Self, SupportsFloat
+from typing import TYPE_CHECKING, Any, Final, NamedTuple, Self, SupportsFloat
 
 if TYPE_CHECKING:
     import pandas as pd
 
-System = Literal["si", "field"]
-
-# Units of sentences, and those of the field in their place.
-FIELD: Final = {
-    "m": "ft", "mm": "in", "km": "ft", "m/s": "ft/min", "m/h": "ft/h", "kN": "klbf", "N": "lbf", "kN·m": "kft·lbf",
-    "N·m": "ft·lbf", "MPa": "ksi", "bar": "psi", "kg/m^3": "ppg", "kg/m": "lb/ft", "L/min": "gpm", "K": "°F",
-}  # fmt: skip
 # Columns of tables that hold sentences.
 SENTENCES: Final = ("friction_label", "reason")
-_PINTS: Final = {"ppg": "lb/gal", "gpm": "gallon/min", "°F": "degR"}
-_DOG_LEG: Final = {"°/30 m": "°/100 ft", "deg/30 m": "deg/100 ft"}
 # Round the values, unit and text of a quantity while its sentence is made; no text of a user has them.
 _OPEN, _NEXT, _SHUT = f"⟦{os.urandom(4).hex()}:", "¦", "⟧"
 _MARKED: Final = re.compile(f"{_OPEN}([^¦]+)¦([^¦]+)¦([^¦⟧]+)⟧")
-_NUMBER: Final = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 
 
 class Numbers(NamedTuple):
@@ -38,18 +28,9 @@ class Numbers(NamedTuple):
     unit: str
     written: str
 
-    def text(self, units: System) -> str:
-        """The numbers with their unit."""
-        blank = "" if self.unit.startswith("°") else " "
-        if units == "si" or self.unit not in FIELD | _DOG_LEG:
-            return f"{self.written}{blank}{self.unit}"
-        if self.unit in _DOG_LEG:  # as large as before, so with as many digits
-            return f"{self.values[0] * 30.48 / 30:.3g}{blank}{_DOG_LEG[self.unit]}"
-        from fctd.case.spellings import conversion  # which refuses input with a sentence
-
-        unit, values = FIELD[self.unit], iter(self.values)
-        factor = conversion(self.unit.replace("·", "*"), _PINTS.get(unit, unit.replace("·", "*")))
-        return f"{_NUMBER.sub(lambda number: _short(next(values) * factor, number[0]), self.written)} {unit}"
+    def __str__(self) -> str:
+        """The numbers with their unit, in SI."""
+        return f"{self.written}{'' if self.unit.startswith('°') else ' '}{self.unit}"
 
 
 class Message(str):
@@ -66,7 +47,7 @@ class Message(str):
         for k in range(len(found) // 4):
             values, unit, written = found[4 * k + 1 : 4 * k + 4]
             parts.insert(2 * k + 1, Numbers(tuple(map(float, values.split(";"))), unit, written))
-        message = super().__new__(cls, "".join(part if isinstance(part, str) else part.text("si") for part in parts))
+        message = super().__new__(cls, "".join(map(str, parts)))
         message.parts = tuple(parts)
         return message
 
@@ -95,13 +76,6 @@ def within(text: str) -> str:
 def joined(sentences: Iterable[str], between: str = "; ") -> Message:
     """Sentences as one."""
     return Message(between.join(map(within, sentences)))
-
-
-def told(text: object, units: System) -> str:
-    """A sentence in a system of units; another text as it is."""
-    if not isinstance(text, Message):
-        return str(text)
-    return "".join(part if isinstance(part, str) else part.text(units) for part in text.parts)
 
 
 def frame_of(rows: Sequence[Mapping[str, Any]] | pd.DataFrame) -> pd.DataFrame:
@@ -137,9 +111,3 @@ def _made(of: type[Message], parts: Iterable[str | Numbers]) -> Message:
 def _mark(numbers: Numbers) -> str:
     values = ";".join(map(repr, numbers.values))
     return f"{_OPEN}{values}{_NEXT}{numbers.unit}{_NEXT}{numbers.written}{_SHUT}"
-
-
-def _short(value: float, before: str) -> str:
-    """A number with one digit more than it had before, three or four."""
-    digits = len(before.split("e")[0].lstrip("-0.").replace(".", ""))
-    return f"{value:.0f}" if abs(value) >= 1000 else f"{value:.{min(max(digits + 1, 3), 4)}g}"

@@ -126,18 +126,20 @@ def _without_doubt(number: Decimal, unit: str) -> Written:
     return Written(number, unit)
 
 
-def factor(unit: str, target: str, words: Mapping[str, str], gravity: int = 0, *, listed: bool = False) -> float:
+def factor(
+    unit: str, target: str, words: Mapping[str, str], gravity: int = 0, *, listed: bool = False, back: bool = False
+) -> float:
     """How many `target` units one `unit`, as it is written, is.
 
     words : spellings of this dimension, in lower case, in pint's words.  gravity : 1 where a mass stands for its
-    weight, −1 where a weight stands for its mass, else 0.  listed : whether only these words are units.  Raises
-    ValueError for a unit that is unknown or of another dimension.
+    weight, −1 where a weight stands for its mass, else 0.  listed : whether only these words are units.  back : how
+    many of the unit one target unit is.  Raises ValueError for a unit that is unknown or of another dimension.
     """
     known_words = [words.get(_BLANKS.sub("", unit).lower(), "")] if listed else _in_pints_words(unit, words)
     for known in filter(None, known_words):
         for expression in (known, *([f"({known})*standard_gravity**{gravity}"] if gravity else [])):
             try:
-                return conversion(expression, target)
+                return conversion(target, expression) if back else conversion(expression, target)
             except ValueError:
                 pass
     raise ValueError(f"{unit!r} cannot be converted to {target!r}")

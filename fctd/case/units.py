@@ -55,9 +55,12 @@ class Dimension:
         letters = {word.lower(): word for unit in self.units for word in re.findall(r"[^\W\d_]+", unit)}
         return (own if self.listed else letters) | dict(self.words)
 
-    def factor(self, unit: str) -> float:
-        """How many SI units one `unit`, as people write it, is; ValueError for one that is not of this dimension."""
-        return spellings.factor(unit, self.unit, self.spellings, self.gravity, listed=self.listed)
+    def factor(self, unit: str, *, back: bool = False) -> float:
+        """How many SI units one `unit`, as people write it, is; ValueError for one that is not of this dimension.
+
+        back : how many of it one SI unit is.
+        """
+        return spellings.factor(unit, self.unit, self.spellings, self.gravity, listed=self.listed, back=back)
 
     def unit_of(self, text: str) -> str | None:
         """The unit that a text is, in the spelling of the accepted units where they are listed; None for another."""

@@ -29,7 +29,7 @@ def app_command(
         bool, typer.Option("--new-token", help="A new secret in the address; earlier addresses lead nowhere.")
     ] = False,
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in a browser.")] = True,
-    units: Annotated[System, units_option("Units of the page.")] = "si",
+    units: Annotated[System, units_option("Units of the page")] = "si",
     quiet: Silent = False,
 ) -> None:
     """Show a case on a page of this machine: charts and string follow its sliders."""

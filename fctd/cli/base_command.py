@@ -6,6 +6,7 @@ import typer
 from typer.core import TyperCommand, TyperOption
 
 from fctd.case.text import printable
+from fctd.cli.options import units_of_case
 
 HELP = {"help_option_names": ["-h", "--help"]}
 # Options that a command needs where it does not go on with an earlier one.
@@ -40,6 +41,12 @@ class Command(TyperCommand):
             several = "an option takes one value, in quotes where it holds a blank, several apart by commas"
             ctx.fail(f"Got unexpected extra argument(s) ({printable(' '.join(extra))}): {several}")
         return super().parse_args(ctx, args)
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run the command, in the units of its case where the command line names none."""
+        if getattr(ctx.get_parameter_source("units"), "name", "") == "DEFAULT":
+            ctx.params["units"] = units_of_case(ctx.params)
+        return super().invoke(ctx)
 
     def _options(self) -> list[TyperOption]:
         return [option for option in self.params if isinstance(option, TyperOption)]

@@ -18,9 +18,9 @@ from fctd.calibration.fit import Loss
 from fctd.calibration.predict import coverage, posterior_file
 from fctd.calibration.result import Calibration
 from fctd.calibration.unknowns import NAMES
-from fctd.case.message import Message, told, within
+from fctd.case.message import Message, within
+from fctd.case.systems import told
 from fctd.case.text import counted, printable
-from fctd.case.units import conversion
 from fctd.cli.job import Job, grid, right, rows_of
 from fctd.cli.options import (
     CaseFile,
@@ -38,14 +38,14 @@ from fctd.cli.options import (
 from fctd.cli.pictures import DRAWN, TABLES
 from fctd.cli.steady import file_option, metadata_of_case
 from fctd.results.table_files import write_table
-from fctd.results.unit_systems import System, shown_unit
+from fctd.results.unit_systems import System, in_words, shown_unit
 
 # Mean square of the residuals over the noise, by degree of freedom, beyond which the intervals are doubtful.
 MISFIT = 2.0
 LOADS = {"hookload": "N", "torque": "N*m"}
 _MOST_ROWS = 3  # that are named beside a friction factor
 Units = Annotated[
-    System, units_option("Units of screen and picture, and of rows that name none; files are in SI units.")
+    System, units_option("Units of screen and picture, and of rows that name none; files are in SI units")
 ]
 
 
@@ -222,8 +222,7 @@ def _pumps(row: Mapping[Any, Any], units: System) -> str:
     """What a row says of pumps and flow, in brackets."""
     said = [f"pumps {row['pumps']}"] if row["pumps"] else []
     if not np.isnan(row["flow_m3_s"]):
-        unit = "gal/min" if units == "field" else "L/min"
-        said.append(f"{row['flow_m3_s'] * conversion('m^3/s', unit):.4g} {unit}")
+        said.append(in_words(row["flow_m3_s"], "flow_m3_s", units))
     return f" ({', '.join(said)})" if said else ""
 
 

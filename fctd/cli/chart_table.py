@@ -9,16 +9,16 @@ import numpy as np
 from rich.box import SIMPLE_HEAD
 from rich.table import Column, Table
 
-from fctd.case.message import Message, told, within
+from fctd.case.message import Message, within
+from fctd.case.systems import told
 from fctd.case.text import counted, printable
 from fctd.cli.options import messages, screen
 from fctd.plots.loads import LOAD_COLUMNS, Load
 from fctd.results.columns import BUCKLED, COLUMNS, DEPTH, IN_CHART
-from fctd.results.columns import Column as ShownColumn
 from fctd.results.notes import MEANINGS
 from fctd.results.series import FRICTION_LABEL, in_words
 from fctd.results.status import SteadyStatus
-from fctd.results.unit_systems import System, shown
+from fctd.results.unit_systems import System, digits_of, shown
 from fctd.steady.torque_drag import Row
 
 T = TypeVar("T")
@@ -55,7 +55,7 @@ def print_chart(rows: list[Row], name: str, units: System, load: Load) -> None:
         picked = spread(of, each)
         printed += len(picked)
         for k, row in enumerate(picked):
-            values = [cell(row, column, units_of[column.name].factor) for column in columns]
+            values = [cell(row, column.name, units) for column in columns]
             if buckled:
                 values.append(_buckled(row, units_of[DEPTH.name].factor))
             names = (operation, friction) if fan else (operation,)
@@ -77,10 +77,10 @@ def spread(items: Sequence[T], most: int) -> list[T]:
     return [items[k] for k in picked]
 
 
-def cell(row: Row, column: ShownColumn, factor: float) -> str:
-    """A load of a row to the digits of its column; factor : of its unit."""
-    value = row[column.name]
-    return "–" if np.isnan(value) else f"{value * factor:z.{column.digits}f}"
+def cell(row: Row, column: str, units: System) -> str:
+    """A load of a row to the digits of its column."""
+    value = row[column] * shown(column, units).factor
+    return "–" if np.isnan(value) else f"{value:z.{digits_of(column, units)}f}"
 
 
 def counts_of(rows: Sequence[Row]) -> str:

@@ -8,17 +8,17 @@ from rich.box import SIMPLE_HEAD
 from rich.table import Column, Table
 
 from fctd.answers.comparison import Comparison
-from fctd.case.message import told
 from fctd.case.operations import KINDS
+from fctd.case.systems import told
 from fctd.case.text import printable
 from fctd.cli.chart_table import cell, counts_of, exceptions, explain, spread
 from fctd.cli.job import rows_of
 from fctd.cli.options import messages, screen
 from fctd.plots.loads import LOAD_COLUMNS, NAMES, TORQUE, Load
-from fctd.results.columns import COLUMNS, DEPTH
+from fctd.results.columns import DEPTH
 from fctd.results.series import FRICTION_LABEL
 from fctd.results.status import SteadyStatus
-from fctd.results.unit_systems import System, shown
+from fctd.results.unit_systems import System, digits_of, shown
 from fctd.steady.torque_drag import Row
 
 SCREEN_ROWS: Final = 24  # of a table
@@ -69,7 +69,7 @@ def _table(
     cases: dict[str, ByDepth], series: Sequence[tuple[str, str]], column: str, units: System, *, fan: bool
 ) -> Table:
     """A column of the charts of all cases, a row for each operation, set of factors and bit depth."""
-    metre, unit = shown(DEPTH.name, units), shown(column, units)
+    metre, digits = shown(DEPTH.name, units), digits_of(DEPTH.name, units)
     table = Table(
         Column("operation", no_wrap=True),
         *([Column("μ", overflow="fold")] if fan else []),
@@ -81,8 +81,8 @@ def _table(
         rows = [of.get(key, {}) for of in cases.values()]
         for k, depth in enumerate(_depths(rows, max(SCREEN_ROWS // len(series), 1))):
             names = (key if fan else key[:1]) if k == 0 else ("",) * (1 + fan)
-            values = [_value(of[depth], column, unit.factor) if depth in of else "" for of in rows]
-            table.add_row(*names, f"{depth * metre.factor:.{DEPTH.digits}f}", *values)
+            values = [_value(of[depth], column, units) if depth in of else "" for of in rows]
+            table.add_row(*names, f"{depth * metre.factor:.{digits}f}", *values)
     return table
 
 
@@ -93,6 +93,6 @@ def _depths(rows: Sequence[dict[float, Row]], most: int) -> list[float]:
     return sorted({*spread(sorted(common), most), *deepest})
 
 
-def _value(row: Row, column: str, factor: float) -> str:
+def _value(row: Row, column: str, units: System) -> str:
     mark = "" if row["status"] == SteadyStatus.CONVERGED or np.isnan(row[column]) else "*"
-    return cell(row, COLUMNS[column], factor) + mark
+    return cell(row, column, units) + mark

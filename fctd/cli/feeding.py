@@ -8,8 +8,9 @@ from fctd import plots
 from fctd.case.errors import InputError
 from fctd.case.friction import pairs_of
 from fctd.case.load import Case
-from fctd.case.message import Message, told
+from fctd.case.message import Message
 from fctd.case.operations import KINDS
+from fctd.case.systems import told
 from fctd.cli.steady import file_option
 from fctd.model.operations import SteadyRates
 from fctd.results.buckling import NOT_BUCKLED

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 import typer
 
-from fctd.case.message import told
-from fctd.case.units import FORCE, LENGTH, TORQUE
+from fctd.case.systems import FORCE, LENGTH, TORQUE, told
 from fctd.cli.base_command import Silent
 from fctd.cli.job import Job, rows_of
 from fctd.cli.options import (

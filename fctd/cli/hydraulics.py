@@ -11,13 +11,14 @@ from rich.table import Column, Table
 from fctd.case.errors import InputError
 from fctd.case.load import Case, naming_file
 from fctd.case.message import frame_of
+from fctd.case.systems import ACROSS, DENSITY, FLOW
 from fctd.case.text import counted, printable
-from fctd.case.units import DENSITY, FLOW, LENGTH, MOST_FLOW
+from fctd.case.units import MOST_FLOW
 from fctd.cli.check import facts_table
 from fctd.cli.job import Depths, Job, grid, headed, number, numbers, right, rows_of
 from fctd.cli.options import CaseFile, Overrides, Quiet, Strict, Units, messages, screen
 from fctd.cli.pictures import PICTURE_HELP, TABLES, draw_panels
-from fctd.cli.quantities import PENETRATION, TO_TOTAL_DEPTH, Bare, Given, QuantityOption, quantity, several
+from fctd.cli.quantities import PENETRATION, TO_TOTAL_DEPTH, Given, QuantityOption, quantity, several
 from fctd.cli.steady import file_option
 from fctd.hydraulics.cuttings import Cuttings
 from fctd.hydraulics.pressures import SHARE, Circulation, Eccentricity, circulations
@@ -51,7 +52,7 @@ Flows = Annotated[
         "case's operations.",
     ),
 ]
-SIZE: Final = QuantityOption("--cuttings-size", LENGTH, Bare("m", "in"), above=0.0).parse("6.35 mm")
+SIZE: Final = QuantityOption("--cuttings-size", ACROSS, above=0.0).parse("6.35 mm")
 ROCK: Final = QuantityOption("--cuttings-density", DENSITY).parse("2.6 sg")
 Beside = Annotated[
     str | None,

@@ -34,7 +34,7 @@ def init_command(
             show_default=False,
         ),
     ] = None,
-    units: Annotated[System, units_option("Units of the case file, and of a survey that names none.")] = "si",
+    units: Annotated[System, units_option("Units of the case file, and of a survey that names none", "si")] = "si",
     columns: Annotated[
         list[str],
         typer.Option(
@@ -155,13 +155,13 @@ def _plan(
 def _next(plan: Plan, out: Path) -> list[str]:
     """Commands that the case is ready for, or will be when its blanks are filled in."""
     step = Quantities(plan.units).round_length((plan.depth - plan.shoe) / DEPTHS)
-    file, units = printable(str(out)), " --units field" if plan.units == "field" else ""
+    file = printable(str(out))
     kinds = "all" if plan.template.weight_on_bit else "trip_in"
     first = "shoe" if plan.shoe else step
     lines = [
-        f"fctd check {file}{units}",
-        f"fctd chart {file} --operation {kinds} --depths {first}:td:{step} --out chart.csv{units}",
-        f"fctd equilibrium {file} --operation trip_in --bit-depth td{units}",
+        f"fctd check {file}",
+        f"fctd chart {file} --operation {kinds} --depths {first}:td:{step} --out chart.csv",
+        f"fctd equilibrium {file} --operation trip_in --bit-depth td",
         f"fctd simulate {file}",
     ]
     begin = "Next:    " if not plan.blanks else "Fill in these lines, then: "

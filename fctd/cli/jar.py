@@ -7,8 +7,7 @@ import numpy as np
 import typer
 from rich.table import Column
 
-from fctd.case.message import told
-from fctd.case.units import FORCE
+from fctd.case.systems import FORCE, told
 from fctd.cli.base_command import Silent
 from fctd.cli.job import Job, grid, right, rows_of
 from fctd.cli.options import CaseFile, Friction, Overrides, Strict, Units, screen
@@ -62,7 +61,7 @@ def jar_command(
     pulls, pushes, hung = (several(given, units) for given in (up, down, hookload))
     bit = bit_depth.depth(case, units)
     job.warn()
-    place = f"{jar} {BIT_DEPTH.bare_unit(units)}" if is_number(jar) else jar
+    place = f"{jar} {BIT_DEPTH.kind.bare_unit(units)}" if is_number(jar) else jar
     stuck = None if stuck_at is None else stuck_at.depth(case, units)
     table = jar_forces(case, place, stuck, bit, up=pulls, down=pushes, hookload=hung)
     beyond = {*table.loc[table["share_used"] > 1, "limit"], *(["hoist"] if (table["hoist_share"] > 1).any() else [])}

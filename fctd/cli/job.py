@@ -16,7 +16,7 @@ from rich.table import Column, Table
 from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
 from fctd.case.load import Case
-from fctd.case.message import told
+from fctd.case.systems import told
 from fctd.case.text import printable
 from fctd.cli.options import changes_of, finish, messages, print_written, read_case, refuse_sources, screen, tell
 from fctd.cli.pictures import PICTURES, TABLES, File, check_files

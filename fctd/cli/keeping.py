@@ -12,8 +12,8 @@ import typer
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case
+from fctd.case.systems import TIME
 from fctd.case.text import printable
-from fctd.case.units import TIME
 from fctd.cli.options import messages
 from fctd.cli.quantities import Given, QuantityOption, quantity, si
 from fctd.mechanics.compile_cache import hash_of_sources

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Final
 import numpy as np
 from rich.table import Column, Table
 
-from fctd.case.message import told
+from fctd.case.systems import told
 from fctd.case.text import printable
 from fctd.cli.job import Depths, Job, grid, rows_of
 from fctd.cli.options import CaseFile, Friction, Overrides, Quiet, Strict, Units, screen

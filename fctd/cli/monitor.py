@@ -12,7 +12,7 @@ from fctd import plots
 from fctd.case.errors import InputError, naming
 from fctd.case.friction import parse_frictions
 from fctd.case.load import naming_file
-from fctd.case.message import told
+from fctd.case.systems import told
 from fctd.case.tables.headers import parse_choices
 from fctd.case.text import counted, printable
 from fctd.cli import quantities

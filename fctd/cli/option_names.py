@@ -5,7 +5,7 @@ from functools import wraps
 from typing import ParamSpec, TypeVar
 
 from fctd.case.errors import InputError
-from fctd.case.message import told
+from fctd.case.systems import told
 from fctd.results.unit_systems import System
 
 P = ParamSpec("P")

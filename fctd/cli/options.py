@@ -1,6 +1,7 @@
 """Options, exit codes and consoles of the commands, and checks of values and files before any computing."""
 
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -11,13 +12,14 @@ from rich.text import Text
 from fctd.case.errors import InputError
 from fctd.case.friction import parse_frictions
 from fctd.case.input_warnings import InputWarning
-from fctd.case.load import Case, load_case
-from fctd.case.message import told
+from fctd.case.load import Case, load_case, read_raw
 from fctd.case.raw_case import parse_override
+from fctd.case.systems import told
 from fctd.case.text import printable, printable_lines
 from fctd.results.notes import Note
-from fctd.results.tables import own_files
+from fctd.results.tables import open_result, own_files
 from fctd.results.unit_systems import System
+from fctd.store.run_folder import about_of
 from fctd.store.tables import table_files
 from fctd.store.whole_file import check_file
 from fctd.store.whole_folder import repair
@@ -58,16 +60,43 @@ def _system(text: str) -> System:
     return "field" if word == "field" else "si"
 
 
-def units_option(what: str) -> typer.models.OptionInfo:
-    """The option ``--units`` of a command."""
-    info: typer.models.OptionInfo = typer.Option("--units", metavar="si|field", parser=_system, help=what)
+def units_option(what: str, default: str = "the case's units, else si") -> typer.models.OptionInfo:
+    """The option ``--units`` of a command; default : in words."""
+    info: typer.models.OptionInfo = typer.Option(
+        "--units", metavar="si|field", parser=_system, help=f"{what}; default: {default}.", show_default=False
+    )
     return info
 
 
 Units = Annotated[
     System,
-    units_option("Units of tables, pictures and screen, and of bare depths and speeds of options."),
+    units_option("Units of tables, pictures and screen, and of bare depths and speeds of options"),
 ]
+
+
+def units_of_case(options: Mapping[str, Any]) -> System:
+    """The system of units that the case of a command names, or all of its cases, valid or not; else SI.
+
+    options : of the command, by the names of its arguments.
+    """
+    files = options.get("sources") or [options.get(of) for of in ("case_file", "source", "resume", "sweep_file")]
+    named = {_named(Path(file), options.get("overrides", ())) for file in files if file and Path(file).exists()}
+    return named.pop() if len(named) == 1 else "si"
+
+
+def _named(path: Path, overrides: Sequence[str]) -> System:
+    """The system of units of a case file, a sweep file, a result or an unfinished one."""
+    tables: Mapping[str, Any] = {}
+    with suppress(InputError):
+        if (begun := about_of(path)) is not None:
+            tables = begun["options"]
+        elif path.is_dir():
+            tables = {"units": open_result(path).case.units}
+        else:
+            raw = read_raw(path)
+            case, changes = raw.get("case", raw), {**raw.get("set", {}), **dict(map(parse_override, overrides))}
+            tables = {**(read_raw(path.parent / case) if isinstance(case, str) else case), **changes}
+    return "field" if tables.get("units") == "field" else "si"
 
 
 CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML).", show_default=False)]

@@ -1,7 +1,7 @@
 """``fctd pipes``: the pipe of the catalogue, and what it bears."""
 
 import re
-from typing import Annotated, Final, NamedTuple
+from typing import Annotated, Final
 
 import typer
 from rich.box import SIMPLE_HEAD
@@ -12,12 +12,11 @@ from fctd.case.pipes.catalogue import Pipe, catalogue, of_grade, sources
 from fctd.case.pipes.filling import mass_of
 from fctd.case.pipes.grades import drill_pipe_grade_of
 from fctd.case.pipes.names import DRILL_PIPE, class_of
-from fctd.case.units import conversion
+from fctd.case.systems import ACROSS, FORCE, LINEAR_MASS, STRENGTH, SYSTEMS, TORQUE, Kind, System
 from fctd.cli.base_command import Silent
-from fctd.cli.options import Units, screen
+from fctd.cli.options import screen, units_option
 from fctd.model.capacity import body_of
 from fctd.model.connection import make_up_torque
-from fctd.results.unit_systems import System
 
 NONE = "–"
 
@@ -31,7 +30,7 @@ def pipes_command(
             show_default=False,
         ),
     ] = None,
-    units: Units = "si",
+    units: Annotated[System, units_option("Units of the table", "si")] = "si",
     quiet: Silent = False,
 ) -> None:
     """List pipe by the names that the key pipe of a component takes, with its capacities and the pages it is from.
@@ -70,39 +69,29 @@ def found_by(words: list[str]) -> list[Pipe]:
     return [pipe for pipe in pipes if all(part in f" {pipe.name.lower().replace(',', '')} " for part in whole)]
 
 
-class _Measure(NamedTuple):
-    """A column: heading, units in SI tables and on the screen, digits after the point in both systems."""
-
-    heading: str
-    unit: str
-    shown: tuple[str, str]
-    digits: tuple[int, int]
-
-
-COLUMNS: Final = (
-    _Measure("inner", "m", ("mm", "in"), (1, 3)),
-    _Measure("joint", "m", ("mm", "in"), (1, 3)),
-    _Measure("mass", "kg/m", ("kg/m", "lb/ft"), (1, 2)),
-    _Measure("tension", "N", ("kN", "klbf"), (0, 1)),
-    _Measure("torque", "N*m", ("kN*m", "kft*lbf"), (1, 2)),
-    _Measure("burst", "Pa", ("MPa", "psi"), (1, 0)),
-    _Measure("collapse", "Pa", ("MPa", "psi"), (1, 0)),
-    _Measure("make-up", "N*m", ("kN*m", "kft*lbf"), (1, 2)),
+# Heading of each column, its kind, and digits after the point in both systems.
+COLUMNS: Final[tuple[tuple[str, Kind, tuple[int, int]], ...]] = (
+    ("inner", ACROSS, (1, 3)),
+    ("joint", ACROSS, (1, 3)),
+    ("mass", LINEAR_MASS, (1, 2)),
+    ("tension", FORCE, (0, 1)),
+    ("torque", TORQUE, (1, 2)),
+    ("burst", STRENGTH, (1, 0)),
+    ("collapse", STRENGTH, (1, 0)),
+    ("make-up", TORQUE, (1, 2)),
 )
 
 
 def _table(pipes: list[Pipe], pages: list[str], units: System) -> Table:
-    at = 0 if units == "si" else 1
-    headings = [f"{of.heading}\n{of.shown[at].replace('*', '·')}" for of in COLUMNS]
+    headings = [f"{heading}\n{kind.label(units)}" for heading, kind, _ in COLUMNS]
     table = Table(
         Column("pipe", min_width=10), *(Column(heading, justify="right", no_wrap=True) for heading in headings),
         Column("from", no_wrap=True), box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
     )  # fmt: skip
-    factors = [conversion(of.unit, of.shown[at]) for of in COLUMNS]
     for pipe in pipes:
         cells = [
-            NONE if value is None else f"{value * factor:.{of.digits[at]}f}"
-            for value, factor, of in zip(_values(pipe), factors, COLUMNS, strict=True)
+            NONE if value is None else f"{value * kind.shown(units).factor:.{digits[SYSTEMS.index(units)]}f}"
+            for value, (_, kind, digits) in zip(_values(pipe), COLUMNS, strict=True)
         ]
         numbers = dict.fromkeys(pages.index(key) + 1 for key in pipe.sources)
         table.add_row(pipe.name, *cells, " ".join(map(str, numbers)))

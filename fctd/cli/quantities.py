@@ -1,31 +1,19 @@
-"""Options that take quantities: one reader for all commands, and one table of the units of bare numbers."""
+"""Options that take quantities: one reader for all commands."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any, Final, NamedTuple
+from typing import Any, Final
 
 import typer
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case, check_bit_depth, naming_file
 from fctd.case.spellings import split
-from fctd.case.units import DENSITY, FLOW, FORCE, LENGTH, ROTATION, SPEED, TIME, TORQUE, Dimension, typed
+from fctd.case.systems import FORCE, LENGTH, ROP, TORQUE, Kind, System
+from fctd.case.units import typed
 from fctd.model.depths import read_depth, read_depths
-from fctd.results.unit_systems import System
-
-
-class Bare(NamedTuple):
-    """The units of a bare number in both systems of units."""
-
-    si: str
-    field: str
-
 
 # Who types a bare number seldom means newtons: a force or a torque has its unit.
-USUAL: Final[dict[Dimension, Bare]] = {
-    LENGTH: Bare("m", "ft"), SPEED: Bare("m/s", "ft/min"), FLOW: Bare("L/min", "gpm"), TIME: Bare("s", "s"),
-    ROTATION: Bare("rpm", "rpm"), DENSITY: Bare("kg/m^3", "ppg"),
-}  # fmt: skip
 LOADS: Final = {FORCE: "'200 kN' or '40 klbf'", TORQUE: "'15 kN*m' or '11 kft*lbf'"}
 
 
@@ -33,13 +21,12 @@ LOADS: Final = {FORCE: "'200 kN' or '40 klbf'", TORQUE: "'15 kN*m' or '11 kft*lb
 class QuantityOption:
     """An option that takes a quantity.
 
-    name : with its dashes.  bare : units of a bare number; None: the usual ones of the dimension, or none.  above : 0
-    where 0 is refused.  at_most : largest value [SI].
+    name : with its dashes.  kind : with the units of a bare number.  above : 0 where 0 is refused.  at_most : largest
+    value [SI].
     """
 
     name: str
-    dimension: Dimension
-    bare: Bare | None = None
+    kind: Kind
     above: float | None = None
     at_most: float | None = None
 
@@ -47,22 +34,17 @@ class QuantityOption:
         """What was typed; it is read once the system of units is known."""
         return text if isinstance(text, Given) else Given(text, self)
 
-    def bare_unit(self, units: System) -> str | None:
-        """The unit of a bare number; None where it must have its unit."""
-        bare = self.bare or USUAL.get(self.dimension)
-        return None if bare is None else getattr(bare, units)
-
     def read(self, text: str, units: System) -> float:
         """A quantity of at least 0 [SI]; InputError names the option."""
-        bare = self.bare_unit(units)
+        dimension, bare = self.kind.dimension, self.kind.bare_unit(units)
         if bare is None and is_number(text) and float(text) != 0:
-            expected = f"{self.dimension.noun} with its unit, such as {LOADS[self.dimension]}"
+            expected = f"{dimension.noun} with its unit, such as {LOADS[self.kind]}"
             raise InputError(expected, key=self.name, value=text)
-        value = typed(text, self.dimension, self.name, bare or "")
+        value = typed(text, dimension, self.name, bare or "")
         if self.above is not None and value <= self.above:
-            raise InputError(f"{self.dimension.noun} above {self.above:g}", key=self.name, value=text)
+            raise InputError(f"{dimension.noun} above {self.above:g}", key=self.name, value=text)
         if self.at_most is not None and value > self.at_most:
-            most = f"{self.dimension.noun} of at most {self.at_most:g} {self.dimension.unit}"
+            most = f"{dimension.noun} of at most {self.at_most:g} {dimension.unit}"
             raise InputError(most, key=self.name, value=text)
         return value
 
@@ -83,13 +65,13 @@ class Given:
 
     def depth(self, case: Case, units: System) -> float:
         """A depth [m], ``td`` or ``shoe`` too; InputError names the option."""
-        return read_depth(self.text, case, self.option.name, self.option.bare_unit(units) or "m")
+        return read_depth(self.text, case, self.option.name, self.option.kind.bare_unit(units) or "m")
 
     def depths(self, case: Case, units: System) -> list[float]:
         """One bit depth within the hole, or those of FROM:TO:STEP [m]; InputError names the option."""
         text, name = self.text, self.option.name
         if ":" in text:
-            return read_depths(text, case, name, self.option.bare_unit(units) or "m")
+            return read_depths(text, case, name, self.option.kind.bare_unit(units) or "m")
         try:
             found = self.depth(case, units)
         except InputError as error:
@@ -106,7 +88,7 @@ BIT_DEPTH: Final = QuantityOption("--bit-depth", LENGTH)
 TOTAL_DEPTH: Final = BIT_DEPTH.parse("td")
 DEPTHS: Final = QuantityOption("--depths", LENGTH)
 TO_TOTAL_DEPTH: Final = DEPTHS.parse("td")
-PENETRATION: Final = QuantityOption("--penetration", SPEED, Bare("m/h", "ft/h"))
+PENETRATION: Final = QuantityOption("--penetration", ROP)
 
 
 def si(given: Given | None, units: System) -> float | None:
@@ -125,7 +107,7 @@ def _parts(given: Given) -> list[str]:
         split(given.text)
     except InputError as error:
         more = "; of several values each has its unit" if "," in given.text else ""
-        expected = f"{given.option.dimension.noun}, written {error.expected}{more}"
+        expected = f"{given.option.kind.dimension.noun}, written {error.expected}{more}"
         raise InputError(expected, key=given.option.name, value=given.text) from None
     return [part.strip() for part in given.text.split(",")]
 

@@ -183,5 +183,5 @@ def _default_depths(case: Case, units: System) -> list[float]:
     shoes = [shoe for shoe in case.shoes if top < shoe < 0.9 * end]
     start = shoes[-1] if shoes else top + SHALLOWEST * (end - top)
     step = Quantities(units).round_length((end - start) / DEPTHS)
-    unit = quantities.DEPTHS.bare_unit(units)
+    unit = quantities.DEPTHS.kind.bare_unit(units)
     return quantities.DEPTHS.parse(f"{start:.10g} m:{end:.10g} m:{step} {unit}").depths(case, units)

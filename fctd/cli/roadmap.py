@@ -5,7 +5,8 @@ from pathlib import Path
 
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionSet
-from fctd.case.message import Message, told, within
+from fctd.case.message import Message, within
+from fctd.case.systems import told
 from fctd.case.text import printable
 from fctd.cli.job import Job
 from fctd.cli.options import messages

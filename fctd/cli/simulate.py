@@ -54,14 +54,14 @@ from fctd.results.columns import BUCKLED, COLUMNS
 from fctd.results.status import RunStatus
 from fctd.results.swings import ENOUGH_PERIODS
 from fctd.results.tables import SimulationResult, check_result_folder, identity_of, own_files, result_files
-from fctd.results.unit_systems import System, in_words, shown
+from fctd.results.unit_systems import System, digits_of, in_words, shown
 from fctd.simulation.external_contact import WallQuery
 from fctd.simulation.preparation import LONGEST_SETTLING
 from fctd.simulation.run_saver import RunSaver
 from fctd.simulation.simulate import simulate
 from fctd.store.run_folder import RunFolder
 
-ShownUnits = Annotated[System, units_option("Units of screen and CSV files; the Parquet files are in SI units.")]
+ShownUnits = Annotated[System, units_option("Units of screen and CSV files; the Parquet files are in SI units")]
 
 
 @with_options
@@ -216,9 +216,9 @@ def _summarise(result: SimulationResult, units: System) -> None:
         table = Table(title=f"{printable(result.case.name)}: {last['operation']}, bit at {at}")
         cells = []
         for name in ("hookload_N", "surface_torque_N_m", "sum_r_mu_fn_N_m", "total_contact_force_N"):
-            column, unit = COLUMNS[name], shown(name, units)
-            table.add_column(f"{column.label} {unit.label}", justify="right")
-            cells.append(f"{last[name] * unit.factor:.{column.digits}f}")
+            unit = shown(name, units)
+            table.add_column(f"{COLUMNS[name].label} {unit.label}", justify="right")
+            cells.append(f"{last[name] * unit.factor:.{digits_of(name, units)}f}")
         table.add_column("contacts", justify="right")
         table.add_row(*cells, f"{last['contact_count']}")
         screen.print(table)
@@ -256,7 +256,7 @@ def _print_operations(result: SimulationResult, units: System) -> None:
         if turns:
             names[1] += f", bit at rest {100 * row['bit_still_share']:.0f} %"
         for name, column in zip(names, ("hookload_N", "surface_torque_N_m"), strict=True):
-            unit, digits, stem = shown(column, units), COLUMNS[column].digits, COLUMNS[column].stem
+            unit, digits, stem = shown(column, units), digits_of(column, units), COLUMNS[column].stem
             mean, swing, peak = (
                 row[column.replace(stem, f"{stem}_{part}")] * unit.factor for part in ("mean", "swing", "peak")
             )

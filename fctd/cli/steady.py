@@ -10,7 +10,8 @@ from fctd.case.load import Case
 from fctd.case.message import frame_of
 from fctd.case.operation_names import USUAL, kinds_of, split_names
 from fctd.case.operations import KINDS
-from fctd.case.units import FLOW, LENGTH, MOST_FLOW, ROTATION, SPEED
+from fctd.case.systems import FLOW, LENGTH, ROTATION, SPEED
+from fctd.case.units import MOST_FLOW
 from fctd.cli.options import screen
 from fctd.cli.quantities import Given, QuantityOption, quantity, si
 from fctd.model.drillstring import lay_out

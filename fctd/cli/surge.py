@@ -9,8 +9,7 @@ import typer
 from rich.table import Column, Table
 
 from fctd.case.errors import InputError
-from fctd.case.message import told
-from fctd.case.units import SPEED
+from fctd.case.systems import SPEED, told
 from fctd.cli.check import facts_table
 from fctd.cli.hydraulics import Beside, read_eccentricity
 from fctd.cli.job import Depths, Job, grid, headed, numbers, rows_of

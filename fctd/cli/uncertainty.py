@@ -11,8 +11,8 @@ from fctd import plots
 from fctd.answers.swept import dataset_of
 from fctd.case.errors import InputError
 from fctd.case.operation_names import kinds_of
+from fctd.case.systems import LENGTH
 from fctd.case.text import counted, printable
-from fctd.case.units import LENGTH
 from fctd.cli.job import grid, right, rows_of
 from fctd.cli.options import Quiet, Units, check_target, messages, print_written, screen
 from fctd.cli.pictures import DRAWN, check_files
@@ -20,7 +20,7 @@ from fctd.cli.quantities import Given, QuantityOption, quantity, si
 from fctd.cli.steady import file_option
 from fctd.cli.sweep import SweepFile
 from fctd.results.table_files import write_table
-from fctd.results.unit_systems import System, in_field_units, long_in_field_units, shown
+from fctd.results.unit_systems import System, in_field_units, long_in_field_units, shown, shown_if_any
 from fctd.store.origin import versions
 from fctd.sweep.indices import WITH_UNIT
 from fctd.sweep.spec import read_sweep
@@ -161,19 +161,11 @@ def _print(found: Uncertainty, units: System) -> None:
     at = "" if np.isnan(found.bit_depth) else f" at {found.bit_depth * metre.factor:.5g} {metre.label}"
     table = _table(f"Influence{at}", ("column", "measure", "parameter"), ("value", "±"))
     for row in rows_of(found.indices[~found.indices["measure"].isin(IN_FILES)]):
-        factor, unit = _unit(row["column"], units) if row["measure"] in WITH_UNIT else (1.0, "")
+        factor, unit = shown_if_any(row["column"], units) if row["measure"] in WITH_UNIT else (1.0, "")
         error = "" if np.isnan(row["error"]) else f"{row['error'] * factor:.2g}"
         names = (row["operation"], row["column"], row["measure"], row["parameter"])
         table.add_row(*names, f"{row['value'] * factor:.3g} {unit}".rstrip(), error)
     screen.print(table)
-
-
-def _unit(column: str, units: System) -> tuple[float, str]:
-    """Factor and unit with which a column's numbers are shown."""
-    try:
-        return shown(column, units)
-    except ValueError:
-        return 1.0, ""
 
 
 def _print_percentiles(found: Uncertainty, units: System) -> None:
@@ -184,7 +176,7 @@ def _print_percentiles(found: Uncertainty, units: System) -> None:
     for row in rows_of(rows):
         if (row["operation"], row["column"]) in found.noise:
             continue
-        factor, unit = _unit(row["column"], units)
+        factor, unit = shown_if_any(row["column"], units)
         low, high = ("–" if np.isnan(row[end]) else f"{row[end] * factor:z.4g}" for end in ("low", "high"))
         value = "–" if np.isnan(row["value"]) else f"{row['value'] * factor:z.4g} {unit}"
         table.add_row(

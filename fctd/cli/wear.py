@@ -7,13 +7,12 @@ import numpy as np
 import typer
 
 from fctd.case.errors import InputError
-from fctd.case.message import told
+from fctd.case.systems import HOURS, LENGTH, told
 from fctd.case.text import counted, printable
-from fctd.case.units import LENGTH, TIME
 from fctd.cli.job import Job, depths_option, grid, right, rows_of
 from fctd.cli.options import CaseFile, Friction, Overrides, Quiet, Strict, Units, screen
 from fctd.cli.pictures import PICTURE_HELP, draw_panels
-from fctd.cli.quantities import PENETRATION, TO_TOTAL_DEPTH, Bare, Given, QuantityOption, quantity, si
+from fctd.cli.quantities import PENETRATION, TO_TOTAL_DEPTH, Given, QuantityOption, quantity, si
 from fctd.cli.steady import Rpm, file_option
 from fctd.results.unit_systems import System, in_words, shown
 from fctd.steady.wear import STEP, TURNING, USUAL_FACTORS, casing_wear
@@ -46,9 +45,7 @@ def wear_command(
     depths: Annotated[Given, depths_option("td")] = TO_TOTAL_DEPTH,
     hours: Annotated[
         Given | None,
-        quantity(
-            QuantityOption("--hours", TIME, Bare("h", "h")), "T", "Time in all with the string turning, 100 or '100 h'."
-        ),
+        quantity(QuantityOption("--hours", HOURS), "T", "Time in all with the string turning, 100 or '100 h'."),
     ] = None,
     penetration: Annotated[
         Given | None,

@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Final, get_args
+from typing import Any, get_args
 
 import numpy as np
 
@@ -17,20 +17,20 @@ from fctd.case.load import Case, load_case
 from fctd.case.raw_case import checked, look_up, split_key
 from fctd.case.surveys.form import ColumnSpec
 from fctd.case.surveys.stations import StationKey, check_listed
+from fctd.case.systems import SYSTEMS, System
 from fctd.case.tables.headers import Choice
 from fctd.case.text import is_utf8
 from fctd.model.from_files import Files, refuse_blanks, with_files
-from fctd.model.new_case import UNITS, Plan, UnitSystem, from_survey, from_template, read_survey
+from fctd.model.new_case import Plan, from_survey, from_template, read_survey
 from fctd.model.templates import TEMPLATES
 
-SYSTEMS: Final = dict(zip(("si", "field"), UNITS, strict=True))
 PathLike = str | os.PathLike[str]
 
 
 def new_case(
     survey: Any = None,
     template: str | None = None,
-    units: str = "si",
+    units: System = "si",
     *,
     columns: Mapping[str, Any] | None = None,
     sheet: str | None = None,
@@ -56,7 +56,7 @@ def new_case(
         raise InputError(nearest(template, TEMPLATES, "template"), key="template", value=template)
     files = Files(_path(string, "string"), _path(hole, "hole"), string_name, hole_name)
     target = None if out is None else Path(out)
-    plan = _plan(survey, template, SYSTEMS[units], columns or {}, sheet, name, target, files)
+    plan = _plan(survey, template, units, columns or {}, sheet, name, target, files)
     for of, doubt in plan.given.doubts:
         warnings.warn(f"{of}: {doubt}", stacklevel=2)
     if out is None:
@@ -78,7 +78,7 @@ def _path(file: object, argument: str) -> Path | None:
 
 
 def _plan(
-    survey: Any, template: Any, units: UnitSystem, columns: Mapping[str, Any], sheet: str | None, name: str,
+    survey: Any, template: Any, units: System, columns: Mapping[str, Any], sheet: str | None, name: str,
     out: Path | None, files: Files,
 ) -> Plan:  # fmt: skip
     if survey is None or is_frame(survey):

@@ -7,13 +7,14 @@ from typing import NamedTuple
 
 from fctd.arrays import Array
 from fctd.case.errors import InputError
+from fctd.case.systems import ACROSS
 from fctd.case.text import printable
 from fctd.case.witsml.geometry import Geometry, read_geometry
 from fctd.case.witsml.tubular import Tubular, read_tubular
 from fctd.model.first_numbers import Laid, laid, narrowest_of, stiff_wall
 from fctd.model.given.hole import GivenHole, lay_hole
 from fctd.model.given.string import GivenString, lay_string
-from fctd.model.given.table import Writer
+from fctd.model.given.table import Writer, writer
 from fctd.model.new_case import Blank, Given, Plan
 
 
@@ -37,7 +38,7 @@ def with_files(plan: Plan, stations: Array, files: Files) -> Plan:
             raise InputError(f"a file of the {name} beside it", key=f"{name}_name", value=chosen)
     if files.string is None and files.hole is None:
         return plan
-    template, write, end = plan.template, Writer(plan.units), float(stations[-1, 0])
+    template, write, end = plan.template, writer(plan.units), float(stations[-1, 0])
     geometry = None if files.hole is None else read_geometry(files.hole, files.hole_name)
     tubular = None if files.string is None else read_tubular(files.string, files.string_name)
     hole = GivenHole(shoe=plan.shoe, depth=plan.depth, narrowest=narrowest_of(template))
@@ -68,8 +69,8 @@ def _check_room(parts: Laid, narrowest: float, write: Writer) -> None:
     """Raise InputError where a template's string is wider than the hole at its narrowest [m]."""
     widest = max(component.contact_diameter for component, _ in parts)
     if narrowest <= widest:
-        expected = f"a hole wider than the string of the template, {write('diameter', widest)}, or a string of its own"
-        raise InputError(expected, key="hole", value=write("diameter", narrowest))
+        expected = f"a hole wider than the string of the template, {write(ACROSS, widest)}, or a string of its own"
+        raise InputError(expected, key="hole", value=write(ACROSS, narrowest))
 
 
 def _name(path: Path | None) -> str:

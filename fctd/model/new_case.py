@@ -6,39 +6,34 @@ import textwrap
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from fctd.arrays import Array
 from fctd.case.surveys import reading as surveys
+from fctd.case.systems import (
+    BIT_TORQUE,
+    DENSITY,
+    FORCE,
+    LENGTH,
+    LINEAR_MASS,
+    ROP,
+    SPEED,
+    SYSTEMS,
+    VISCOSITY,
+    Kind,
+    System,
+)
 from fctd.case.tables.headers import Choice, Choices, NoUnitError
-from fctd.case.units import DENSITY, FORCE, LENGTH, LINEAR_MASS, TORQUE, Dimension, Quantity
 from fctd.model.first_numbers import FOOT, Laid, laid, narrowest_of, round_up, sensible_shoe, stiff_wall
 from fctd.model.first_runs import COMMENTS, PERIODS, aligned, drilling, entry, rotation, trip
 from fctd.model.section import section_of
 from fctd.model.templates import TEMPLATES, Part, Template, TemplateName
 from fctd.model.torsion import torsional_period
 
-UnitSystem = Literal["si", "field"]
-
-# A unit for each dimension, and the digits after the point that are written.
-UNITS: dict[UnitSystem, dict[Dimension, tuple[str, int]]] = {
-    "si": {
-        LENGTH: ("m", 2),
-        DENSITY: ("kg/m^3", 0),
-        FORCE: ("kN", 0),
-        TORQUE: ("kN*m", 1),
-        LINEAR_MASS: ("kg/m", 1),
-    },
-    "field": {
-        LENGTH: ("ft", 2),
-        DENSITY: ("ppg", 1),
-        FORCE: ("klbf", 0),
-        TORQUE: ("ft*lbf", -2),
-        LINEAR_MASS: ("lb/ft", 1),
-    },
-}
+# The digits after the point that a person would write, in the two systems.
+WRITTEN = {LENGTH: (2, 2), DENSITY: (0, 1), FORCE: (0, 0), BIT_TORQUE: (1, -2), LINEAR_MASS: (1, 1)}
 # A well that is steeper than this gets the string of the template ``horizontal`` [rad].
 NEARLY_HORIZONTAL = np.radians(70)
 # The default damping of a contact point is for a softer wall: on a stiff one a long string would not come to rest.
@@ -99,7 +94,7 @@ class Plan:
     name: str
     title: str
     template: Template
-    units: UnitSystem
+    units: System
     hole: tuple[str, ...]
     shoe: float
     depth: float
@@ -127,6 +122,7 @@ class Plan:
             '# A quantity is a text with its unit ("8.5 in", "1250 kg/m^3"), or a bare number in SI.',
             "# A pipe is one of the catalogue, which `fctd pipes` lists: sizes, mass, joints and limits come with it.",
             f"name = {json.dumps(self.name, ensure_ascii=False)}",
+            *([aligned('units = "field"', "in which results are shown")] if self.units == "field" else []),
         )
         stiffness = f"{self.stiffness:.0e}".replace("e+0", "e")
         yield (
@@ -140,8 +136,9 @@ class Plan:
         yield from self.given.components or self._components(quantity)
         mud = ["[mud]", entry("density", quantity(DENSITY, template.mud), self.given.assumed)]
         if template.weight_on_bit:
-            plastic = "20 mPa*s" if self.units == "si" else "20 cP"
-            mud.append(entry("viscosity", plastic, "plastic viscosity: it damps the string in time"))
+            mud.append(
+                entry("viscosity", f"20 {VISCOSITY.unit(self.units)}", "plastic viscosity: it damps the string in time")
+            )
         yield tuple(mud)
         if template.flotation:
             yield tuple(f"# {line}" for line in self._flotation(quantity))
@@ -152,7 +149,7 @@ class Plan:
             yield (
                 aligned("[bit]", "while drilling" + (self.given.assumed and f", {self.given.assumed}")),
                 entry("weight_on_bit", quantity(FORCE, 1e3 * template.weight_on_bit)),
-                entry("torque", quantity(TORQUE, 1e3 * template.bit_torque), "of steady strings"),
+                entry("torque", quantity(BIT_TORQUE, 1e3 * template.bit_torque), "of steady strings"),
                 *self.given.bit,
             )
             yield (aligned("[bit.rock]", "gives the torque in time: a PDC bit in medium rock"),)
@@ -253,45 +250,50 @@ class Plan:
 # Distance of a casing's trip [m], half of that of a drill string's.
 RUN = 15.24
 # Speed of a trip; rate of penetration [m/s], and as it is written.
-HOIST: dict[UnitSystem, str] = {"si": "0.3 m/s", "field": "60 ft/min"}
-RATE: dict[UnitSystem, tuple[float, str]] = {"si": (20 / 3600, "20 m/h"), "field": (60 * FOOT / 3600, "60 ft/h")}
+HOIST = {system: f"{number} {SPEED.unit(system)}" for system, number in zip(SYSTEMS, (0.3, 60), strict=True)}
+RATE = {
+    system: (number * ROP.si(system), f"{number} {ROP.unit(system)}")
+    for system, number in zip(SYSTEMS, (20, 60), strict=True)
+}
 
 
+@dataclass(frozen=True)
 class Quantities:
     """Writes SI values with the units of a system, rounded to digits that a person would write."""
 
-    def __init__(self, units: UnitSystem) -> None:
-        self.units = UNITS[units]
+    units: System
 
-    def __call__(self, dimension: Dimension, value: float) -> str:
-        unit, digits = self.units[dimension]
-        number = value / Quantity(dimension=dimension).parse(f"1 {unit}")
-        if dimension is LENGTH:  # a depth must not be rounded beyond the end of the survey
+    def __call__(self, kind: Kind, value: float) -> str:
+        digits = WRITTEN[kind][SYSTEMS.index(self.units)]
+        number = value / kind.si(self.units)
+        if kind is LENGTH:  # a depth must not be rounded beyond the end of the survey
             number = np.floor(number * 10**digits + 1e-6) / 10**digits
-        return f"{round(float(number), digits):.10g} {unit}"
+        return f"{round(float(number), digits):.10g} {kind.unit(self.units)}"
 
     def round_length(self, length: float) -> str:
         """A bare length of at least this [m]: 1, 2 or 5 times a power of ten in the system's unit."""
-        unit, _ = self.units[LENGTH]
-        return f"{round_up(length / Quantity(dimension=LENGTH).parse(f'1 {unit}')):g}"
+        return f"{round_up(length / LENGTH.si(self.units)):g}"
 
 
-def _scaled(template: Template, units: UnitSystem) -> tuple[float, Template]:
+def _scaled(template: Template, units: System) -> tuple[float, Template]:
     """What a template's metre is written as, 1 m or 3 ft [m], and the template with parts of such lengths."""
     scale = 1.0 if units == "si" else 3 * FOOT
     parts = (part._replace(length=part.length and part.length * scale) for part in template.string)
     return scale, template._replace(string=tuple(parts))
 
 
-def from_template(template: Template, name: str, units: UnitSystem) -> Plan:
+def from_template(template: Template, name: str, units: System) -> Plan:
     """The template's own well."""
     scale, scaled = _scaled(template, units)
     stations = np.array(template.stations) * [scale, 1.0, 1.0]
     quantity = Quantities(units)
     md = [json.dumps(quantity(LENGTH, depth)) if units == "field" else f"{depth:g}" for depth in stations[:, 0]]
     rows = [f"    [{at}, {inc:g}, {azi:g}]," for at, (_, inc, azi) in zip(md, stations, strict=True)]
-    unit = "ft" if units == "field" else "m"
-    hole = [aligned("stations = [", f"measured depth [{unit}], inclination and azimuth [deg]"), *rows, "]"]
+    hole = [
+        aligned("stations = [", f"measured depth [{LENGTH.unit(units)}], inclination and azimuth [deg]"),
+        *rows,
+        "]",
+    ]
     shoe, depth = scale * template.shoe, float(stations[-1, 0])
     stiffness = wall_of(scaled, np.radians(stations) * [180 / np.pi, 1.0, 1.0], shoe)
     return Plan(name, template.title, scaled, units, tuple(hole), shoe, depth, "the casing shoe", stiffness)
@@ -300,7 +302,7 @@ def from_template(template: Template, name: str, units: UnitSystem) -> Plan:
 def from_survey(
     name_of_template: TemplateName | None,
     name: str,
-    units: UnitSystem,
+    units: System,
     path: str,
     columns: tuple[str, ...],
     stations: Array,
@@ -338,13 +340,13 @@ class ReadSurvey(NamedTuple):
     note: str
 
 
-def read_survey(path: Path, units: UnitSystem, columns: Choices | None = None, sheet: str | None = None) -> ReadSurvey:
+def read_survey(path: Path, units: System, columns: Choices | None = None, sheet: str | None = None) -> ReadSurvey:
     """A survey, with what is told of its columns and its sheet.
 
     A file that names no unit of depth is read in that of ``units``.  Raises InputError for a file that cannot be used.
     """
     said, assumed = dict(columns or {}), ""
-    unit = UNITS[units][LENGTH][0]
+    unit = LENGTH.unit(units)
     try:
         survey = surveys.read_survey(path, said, sheet)
     except NoUnitError:

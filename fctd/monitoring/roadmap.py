@@ -47,9 +47,11 @@ class Roadmap:
 
         The torque is what the drive's reading leaves to the string, while it rotates.
         """
+        import pandas as pd  # slow to import
+
         rows = [self._row(reading) for reading in found if self.shows(reading)]
         ends = [measured_column(load, end) for load in LOADS for end in ("low", "high")]
-        return frame_of(rows, columns=["operation", "bit_depth_m", *LOADS, *ends])
+        return pd.DataFrame(rows, columns=["operation", "bit_depth_m", *LOADS, *ends])
 
     def shows(self, reading: Apparent) -> bool:
         """Whether a reading is that of a steady string in the hole of the case."""

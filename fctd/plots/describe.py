@@ -9,8 +9,8 @@ import numpy as np
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case
-from fctd.case.message import told
 from fctd.case.operations import KINDS
+from fctd.case.systems import told
 from fctd.case.text import printable
 from fctd.plots.description import Curve, DepthAxis, Description, Group, Key, Lane, Mark, Name, Panel, Points
 from fctd.plots.limit_lines import limit_lines

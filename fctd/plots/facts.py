@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from fctd.case.friction import factors_label
 from fctd.case.load import Case
-from fctd.case.message import told
 from fctd.case.operations import KINDS
-from fctd.case.units import conversion
+from fctd.case.systems import DENSITY, FLOW, FORCE, ROP, SPEED, TORQUE, Kind, told
 from fctd.model.operations import SteadyRates, rad_per_s, rates_of_all
 from fctd.plots.loads import ChartLook, Compared
 from fctd.results.differences import in_a_row
@@ -22,31 +21,25 @@ from fctd.steady.steady_string import Equilibrium
 if TYPE_CHECKING:
     import pandas as pd
 
-# Units of pictures for quantities that no table has: SI unit, metric unit, field unit.
-_DENSITY: Final = ("kg/m^3", "kg/m^3", "lb/gal")
-_SPEED: Final = ("m/s", "m/s", "ft/min")
-_FLOW: Final = ("m^3/s", "L/min", "gallon/min")
-_PENETRATION: Final = ("m/s", "m/h", "ft/h")  # rate of a bit on bottom
-
 
 def facts_of(
     case: Case, kinds: Sequence[str], units: System, rates: Mapping[str, SteadyRates] | None = None
 ) -> list[str]:
     """Facts of a case, a clause each; rates : of the operations, the case's own or the defaults where None."""
     rates = rates_of_all(case, kinds) if rates is None else rates
-    mud = _in(case.mud.density, _DENSITY, units) if case.mud.density else "none (air)"
+    mud = _in(case.mud.density, DENSITY, units, 4) if case.mud.density else "none (air)"
     facts = ["fluids by depth"] if case.mud.given else [f"mud {mud}"]
     if any(KINDS[kind].on_bottom for kind in kinds):
-        facts += [f"weight on bit {_load(case.bit.weight_on_bit, 'weight_on_bit_N', units)}"]
+        facts += [f"weight on bit {_in(case.bit.weight_on_bit, FORCE, units)}"]
         if case.bit.torque:
-            facts += [f"bit torque {_load(case.bit.torque, 'torque_N_m', units)}"]
+            facts += [f"bit torque {_in(case.bit.torque, TORQUE, units)}"]
     if case.rig.block_weight:
-        facts += [f"block {_load(case.rig.block_weight, 'block_weight_N', units)}"]
+        facts += [f"block {_in(case.rig.block_weight, FORCE, units)}"]
     for kind in kinds:
         speed, rpm = abs(rates[kind].speed), rates[kind].spin / rad_per_s(1.0)
-        parts = [_in(speed, _PENETRATION if KINDS[kind].on_bottom else _SPEED, units, 3)] if speed else []
+        parts = [_in(speed, ROP if KINDS[kind].on_bottom else SPEED, units)] if speed else []
         parts += [f"{rpm:.3g} rev/min"] if rpm else []
-        parts += [_in(rates[kind].flow, _FLOW, units)] if rates[kind].flow else []
+        parts += [_in(rates[kind].flow, FLOW, units, 4)] if rates[kind].flow else []
         facts += [f"{KINDS[kind].label} {' and '.join(parts)}"]
     return facts
 
@@ -92,17 +85,7 @@ def _told(warnings: Sequence[str]) -> list[str]:
     return [f"warning {text}" for text in warnings]
 
 
-def _in(value: float, unit_of: tuple[str, str, str], units: System, digits: int = 4) -> str:
+def _in(value: float, kind: Kind, units: System, digits: int = 3) -> str:
     """An SI value with its unit."""
-    si, metric, field = unit_of
-    unit = field if units == "field" else metric
-    return (
-        f"{value * conversion(si, unit):.{digits}g} {unit}".replace("^3", "³")
-        .replace("lb/gal", "ppg")
-        .replace("gallon/min", "gpm")
-    )
-
-
-def _load(value: float, column: str, units: System) -> str:
-    factor, label = shown(column, units)
-    return f"{value * factor:.3g} {label}"
+    factor, label = kind.shown(units)
+    return f"{value * factor:.{digits}g} {label}"

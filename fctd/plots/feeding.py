@@ -12,8 +12,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from fctd.case.message import told
 from fctd.case.operations import KINDS
+from fctd.case.systems import told
 from fctd.model.operations import bit_loads
 from fctd.plots.facts import heading_of_profile
 from fctd.plots.palette import DARK, LOOKS, PALETTE, QUIET

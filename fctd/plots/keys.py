@@ -5,6 +5,7 @@ from typing import Final
 
 from fctd.case.key_quantities import unit_of
 from fctd.case.raw_case import split_key
+from fctd.case.systems import signed
 
 # Names whose words are others than their own.
 WORDS: Final = {
@@ -22,7 +23,6 @@ ITEMS: Final = {"operations": "operation", "components": "component", "intervals
 # Tables that a name needs not beside it.
 PLAIN: Final = ("wellbore", "string", "rig", "contact", "solver", "record")
 KINDS: Final = {"cased": "cased hole", "open": "open hole"}
-SIGNS: Final = {"*": "·", "^2": "²", "^3": "³", "rpm": "rev/min"}
 
 
 def in_words(key: str) -> str:
@@ -44,7 +44,5 @@ def in_words(key: str) -> str:
 
 def labelled(key: str, unit: str) -> str:
     """A key in words with a unit of its numbers: the one that they are written with, or of bare numbers the SI unit."""
-    written = unit or unit_of(key)
-    for sign, shown in SIGNS.items():
-        written = written.replace(sign, shown)
+    written = signed(unit or unit_of(key)).replace("rpm", "rev/min")
     return f"{in_words(key)}, {written}" if written else in_words(key)

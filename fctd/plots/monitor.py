@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from fctd.case.load import Case
-from fctd.case.message import told
+from fctd.case.systems import told
 from fctd.monitoring.alarm import KINDS, Alarm, kind_of
 from fctd.monitoring.chart import FACTORS
 from fctd.monitoring.monitor import Monitored

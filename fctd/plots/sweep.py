@@ -19,7 +19,7 @@ from fctd.plots.keys import in_words, labelled
 from fctd.plots.palette import DARK, LOOKS, PALETTE, QUIET
 from fctd.plots.style import RC, Sheet
 from fctd.results.columns import COLUMNS
-from fctd.results.unit_systems import Shown, System, shown
+from fctd.results.unit_systems import Shown, System, shown, shown_if_any
 from fctd.sweep.indices import WITH_UNIT
 from fctd.sweep.probabilities import DOUBTED
 from fctd.sweep.uncertainty import Uncertainty, first_operation
@@ -34,10 +34,7 @@ MEASURES = {
 
 def label_of(column: str, units: System) -> tuple[str, Shown]:
     """Name with unit, and unit, of a column of the results."""
-    try:
-        unit = shown(column, units)
-    except ValueError:
-        unit = Shown(1.0, "")
+    unit = shown_if_any(column, units)
     name = loads.NAMES.get(column) or (COLUMNS[column].label if column in COLUMNS else _words(column, unit))
     return f"{name}, {unit.label}" if unit.label else name, unit
 

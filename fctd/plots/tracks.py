@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final, Literal, NamedTuple
 import numpy as np
 
 from fctd.arrays import Array
-from fctd.case.units import conversion
+from fctd.case.systems import FORCE_PER_LENGTH, JOINT_FORCE
 from fctd.plots.palette import BUCKLED
 from fctd.results.columns import COLUMNS
 from fctd.results.profile import JOINT, edges_of
@@ -80,11 +80,9 @@ def side_force(profile: pd.DataFrame, force: SideForce) -> Array:
 def side_force_unit(units: System, force: SideForce) -> Shown:
     """How to show a side force."""
     if force == "length":
-        metric, field = ("kN/m", "kN/m"), ("lbf/ft", "lbf/ft")
-    else:
-        metric, field = ("kN", "kN per 9.14 m"), ("lbf", "lbf per 30 ft")
-    unit, label = field if units == "field" else metric
-    return Shown(conversion("N/m" if force == "length" else "N", unit), label)
+        return FORCE_PER_LENGTH.shown(units)
+    factor, unit = JOINT_FORCE.shown(units)
+    return Shown(factor, f"{unit} per {'30 ft' if units == 'field' else '9.14 m'}")
 
 
 def label_of(column: str, units: System, force: SideForce) -> tuple[str, str]:

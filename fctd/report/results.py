@@ -6,8 +6,9 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
 from fctd.case.load import Case
-from fctd.case.message import frame_of, told
+from fctd.case.message import frame_of
 from fctd.case.operations import KINDS
+from fctd.case.systems import told
 from fctd.plots.chart import chart_figure
 from fctd.plots.depth_panels import panels_figure
 from fctd.plots.flow import losses_panels
@@ -19,7 +20,7 @@ from fctd.results.columns import LOADS
 from fctd.results.notes import MEANINGS
 from fctd.results.series import FRICTION_LABEL
 from fctd.results.status import SteadyStatus
-from fctd.results.unit_systems import System, in_words, shown
+from fctd.results.unit_systems import System, digits_of, in_words, shown
 from fctd.steady.margins import FATIGUE, OVERPULL, SET_DOWN, SLIPS, TORQUE
 from fctd.steady.steady_string import Equilibrium
 from fctd.store.origin import versions
@@ -145,7 +146,7 @@ def _loads_of(points: Sequence[Equilibrium], units: System) -> Table:
     for load in LOADS:
         unit = shown(load.name, units)
         values = [load.value(point) if point.answered else float("nan") for point in points]
-        cells = (number(value * unit.factor, load.digits) for value in values)
+        cells = (number(value * unit.factor, digits_of(load.name, units)) for value in values)
         rows.append((text(load.label), text(unit.label), *cells))
     heads = ("load", "unit", *(KINDS[point.operation].label for point in points))
     status = "; ".join(f"{KINDS[point.operation].label}: {point.status.replace('_', ' ')}" for point in points)

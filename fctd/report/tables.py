@@ -8,12 +8,12 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
-from fctd.case.message import told
 from fctd.case.operations import KINDS
+from fctd.case.systems import told
 from fctd.case.text import printable
 from fctd.results.case_facts import Row
 from fctd.results.unit_systems import System, in_field_units
-from fctd.results.workbook import heading_of
+from fctd.results.workbook import Heading, heading_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -23,8 +23,6 @@ NONE: Final = "–"  # of a cell without a value
 # Columns of words of the program, and of its sentences; other texts are the user's.
 _WORDS: Final = ("margin", "limit", "status", "buckling", "notes", "shape")
 _SENTENCES: Final = ("reason", "friction_label")
-# Digits of columns after the point, where a workbook has more.
-_DIGITS: Final = {"cycles_per_hour": 0, "jet_speed_m_s": 1, "speed_m_s": 2}
 
 
 class Cell(NamedTuple):
@@ -158,9 +156,8 @@ def frame_table(
     heads, cells = [], []
     for k, name in enumerate(map(str, kept)):
         heading = heading_of(str(shown.columns[k]))
-        digits = _DIGITS.get(name, len(heading.format.partition(".")[2]))
         heads.append(_named(heading.text, (words or {}).get(name, "")))
-        cells.append([_cell(name, value, heading.factor, digits, units) for value in shown.iloc[:, k]])
+        cells.append([_cell(name, value, heading, units) for value in shown.iloc[:, k]])
     return Table(title, tuple(heads), tuple(zip(*cells, strict=True)), tuple(map(printable, notes)))
 
 
@@ -171,9 +168,9 @@ def _named(heading: str, word: str) -> str:
     return f"{word} {heading[heading.rindex('(') :]}" if heading.endswith(")") else word
 
 
-def _cell(column: str, value: Any, factor: float, digits: int, units: System) -> Cell:
+def _cell(column: str, value: Any, heading: Heading, units: System) -> Cell:
     if not isinstance(value, str):
-        return number(float(value) * factor, digits)
+        return number(float(value) * heading.factor, len(heading.format.partition(".")[2]))
     if column == "operation":
         return Cell(KINDS[value].label)
     if column in _WORDS:

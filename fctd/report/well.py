@@ -4,59 +4,46 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Any, Final, NamedTuple
+from typing import Any
 
 from fctd.calibration.predict import posterior_file, read_posterior
 from fctd.calibration.unknowns import held
 from fctd.case.friction import FrictionSet
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
-from fctd.case.units import conversion
+from fctd.case.systems import (
+    ACROSS,
+    AREA,
+    DENSITY,
+    FLOW,
+    FORCE,
+    LENGTH,
+    LINEAR_MASS,
+    PRESSURE,
+    SPEED,
+    STRESS,
+    TEMPERATURE,
+    TORQUE,
+    Kind,
+    System,
+)
 from fctd.model.capacity import Body
 from fctd.model.operations import SteadyRates, rad_per_s
 from fctd.model.section import section_of
 from fctd.model.summary import Summary
 from fctd.report.tables import NONE, Cell, Section, Table, Text, facts, number, short, text
 from fctd.results.case_facts import Row, caliper_facts, fitting_facts, flow_curves, load_facts, path_facts
-from fctd.results.unit_systems import System
 
 
-class Measure(NamedTuple):
-    """How a quantity is shown: its SI unit, its units and digits after the point in SI and in field units."""
-
-    unit: str
-    shown: tuple[str, str]
-    digits: tuple[int, int]
-
-    def label(self, units: System) -> str:
-        """The unit as it is printed."""
-        return self.shown[units == "field"].replace("*", "·").replace("^3", "³").replace("^2", "²")
-
-    def cell(self, value: float | None, units: System) -> Cell:
-        """A value [SI], a dash for None."""
-        if value is None:
-            return Cell(NONE)
-        at = units == "field"
-        return number(value * conversion(self.unit, _PINTS.get(self.shown[at], self.shown[at])), self.digits[at])
+def _cell(kind: Kind, value: float | None, units: System) -> Cell:
+    """A value [SI], a dash for None."""
+    return Cell(NONE) if value is None else number(value * kind.shown(units).factor, kind.digits_in(units))
 
 
-_PINTS: Final = {"ppg": "lb/gal", "gpm": "gallon/min"}
-DEPTH: Final = Measure("m", ("m", "ft"), (1, 1))
-SIZE: Final = Measure("m", ("mm", "in"), (1, 3))
-MASS: Final = Measure("kg/m", ("kg/m", "lb/ft"), (1, 2))
-FORCE: Final = Measure("N", ("kN", "klbf"), (1, 1))
-TORQUE: Final = Measure("N*m", ("kN*m", "kft*lbf"), (2, 2))
-PRESSURE: Final = Measure("Pa", ("bar", "psi"), (1, 0))
-STRENGTH: Final = Measure("Pa", ("MPa", "ksi"), (0, 1))
-DENSITY: Final = Measure("kg/m^3", ("kg/m^3", "ppg"), (0, 2))
-AREA: Final = Measure("m^2", ("mm^2", "in^2"), (0, 3))
-FLOW: Final = Measure("m^3/s", ("L/min", "gpm"), (0, 0))
-
-
-def _facts(rows: Iterable[tuple[str, Measure, float | None, str]], units: System) -> list[tuple[Cell, ...]]:
-    """Rows of a table of facts, of those that have a value: words, its measure, value [SI], and what else to say."""
+def _facts(rows: Iterable[tuple[str, Kind, float | None, str]], units: System) -> list[tuple[Cell, ...]]:
+    """Rows of a table of facts, of those that have a value: words, its kind, value [SI], and what else to say."""
     return [
-        (text(words), of.cell(value, units), text(f"{of.label(units)}{more}"))
+        (text(words), _cell(of, value, units), text(f"{of.label(units)}{more}"))
         for words, of, value, more in rows
         if value is not None
     ]
@@ -85,10 +72,10 @@ def _datum(case: Case, units: System) -> Table | Text:
     datum = case.datum
     rows = _facts(
         [
-            ("rotary table", DEPTH, datum.elevation, " above mean sea level"),
-            ("air gap", DEPTH, datum.air_gap, " from the sea to the rotary table"),
-            ("water depth", DEPTH, datum.water_depth, ""),
-            ("sea bed", DEPTH, datum.sea_bed, " below the rotary table"),
+            ("rotary table", LENGTH, datum.elevation, " above mean sea level"),
+            ("air gap", LENGTH, datum.air_gap, " from the sea to the rotary table"),
+            ("water depth", LENGTH, datum.water_depth, ""),
+            ("sea bed", LENGTH, datum.sea_bed, " below the rotary table"),
         ],
         units,
     )
@@ -100,14 +87,14 @@ def _datum(case: Case, units: System) -> Table | Text:
 
 def hole(case: Case, units: System) -> Section:
     """Intervals, caliper, window of densities."""
-    depth, size = DEPTH.label(units), SIZE.label(units)
+    depth, size = LENGTH.label(units), ACROSS.label(units)
     named = any(one.casing is not None for one in case.wellbore.intervals)
     heads = ("interval", "kind", f"from ({depth})", f"to ({depth})", f"diameter ({size})", *(["casing"] * named))
     rows, start = [], 0.0
     for k, one in enumerate(case.wellbore.intervals, start=1):
-        ends = DEPTH.cell(start, units), DEPTH.cell(one.to_md, units)
+        ends = _cell(LENGTH, start, units), _cell(LENGTH, one.to_md, units)
         of_pipe = [text(one.casing or NONE)] * named
-        rows.append((text(one.name or k), text(one.kind or NONE), *ends, SIZE.cell(one.diameter, units), *of_pipe))
+        rows.append((text(one.name or k), text(one.kind or NONE), *ends, _cell(ACROSS, one.diameter, units), *of_pipe))
         start = one.to_md
     parts = [Table("Intervals", heads, tuple(rows))]
     if case.wellbore.calipers is not None:
@@ -116,7 +103,7 @@ def hole(case: Case, units: System) -> Section:
         density = DENSITY.label(units)
         of_window = (f"true vertical depth ({depth})", f"pore ({density})", f"fracture ({density})")
         window = tuple(
-            (DEPTH.cell(row.tvd, units), DENSITY.cell(row.pore, units), DENSITY.cell(row.fracture, units))
+            (_cell(LENGTH, row.tvd, units), _cell(DENSITY, row.pore, units), _cell(DENSITY, row.fracture, units))
             for row in case.wellbore.window
         )
         parts.append(Table("Window of mud densities", of_window, window))
@@ -125,23 +112,23 @@ def hole(case: Case, units: System) -> Section:
 
 def string(summary: Summary, units: System) -> Section:
     """Components from the top to the bit, what they bear, fittings, weights."""
-    case, depth, size, force = summary.case, DEPTH.label(units), SIZE.label(units), FORCE.label(units)
+    case, depth, size, force = summary.case, LENGTH.label(units), ACROSS.label(units), FORCE.label(units)
     inside = summary.parts
     components = case.string.components[: len(inside)][::-1]
     heads = (
         "component", f"from ({depth})", f"to ({depth})", f"outer diameter ({size})", f"inner diameter ({size})",
-        f"contact diameter ({size})", f"mass ({MASS.label(units)})", f"in air ({force})", f"in mud ({force})",
+        f"contact diameter ({size})", f"mass ({LINEAR_MASS.label(units)})", f"in air ({force})", f"in mud ({force})",
     )  # fmt: skip
     rows = [
         (
-            text(part.name), DEPTH.cell(part.from_md, units), DEPTH.cell(part.to_md, units),
-            *(SIZE.cell(getattr(of, f"{which}_diameter"), units) for which in ("outer", "inner", "contact")),
-            MASS.cell(part.mass, units), FORCE.cell(part.air, units), FORCE.cell(part.buoyed, units),
+            text(part.name), _cell(LENGTH, part.from_md, units), _cell(LENGTH, part.to_md, units),
+            *(_cell(ACROSS, getattr(of, f"{which}_diameter"), units) for which in ("outer", "inner", "contact")),
+            _cell(LINEAR_MASS, part.mass, units), _cell(FORCE, part.air, units), _cell(FORCE, part.buoyed, units),
         )
         for part, of in zip(inside, components, strict=True)
     ]  # fmt: skip
     bears = (
-        "component", "pipe", f"yield strength ({STRENGTH.label(units)})", f"tension ({force})",
+        "component", "pipe", f"yield strength ({STRESS.label(units)})", f"tension ({force})",
         f"torque ({TORQUE.label(units)})", f"make-up torque ({TORQUE.label(units)})",
         f"burst ({PRESSURE.label(units)})", f"collapse ({PRESSURE.label(units)})",
     )  # fmt: skip
@@ -150,13 +137,14 @@ def string(summary: Summary, units: System) -> Section:
         section = section_of(of, case.mud.density)
         body = Body(2 * section.outer, 2 * section.inner, section.yield_strength)
         capacities.append((
-            text(of.name), text(of.pipe or NONE), STRENGTH.cell(section.yield_strength, units),
-            FORCE.cell(body.tension, units), TORQUE.cell(body.torsion, units), TORQUE.cell(section.make_up, units),
-            PRESSURE.cell(section.burst, units), PRESSURE.cell(section.collapse, units),
+            text(of.name), text(of.pipe or NONE), _cell(STRESS, section.yield_strength, units),
+            _cell(FORCE, body.tension, units), _cell(TORQUE, body.torsion, units),
+            _cell(TORQUE, section.make_up, units), _cell(PRESSURE, section.burst, units),
+            _cell(PRESSURE, section.collapse, units),
         ))  # fmt: skip
     note = "Of the body at yield, each load by itself; make-up torque is the largest that is recommended, where known."
     parts = [
-        Table(f"String, the bit at {_depth(summary.bit_depth, units)}", heads, tuple(rows)),
+        Table(f"String, the bit at {_cell(LENGTH, summary.bit_depth, units).text} {depth}", heads, tuple(rows)),
         Table("Capacities", bears, tuple(capacities), (note,)),
     ]
     if rows_of := fitting_facts(case, units):
@@ -186,19 +174,20 @@ def fluids(case: Case, units: System) -> Section:
         parts.append(Table("Viscometer", readings, read))
     sides = [(side, row) for side in ("inside", "outside") for row in getattr(mud, side)]
     if sides:
-        heads = ("side", f"down to ({DEPTH.label(units)})", f"density ({DENSITY.label(units)})", "plug below")
+        heads = ("side", f"down to ({LENGTH.label(units)})", f"density ({DENSITY.label(units)})", "plug below")
         by_depth = tuple(
             (
-                text(side), DEPTH.cell(row.to_md, units), DENSITY.cell(row.density, units),
+                text(side), _cell(LENGTH, row.to_md, units), _cell(DENSITY, row.density, units),
                 text("yes" if getattr(row, "plug", False) else NONE),
             )
             for side, row in sides
         )  # fmt: skip
         parts.append(Table("Fluids by depth", heads, by_depth))
     if case.temperature:
-        degrees = Measure("K", ("K", "delta_degF"), (1, 1))
-        warmer = (f"true vertical depth ({DEPTH.label(units)})", f"change ({'K' if units == 'si' else '°F'})")
-        changes = tuple((DEPTH.cell(row.tvd, units), degrees.cell(row.change, units)) for row in case.temperature)
+        warmer = (f"true vertical depth ({LENGTH.label(units)})", f"change ({TEMPERATURE.label(units)})")
+        changes = tuple(
+            (_cell(LENGTH, row.tvd, units), _cell(TEMPERATURE, row.change, units)) for row in case.temperature
+        )
         parts.append(Table("Change of temperature", warmer, changes))
     return Section("Fluids", tuple(parts))
 
@@ -259,7 +248,7 @@ def rig(case: Case, units: System) -> Section:
         ("hoist capacity", FORCE, of.hoist_capacity, ", block included"),
         ("largest torque of the drive", TORQUE, of.largest_torque, ""),
         ("torque offset", TORQUE, of.torque_offset or None, ""),
-        ("slip length", SIZE, of.slip_length, ""),
+        ("slip length", ACROSS, of.slip_length, ""),
         ("weight on bit", FORCE, bit.weight_on_bit, " while drilling"),
         ("bit torque", TORQUE, bit.torque, " while drilling"),
         ("overpull of a stuck bit", FORCE, bit.overpull or None, ""),
@@ -323,19 +312,14 @@ def _cut(case: Case) -> str:
 
 def _rates(case: Case, rates: Mapping[str, SteadyRates], drive: Mapping[str, Any], units: System) -> Table:
     """Speed, rotation and flow of each operation, and where they are from."""
-    speed = Measure("m/s", ("m/s", "ft/min"), (3, 1))
     own = {operation.kind for operation in case.operations}
     given = any(value is not None for value in drive.values())
     rows = tuple(
         (
-            Cell(KINDS[kind].label), speed.cell(abs(rate.speed), units), number(rate.spin / rad_per_s(1.0), 1),
-            FLOW.cell(rate.flow, units), text("options, else " * given + ("case" if kind in own else "default")),
+            Cell(KINDS[kind].label), _cell(SPEED, abs(rate.speed), units), number(rate.spin / rad_per_s(1.0), 1),
+            _cell(FLOW, rate.flow, units), text("options, else " * given + ("case" if kind in own else "default")),
         )
         for kind, rate in rates.items()
     )  # fmt: skip
-    heads = ("operation", f"speed ({speed.label(units)})", "rotation (rev/min)", f"flow ({FLOW.label(units)})", "from")
+    heads = ("operation", f"speed ({SPEED.label(units)})", "rotation (rev/min)", f"flow ({FLOW.label(units)})", "from")
     return Table("Rates", heads, rows)
-
-
-def _depth(value: float, units: System) -> str:
-    return f"{DEPTH.cell(value, units).text} {DEPTH.label(units)}"

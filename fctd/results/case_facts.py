@@ -7,10 +7,9 @@ import numpy as np
 from fctd.case.calipers.caliper import Caliper
 from fctd.case.load import Case
 from fctd.case.rig import MudSpec
+from fctd.case.systems import ACROSS, DENSITY, DOG_LEG, FORCE, LENGTH, YIELD_STRESS, System
 from fctd.case.text import counted, printable
-from fctd.case.units import DENSITY, YIELD_STRESS, Quantity
 from fctd.model.summary import Summary
-from fctd.results.unit_systems import Shown, System, shown
 
 # What, how much, and its unit or what else there is to say.
 Row: TypeAlias = tuple[str, str, str]
@@ -18,9 +17,9 @@ Row: TypeAlias = tuple[str, str, str]
 
 def path_facts(summary: Summary, units: System) -> list[Row]:
     """Depth, departure, greatest inclination and dog-leg of the hole."""
-    metre = shown("bit_depth_m", units)
+    metre = LENGTH.shown(units)
     path = summary.path
-    per, course = (30.0, "°/30 m") if units == "si" else (30.48, "°/100 ft")
+    per, course = DOG_LEG[units]
     turns = f"{course} from {path.dogleg_from * metre.factor:.0f} to {path.dogleg_to * metre.factor:.0f} {metre.label}"
     return [
         (
@@ -41,7 +40,7 @@ def path_facts(summary: Summary, units: System) -> list[Row]:
 
 def caliper_facts(caliper: Caliper, units: System) -> list[Row]:
     """What a caliper has measured."""
-    metre, across = _lengths(units)
+    metre, across = LENGTH.shown(units), ACROSS.shown(units)
     md, size = caliper.md * metre.factor, 2 * caliper.radii * across.factor
     arms = "round" if size.shape[1] == 1 else "an oval" if size.shape[1] == 2 else f"{size.shape[1]} radii"
     depths = f"{metre.label}, {counted(len(md), 'row')}, {arms}"
@@ -57,7 +56,7 @@ def caliper_facts(caliper: Caliper, units: System) -> list[Row]:
 
 def fitting_facts(case: Case, units: System) -> list[Row]:
     """A row for the fittings of each component, and one for each swivel."""
-    metre, across = _lengths(units)
+    metre, across = LENGTH.shown(units), ACROSS.shown(units)
     rows = []
     for part in case.string.components:
         of, name = part.fittings, printable(part.name)
@@ -73,9 +72,9 @@ def fitting_facts(case: Case, units: System) -> list[Row]:
 
 def load_facts(summary: Summary, units: System) -> list[Row]:
     """Mud, weights of the string and of the block, weight on bit."""
-    force = shown("hookload_N", units)
-    case, unit = summary.case, "kg/m^3" if units == "si" else "ppg"
-    density = case.mud.density / Quantity(dimension=DENSITY).parse(f"1 {unit}")
+    force = FORCE.shown(units)
+    case, unit = summary.case, DENSITY.unit(units)
+    density = case.mud.density / DENSITY.si(units)
     return [
         ("mud density", "by depth" if case.mud.given else f"{density:.4g}", "" if case.mud.given else unit),
         ("buoyancy factor", f"{summary.buoyancy_factor:.3f}", ""),
@@ -92,8 +91,7 @@ def flow_curves(mud: MudSpec, units: System) -> list[Row]:
     named += [
         (f"of mud.{side}[{k}]", row) for side in ("inside", "outside") for k, row in enumerate(getattr(mud, side))
     ]
-    unit = "Pa" if units == "si" else "lbf/(100 ft²)"
-    stress = 1 / YIELD_STRESS.factor("Pa" if units == "si" else "lbf/hsqft")
+    stress, unit = YIELD_STRESS.shown(units)
     rows = []
     for name, flow in named:
         if flow.curve is None:
@@ -107,8 +105,3 @@ def flow_curves(mud: MudSpec, units: System) -> list[Row]:
             miss = f"degrees off at most, at {speed} rev/min, where {read:g} was read"
             rows.append((f"by {flow.fit.rule}", f"{flow.fit.misfit[worst]:+.1f}", miss))
     return rows
-
-
-def _lengths(units: System) -> tuple[Shown, Shown]:
-    """How lengths along the hole and across it are shown."""
-    return shown("bit_depth_m", units), shown("clearance_m", units)

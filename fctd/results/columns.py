@@ -20,15 +20,15 @@ def _stem(name: str) -> str:
 class Column(NamedTuple):
     """A column of a result.
 
-    name : as in tables, with its unit.  label : in pictures and on the screen.  digits : after the point in tables on
-    the screen.  heading : short label where a chart on the screen shows the column; else empty.  across : whether it
-    is a length across the hole, shown in mm or in.  of : computes a load of a steady string, SI; without it the load
-    is the attribute named ``stem``.  in_chart : whether a load is in charts.
+    name : as in tables, with its unit.  label : in pictures and on the screen.  digits : after the point, where they
+    are not those of its kind (`digits_of`).  heading : short label where a chart on the screen shows the column; else
+    empty.  across : whether it is a length across the hole, shown in mm or in.  of : computes a load of a steady
+    string, SI; without it the load is the attribute named ``stem``.  in_chart : whether a load is in charts.
     """
 
     name: str
     label: str
-    digits: int = 1
+    digits: int | None = None
     heading: str = ""
     across: bool = False
     of: Callable[[Any], float] | None = None
@@ -47,12 +47,12 @@ class Column(NamedTuple):
 # Loads of a steady string, in the order of tables.
 LOADS: Final = (
     Column("hookload_N", "hook load", heading="hook load"),
-    Column("surface_torque_N_m", "surface torque", digits=3, heading="torque"),
+    Column("surface_torque_N_m", "surface torque", heading="torque"),
     Column("weight_indicator_N", "weight indicator"),
-    Column("drive_torque_N_m", "drive torque", digits=3),
+    Column("drive_torque_N_m", "drive torque"),
     Column("total_contact_force_N", "contact force, all", heading="Σ Fₙ"),
-    Column("sum_r_ft_N_m", "Σ rFₜ", digits=3, in_chart=False),
-    Column("sum_r_mu_fn_N_m", "Σ rμFₙ", digits=3, in_chart=False),
+    Column("sum_r_ft_N_m", "Σ rFₜ", in_chart=False),
+    Column("sum_r_mu_fn_N_m", "Σ rμFₙ", in_chart=False),
 )
 # The buckled part of a string, in charts and histories.
 BUCKLED: Final = (
@@ -69,6 +69,7 @@ SHARES: Final = (
     Column("slack_off_spent_at", "slack-off spent at"),
     Column("locked_up_at", "locked up at"),
 )
+CYCLES: Final = Column("cycles_per_hour", "cycles per hour", digits=0)
 DEPTH: Final = Column("bit_depth_m", "bit depth", heading="bit")
 PROFILE: Final = (
     Column("md_m", "measured depth"),
@@ -82,7 +83,7 @@ PROFILE: Final = (
     Column("offset_right_m", "left | offset | right", across=True),
     Column("clearance_m", "clearance", across=True),
 )
-COLUMNS: Final = {column.name: column for column in (DEPTH, *LOADS, *BUCKLED, *SHAPES, *SHARES, *PROFILE)}
+COLUMNS: Final = {column.name: column for column in (DEPTH, *LOADS, *BUCKLED, *SHAPES, *SHARES, *PROFILE, CYCLES)}
 IN_CHART: Final = tuple(load for load in LOADS if load.in_chart)
 
 

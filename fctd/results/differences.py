@@ -13,9 +13,9 @@ import numpy as np
 from fctd.case.errors import MISSING, InputError, join_key
 from fctd.case.key_quantities import quantities_of
 from fctd.case.load import Case
-from fctd.case.message import FIELD
 from fctd.case.raw_case import look_up
 from fctd.case.spellings import split
+from fctd.case.systems import kind_with, signed
 from fctd.case.text import counted, printable
 from fctd.case.units import Quantity
 from fctd.results.unit_systems import System, shown
@@ -24,12 +24,6 @@ ALIKE: Final = 1e-9  # share of a number by which two spellings of it may differ
 # Keys of the files of a survey and a caliper: what they hold is compared, and the files may have any names.
 _OF_SURVEY: Final = "survey", "columns", "sheet", "stations"
 _OF_CALIPER: Final = "log", "columns", "sheet"
-# Units in which cases are written and messages are not, and those of the field.
-_METRIC: Final = {
-    "sg": "ppg", "g/cm^3": "ppg", "t": "klbf", "daN": "klbf", "N·m": "ft·lbf", "daN·m": "ft·lbf", "Pa": "psi",
-    "GPa": "ksi", "L/min": "gpm", "L/s": "gpm", "m^3/s": "gpm", "cm": "in",
-}  # fmt: skip
-_SIGNS: Final = {"*": "·", "^2": "²", "^3": "³"}
 
 
 class Difference(NamedTuple):
@@ -82,7 +76,8 @@ def in_a_row(names: Sequence[str]) -> str:
 
 
 def differences(cases: Sequence[Case], units: System = "si") -> list[Difference]:
-    """What differs between cases, in the order of the keys of a case; names of cases and files do not count.
+    """What differs between cases, in the order of the keys of a case; names of cases and files, and units of
+    display, do not count.
 
     Values are compared once validated, so that 5 in and 127 mm are the same, and so is a default that one case writes.
     A value that a case derives from another key differs with that key alone.  units : of depths in the words of a
@@ -93,7 +88,7 @@ def differences(cases: Sequence[Case], units: System = "si") -> list[Difference]
     >>> [found.sentence(["light", "heavy"]) for found in differences([light, heavy])]
     ['mud.density: 1250 kg/m³ (light), 1400 kg/m³ (heavy)']
     """
-    dumps = [case.model_dump(exclude={"file", "name"}) for case in cases]
+    dumps = [case.model_dump(exclude={"file", "name", "units"}) for case in cases]
     for dump in dumps:
         for key in _OF_SURVEY:
             dump["wellbore"].pop(key)
@@ -219,11 +214,8 @@ def _unit_of(quantity: Quantity, written: Sequence[Any], units: System) -> tuple
     """The unit in which a quantity is told, with a blank before it, and what it is in SI."""
     unit = next(filter(None, map(_written_unit, written)), quantity.dimension.unit)
     if units == "field":
-        unit = (FIELD | _METRIC).get(unit.replace("*", "·"), unit)
-    factor = quantity.dimension.factor(unit.replace("·", "*"))
-    for sign, plain in _SIGNS.items():
-        unit = unit.replace(sign, plain)
-    return f" {unit}", factor
+        unit = unit if (kind := kind_with(unit)) is None else kind.unit(units)
+    return f" {signed(unit)}", quantity.dimension.factor(unit)
 
 
 def _written_unit(text: Any) -> str | None:

@@ -11,8 +11,9 @@ from typing import Any, Final, NamedTuple
 
 from fctd.arrays import Array
 from fctd.case.limits import LimitsSpec
-from fctd.case.message import Message, kept, quantity, restored, span, told, within
+from fctd.case.message import Message, kept, quantity, restored, span, within
 from fctd.case.rig import RigSpec
+from fctd.case.systems import told
 from fctd.mechanics.query import Walls
 from fctd.model.capacity import Body
 from fctd.model.drillstring import String

@@ -69,7 +69,7 @@ def brakes_turning(taken: float, torque: float) -> Note | None:
         return None
     share = f"{100 * taken / abs(torque):.2g} %" if torque else "all"
     text = (
-        f"the joints' own damping takes {quantity(taken, 'N m', '.3g')} of the torque of the turning string, "
+        f"the joints' own damping takes {quantity(taken, 'N·m', '.3g')} of the torque of the turning string, "
         f"{share} of it"
     )
     return note_beyond("joint_damping", text, taken, OF_THE_TORQUE * abs(torque))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.case.message import told
+from fctd.case.systems import told
 from fctd.results.unit_systems import System
 
 if TYPE_CHECKING:

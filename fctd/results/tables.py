@@ -62,12 +62,12 @@ class SimulationResult:
     segments: pd.DataFrame = field(default_factory=_no_rows)
     identity: str = field(default_factory=lambda: uuid4().hex)
 
-    def save(self, folder: str | os.PathLike[str], csv: bool = False, units: System = "si") -> list[Path]:
+    def save(self, folder: str | os.PathLike[str], csv: bool = False, units: System | None = None) -> list[Path]:
         """Write the tables of ``TABLES`` as the results in ``folder``; returns the files written.
 
         They take the place of an earlier run's tables all at once; other files in the folder stay.  units : of the CSV
-        files; the Parquet files are SI, as ``open_result`` reads them.  Raises InputError where the folder cannot be
-        written.
+        files, by default those of the case; the Parquet files are SI, as ``open_result`` reads them.  Raises InputError
+        where the folder cannot be written.
         """
         folder = Path(folder)
         metadata = {
@@ -86,7 +86,8 @@ class SimulationResult:
                 frame: pd.DataFrame = getattr(self, name)
                 to_parquet(frame, new / f"{name}.parquet", metadata)
                 if csv:
-                    to_csv(in_field_units(frame) if units == "field" else frame, new / f"{name}.csv")
+                    field = (units or self.case.system) == "field"
+                    to_csv(in_field_units(frame) if field else frame, new / f"{name}.csv")
         return [folder / name for name in result_files(csv)]
 
 

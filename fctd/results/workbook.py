@@ -9,18 +9,20 @@ from numbers import Integral, Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
+from fctd.case.systems import KINDS, SHOWN_APART, ending, signed
 from fctd.results.columns import COLUMNS
-from fctd.results.unit_systems import MEASURES, measure_of, shown
+from fctd.results.unit_systems import kind_of
 
 if TYPE_CHECKING:
     import pandas as pd
 
-# Digits after the point by unit; of other numbers, such as friction factors and shares.
+# Units at the end of a name, the longer ones first, and the digits after the point of the first kind with each.
 _DIGITS: Final = {
-    "kN*m": 2, "kft*lbf": 2, "MPa": 1, "ksi": 1, "kN": 1, "klbf": 1, "m": 2, "ft": 1, "mm": 1, "in": 3, "deg": 1,
-    "bar": 1, "psi": 0, "kg/m^3": 0, "ppg": 2, "L/min": 0, "gpm": 0, "kW": 1, "hp": 1, "ft/min": 1, "ft/s": 1, "s": 1,
-}  # fmt: skip
-_OTHERS: Final = 3
+    unit: number for kind in reversed(KINDS) for unit, number in zip(kind.units, kind.digits, strict=True)
+}
+_UNITS: Final = sorted(
+    {*_DIGITS, *(kind.dimension.unit for kind in SHOWN_APART), "rad/s"}, key=lambda unit: (-len(unit), unit)
+)
 _NARROWEST, _WIDEST = 12, 60  # characters of a column
 _MOST: Final = 40  # items of a list that are written out
 
@@ -33,27 +35,18 @@ class Heading(NamedTuple):
     format: str
 
 
-def _ending(unit: str) -> str:
-    return "_" + unit.replace("*", "_").replace("/", "_").replace("^", "")
-
-
-# Units at the end of a name, the longer ones first.
-_MEASURED: Final = {unit for measure in MEASURES for unit in (measure.table, measure.field)}
-_UNITS: Final = sorted({*_MEASURED, *_DIGITS, "m/s", "m^3/s", "rad/s"}, key=len, reverse=True)
-
-
 def heading_of(column: str) -> Heading:
     """The heading of a column of a table, in SI or in field units: ``hookload_N`` is "hook load (kN)", in kN."""
-    unit = next((unit for unit in _UNITS if column.endswith(_ending(unit))), "")
-    stem, measure = column.removesuffix(_ending(unit)) if unit else column, measure_of(column)
+    unit = next((unit for unit in _UNITS if column.endswith(ending(unit))), "")
+    stem, kind = column.removesuffix(ending(unit)) if unit else column, kind_of(column)
     known = COLUMNS.get(column) or next((of for of in COLUMNS.values() if unit and of.stem == stem), None)
     label = stem.replace("hookload", "hook_load").replace("_", " ") if known is None else known.label
-    factor = 1.0
-    if measure is not None and unit == measure.table:
-        factor, unit = shown(column, "si").factor, measure.si
-    sign = unit.replace("*", "·").replace("^3", "³").replace("deg", "°")
-    digits = "0" * _DIGITS.get(unit, _OTHERS)
-    return Heading(label + (f" ({sign})" if sign else ""), factor, f"0.{digits}".removesuffix("."))
+    factor, digits = 1.0, _DIGITS.get(unit, 3)
+    if kind is not None and unit == kind.dimension.unit:
+        factor, unit, digits = kind.shown("si").factor, kind.unit("si"), kind.digits_in("si")
+    digits = digits if known is None or known.digits is None else known.digits
+    sign = signed(unit).replace("deg", "°")
+    return Heading(label + (f" ({sign})" if sign else ""), factor, f"0.{'0' * digits}".removesuffix("."))
 
 
 def to_workbook(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) -> None:

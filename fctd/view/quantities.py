@@ -9,7 +9,7 @@ from fctd.arrays import Array
 from fctd.case.errors import InputError, nearest
 from fctd.plots.tracks import scale_of, side_force_unit
 from fctd.results.columns import COLUMNS
-from fctd.results.unit_systems import Shown, System, shown
+from fctd.results.unit_systems import Shown, System, shown_if_any
 
 Scale = Literal["magnitude", "nearness", "signed", "modes"]
 
@@ -36,13 +36,9 @@ class Quantity:
 
     def shown(self, units: System) -> Shown:
         """Factor and unit in which it is shown."""
-        if self.scale == "modes":
-            return Shown(1.0, "")
         if self.column == "side_force":
             return side_force_unit(units, "length")
-        if self.column == "gap_m":
-            return shown("clearance_m", units)
-        return shown(self.column, units)
+        return shown_if_any(self.column, units)
 
     def limits(self, values: Array, lengths: Array) -> tuple[float, float]:
         """Values of the first and the last colour, in the same unit.

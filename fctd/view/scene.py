@@ -10,7 +10,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from fctd.arrays import Array
-from fctd.case.message import told
+from fctd.case.systems import told
 from fctd.plots.loads import as_load, usual_load
 from fctd.plots.palette import DARK, EDGE, PALETTE, QUIET
 from fctd.plots.traces import plain

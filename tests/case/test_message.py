@@ -9,7 +9,8 @@ import pytest
 
 from fctd.case.errors import InputError
 from fctd.case.input_warnings import InputWarning
-from fctd.case.message import Message, frame_of, joined, kept, quantity, restored, span, told, within
+from fctd.case.message import Message, frame_of, joined, kept, quantity, restored, span, within
+from fctd.case.systems import told
 from fctd.results.unit_systems import in_field_units
 
 USERS = "pipe, 29 kg/m, 9 m"  # a name

@@ -47,17 +47,17 @@ QUANTITIES = [(command, found) for command, info, _ in options() if (found := op
 def spellings(option: QuantityOption) -> Iterator[tuple[str, System, str | None]]:
     """Texts, the system of units in which they are typed, and the quantity that they are, None where it is refused."""
     for units in SYSTEMS:
-        bare = option.bare_unit(units)
+        bare = option.kind.bare_unit(units)
         for text in ("25", "2.5e1", "+25", " 25 ", "25.0"):
             yield text, units, f"25 {bare}" if bare else None
-        unit = bare or option.dimension.units[0]
+        unit = bare or option.kind.dimension.units[0]
         for text in (f"25 {unit}", f"25{unit}", f"+25 {unit}", f"2.5e1 {unit}", f" 25  {unit} "):
             yield text, units, f"25 {unit}"
         for text in (f"2,5 {unit}", f"1,500 {unit}", f"1 500 {unit}", f"1'500 {unit}", f"-25 {unit}", "-25", "1.500,5"):
             yield text, units, None
         for text in ("", "nan", "inf", "25 apples", f"25 {unit} {unit} x", unit, "1e400", "2+3", "deep", "3 kg K"):
             yield text, units, None
-    for unit in option.dimension.units:
+    for unit in option.kind.dimension.units:
         small = f"0.001 {unit}"
         yield small, "si", small
         yield small, "field", small
@@ -73,7 +73,7 @@ def test_a_spelling_is_one_value_or_is_refused(command: str, option: QuantityOpt
             assert refused.value.key == option.name, text
             continue
         number, _, unit = wanted.partition(" ")
-        assert given.si(units) == pytest.approx(float(number) * option.dimension.factor(unit), rel=1e-12), text
+        assert given.si(units) == pytest.approx(float(number) * option.kind.dimension.factor(unit), rel=1e-12), text
         assert several([given], units) == [given.si(units)]
 
 
@@ -97,7 +97,7 @@ def test_help_has_the_default_as_it_may_be_typed(command: str, default: str) -> 
 
 
 def test_loads_have_their_unit() -> None:
-    loads = {option.name for _, option in QUANTITIES if option.dimension in (FORCE, TORQUE)}
+    loads = {option.name for _, option in QUANTITIES if option.kind.dimension in (FORCE, TORQUE)}
     assert {"--pull", "--torque", "--up", "--down", "--hookload", "--first-torque", "--first-hookload"} == loads
 
 
@@ -121,7 +121,7 @@ def test_a_command_refuses_what_the_reader_refuses(
     """Before anything is computed or written: a decimal comma, of an option that may be repeated too."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "well.toml").write_text(CASE)
-    unit = option.dimension.units[0]
+    unit = option.kind.dimension.units[0]
     given = NEEDED.get(command, {}) | {option.name: f"1,5 {unit}"}
     texts = [text for pair in given.items() for text in pair]
     done = CliRunner().invoke(app, [command, "well.toml", *filter(None, [BESIDE.get(command)]), *texts])

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 
 from fctd.case.errors import InputError
 from fctd.case.surveys.stations import UNITS, to_radians
-from fctd.model.new_case import UnitSystem, read_survey
+from fctd.case.systems import System
+from fctd.model.new_case import read_survey
 
 Table = list[list[str]]
 FOOT = 0.3048
@@ -139,7 +140,7 @@ def office(rng: Random) -> Office:
     return Office(content, meant if sure else None, unit, where != "nowhere")
 
 
-def amiss(file: Office, system: UnitSystem, folder: Path) -> tuple[str, str]:
+def amiss(file: Office, system: System, folder: Path) -> tuple[str, str]:
     """What became of a file, "read" or "refused", and what is wrong with that, "" where nothing is.
 
     system : units for which the case is made, in which a file without a unit is read with a note.

@@ -7,8 +7,9 @@ import pytest
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case
+from fctd.case.systems import System
 from fctd.model.first_runs import to_paste
-from fctd.model.new_case import UnitSystem, from_template
+from fctd.model.new_case import from_template
 from fctd.model.templates import TEMPLATES, TemplateName
 from fctd.simulation.simulate import simulate
 from tests.cases import make_case
@@ -16,7 +17,7 @@ from tests.cases import make_case
 DRILLING = [name for name, template in TEMPLATES.items() if template.weight_on_bit]
 
 
-def proposed(name: TemplateName, units: UnitSystem) -> dict[str, Case]:
+def proposed(name: TemplateName, units: System) -> dict[str, Case]:
     """The cases that follow from putting each block of comments in place of the operation above."""
     text = from_template(TEMPLATES[name], name, units).text()
     head, _, *blocks = re.split(r"(?m)^(?=\[\[operations\]\]|# A first )", text)
@@ -30,7 +31,7 @@ def proposed(name: TemplateName, units: UnitSystem) -> dict[str, Case]:
 
 @pytest.mark.parametrize("units", ["si", "field"])
 @pytest.mark.parametrize("name", DRILLING)
-def test_a_first_trip_and_a_first_drilling_run_are_cases(name: TemplateName, units: UnitSystem) -> None:
+def test_a_first_trip_and_a_first_drilling_run_are_cases(name: TemplateName, units: System) -> None:
     trip, drill = proposed(name, units).values()
     assert [operation.kind for operation in (*trip.operations, *drill.operations)] == [
         "trip_out", "trip_in", "drill_rotating",

@@ -14,14 +14,15 @@ from fctd import load_case
 from fctd.case.errors import InputError
 from fctd.case.pipes.catalogue import pipe_named
 from fctd.case.string import ComponentSpec
+from fctd.case.systems import System
 from fctd.case.witsml.geometry import read_geometry
 from fctd.case.witsml.tubular import Bend, Blades, TubularPart, read_tubular
 from fctd.model.from_files import Files, with_files
 from fctd.model.given.hole import GivenHole, lay_hole
 from fctd.model.given.pieces import pieces_of
 from fctd.model.given.string import GivenString, lay_string
-from fctd.model.given.table import Writer
-from fctd.model.new_case import Plan, UnitSystem, from_survey
+from fctd.model.given.table import writer
+from fctd.model.new_case import Plan, from_survey
 from fctd.model.section import section_of
 from fctd.model.templates import TEMPLATES
 from tests.case.witsml_files import BIT, COLLAR, HOLE, PIPE, Element, component, geometry, section, tubular
@@ -44,13 +45,13 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def string_of(folder: Path, *parts: Element, assembly: str = "", depth: float = DEPTH) -> GivenString:
     (folder / "s.xml").write_text(tubular(parts, assembly=assembly), encoding="utf-8")
-    return lay_string(read_tubular(folder / "s.xml"), "s.xml", depth, Writer("si"))
+    return lay_string(read_tubular(folder / "s.xml"), "s.xml", depth, writer("si"))
 
 
 def hole_of(folder: Path, *sections: Element, bottom: float = DEPTH) -> GivenHole:
     (folder / "h.xml").write_text(geometry(sections, bottom=bottom), encoding="utf-8")
     found = read_geometry(folder / "h.xml")
-    return lay_hole(found, "h.xml", TEMPLATES["build-hold"], DEPTH, Writer("si"))
+    return lay_hole(found, "h.xml", TEMPLATES["build-hold"], DEPTH, writer("si"))
 
 
 def tables(string: GivenString) -> list[dict[str, Any]]:
@@ -59,7 +60,7 @@ def tables(string: GivenString) -> list[dict[str, Any]]:
     return list(tomllib.loads(text)["string"]["components"])
 
 
-def plan_of(folder: Path, parts: list[Element], units: UnitSystem = "si") -> Plan:
+def plan_of(folder: Path, parts: list[Element], units: System = "si") -> Plan:
     """The plan of a string and the usual hole."""
     (folder / "s.xml").write_text(tubular(parts), encoding="utf-8")
     (folder / "h.xml").write_text(geometry(), encoding="utf-8")
@@ -313,7 +314,7 @@ def strings(draw: st.DrawFn) -> list[Element]:
 
 @settings(max_examples=60)
 @given(strings(), st.sampled_from(["si", "field"]))
-def test_any_whole_string_is_that_of_its_case(folder_of_all: Path, parts: list[Element], units: UnitSystem) -> None:
+def test_any_whole_string_is_that_of_its_case(folder_of_all: Path, parts: list[Element], units: System) -> None:
     """Lengths, diameters and mass, whatever the units of the file and of the case."""
     plan = plan_of(folder_of_all, parts, units)
     assert plan.blanks == []
@@ -372,7 +373,7 @@ def spoilt_holes(draw: st.DrawFn) -> list[Element]:
 @settings(max_examples=100)
 @given(spoilt_strings(), spoilt_holes(), st.sampled_from(["si", "field"]))
 def test_a_case_lacks_what_it_says_and_nothing_else(
-    folder_of_all: Path, parts: list[Element], sections: list[Element], units: UnitSystem
+    folder_of_all: Path, parts: list[Element], sections: list[Element], units: System
 ) -> None:
     (folder_of_all / "s.xml").write_text(tubular(parts), encoding="utf-8")
     (folder_of_all / "h.xml").write_text(geometry(sections), encoding="utf-8")

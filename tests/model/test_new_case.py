@@ -9,14 +9,13 @@ import pytest
 from fctd import Case
 from fctd.case.operations import RotateOffBottom
 from fctd.case.string import ComponentSpec
-from fctd.case.units import DENSITY, FORCE, LENGTH
+from fctd.case.systems import DENSITY, FORCE, LENGTH, System
 from fctd.model import layouts
 from fctd.model.drillstring import lay_out
 from fctd.model.first_runs import entry
 from fctd.model.new_case import (
     Plan,
     Quantities,
-    UnitSystem,
     from_survey,
     from_template,
 )
@@ -33,12 +32,12 @@ BOTH = pytest.mark.parametrize("units", ["si", "field"])
 
 
 @cache
-def plan_of(name: TemplateName, units: UnitSystem) -> Plan:
+def plan_of(name: TemplateName, units: System) -> Plan:
     return from_template(TEMPLATES[name], "new", units)
 
 
 @cache
-def case_of(name: TemplateName, units: UnitSystem = "si") -> Case:
+def case_of(name: TemplateName, units: System = "si") -> Case:
     return Case.model_validate(tomllib.loads(plan_of(name, units).text()))
 
 
@@ -48,7 +47,7 @@ def kinds_of(case: Case) -> list[str]:
 
 @EACH
 @BOTH
-def test_the_text_is_the_template(name: TemplateName, units: UnitSystem) -> None:
+def test_the_text_is_the_template(name: TemplateName, units: System) -> None:
     case, template = case_of(name, units), TEMPLATES[name]
     scale = 1.0 if units == "si" else 3 * 0.3048
     assert case.wellbore.geometry == "arcs"
@@ -114,7 +113,7 @@ def test_a_softer_wall_would_be_penetrated_further() -> None:
 
 
 @BOTH
-def test_a_depth_is_never_below_the_end_of_the_survey(units: UnitSystem) -> None:
+def test_a_depth_is_never_below_the_end_of_the_survey(units: System) -> None:
     end = 1234.5678
     stations = np.array([[0.0, 0.0, 0.0], [600.0, 0.5, 0.0], [end, 0.5, 0.0]])
     plan = from_survey("build-hold", "of a survey", units, "s.csv", (), stations)
@@ -127,7 +126,7 @@ def test_a_depth_is_never_below_the_end_of_the_survey(units: UnitSystem) -> None
 
 
 @BOTH
-def test_lengths_of_a_template_are_round_in_the_hole_of_a_survey(units: UnitSystem) -> None:
+def test_lengths_of_a_template_are_round_in_the_hole_of_a_survey(units: System) -> None:
     """A metre of the template is written as 3 ft."""
     stations = np.array([[0.0, 0.0, 0.0], [1500.0, 0.0, 0.0], [3000.0, 0.7, 0.0]])
     plan = from_survey("build-hold", "of a survey", units, "s.csv", (), stations)

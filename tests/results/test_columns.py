@@ -5,13 +5,27 @@ from types import SimpleNamespace
 import pytest
 
 from fctd import equilibrium
-from fctd.results.columns import BUCKLED, COLUMNS, DEPTH, ENDINGS, IN_CHART, LOADS, PROFILE, SHAPES, SHARES, Column
+from fctd.case.systems import SYSTEMS
+from fctd.results.columns import (
+    BUCKLED,
+    COLUMNS,
+    CYCLES,
+    DEPTH,
+    ENDINGS,
+    IN_CHART,
+    LOADS,
+    PROFILE,
+    SHAPES,
+    SHARES,
+    Column,
+)
+from fctd.results.unit_systems import digits_of
 from tests.cases import make_case, rotation
 
 
 def test_every_name_ends_in_a_unit_and_stands_once() -> None:
-    assert {name for name in COLUMNS if not name.endswith(ENDINGS)} == {share.name for share in SHARES}
-    assert len(COLUMNS) == 1 + len(LOADS) + len(BUCKLED) + len(SHAPES) + len(SHARES) + len(PROFILE)
+    assert {name for name in COLUMNS if not name.endswith(ENDINGS)} == {of.name for of in (*SHARES, CYCLES)}
+    assert len(COLUMNS) == 2 + len(LOADS) + len(BUCKLED) + len(SHAPES) + len(SHARES) + len(PROFILE)
 
 
 @pytest.mark.parametrize(
@@ -42,8 +56,8 @@ def test_every_load_and_column_of_a_profile_is_there() -> None:
 def test_loads_are_shown_to_a_hundred_newtons_and_one_newton_metre() -> None:
     """In kN and kN·m; lengths of the buckled part to the metre, the bit depth to a tenth of it."""
     for load in LOADS:
-        assert load.digits == (3 if load.name.endswith("_N_m") else 1)
-    assert [column.digits for column in (DEPTH, *BUCKLED)] == [1, 0, 0]
+        assert {digits_of(load.name, units) for units in SYSTEMS} == {3 if load.name.endswith("_N_m") else 1}
+    assert [digits_of(column.name, "field") for column in (DEPTH, *BUCKLED)] == [1, 0, 0]
 
 
 def test_widths_of_the_hole_are_lengths_across_it() -> None:

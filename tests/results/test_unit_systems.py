@@ -3,7 +3,7 @@
 import pandas as pd
 import pytest
 
-from fctd.results.unit_systems import in_field_units, measure_of, shown, shown_unit
+from fctd.results.unit_systems import in_field_units, kind_of, shown, shown_unit
 
 # Exact by definition (NIST SP 811, appendix B.8).
 LBF, FOOT, INCH = 4.4482216152605, 0.3048, 0.0254
@@ -29,7 +29,7 @@ def test_a_column_in_field_units(column: str, renamed: str, factor: float) -> No
 
 @pytest.mark.parametrize("column", ["operation", "iterations", "friction", "contact_angle_deg", "time_s", "Name"])
 def test_what_has_no_unit_to_exchange_stays(column: str) -> None:
-    assert measure_of(column) is None
+    assert kind_of(column) is None
     table = pd.DataFrame({column: [1, 2]})
     pd.testing.assert_frame_equal(in_field_units(table), table)
 

@@ -19,10 +19,10 @@ calamine = pytest.importorskip("python_calamine")
     [
         ("hookload_N", Heading("hook load (kN)", 1e-3, "0.0")),
         ("hookload_klbf", Heading("hook load (klbf)", 1.0, "0.0")),
-        ("surface_torque_N_m", Heading("surface torque (kN·m)", 1e-3, "0.00")),
-        ("surface_torque_kft_lbf", Heading("surface torque (kft·lbf)", 1.0, "0.00")),
+        ("surface_torque_N_m", Heading("surface torque (kN·m)", 1e-3, "0.000")),
+        ("surface_torque_kft_lbf", Heading("surface torque (kft·lbf)", 1.0, "0.000")),
         ("hookload_left_N", Heading("hook load left (kN)", 1e-3, "0.0")),
-        ("bit_depth_m", Heading("bit depth (m)", 1.0, "0.00")),
+        ("bit_depth_m", Heading("bit depth (m)", 1.0, "0.0")),
         ("clearance_m", Heading("clearance (mm)", 1e3, "0.0")),
         ("inclination_deg", Heading("inclination (°)", 1.0, "0.0")),
         ("speed_m_s", Heading("speed (m/s)", 1.0, "0.000")),

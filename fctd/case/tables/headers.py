@@ -6,8 +6,9 @@ from dataclasses import dataclass, replace
 from typing import Final, NamedTuple
 
 from fctd.case.errors import InputError, nearest, show
+from fctd.case.systems import FLOW, FORCE, LENGTH, SPEED, SYSTEMS, TIME, TORQUE, System
 from fctd.case.tables.fields import Column, Field
-from fctd.case.units import FLOW, FORCE, LENGTH, SPEED, TIME, TORQUE, Dimension
+from fctd.case.units import Dimension
 
 Line = tuple[int, list[str]]
 """Number of a line or row in its file, 0 where it has none, and its cells."""
@@ -18,9 +19,9 @@ _BRACKETS: Final = re.compile(r"\s*[\[(][^\])]*[\])]\s*$")
 
 
 # Units of rigs, which sheets without units are in.
-RIG_UNITS: Final[Mapping[str, Mapping[Dimension, str]]] = {
-    "si": {LENGTH: "m", FORCE: "kN", TORQUE: "kN.m", SPEED: "m/s", FLOW: "L/min", TIME: "s"},
-    "field": {LENGTH: "ft", FORCE: "klbf", TORQUE: "kft.lbf", SPEED: "ft/min", FLOW: "gpm", TIME: "s"},
+RIG_UNITS: Final[Mapping[System, Mapping[Dimension, str]]] = {
+    system: {kind.dimension: kind.unit(system).replace("*", ".") for kind in (LENGTH, FORCE, TORQUE, SPEED, FLOW, TIME)}
+    for system in SYSTEMS
 }
 
 

@@ -6,6 +6,7 @@ from typing import Final
 from fctd.case.doubts.hole import BELOW_TD, NARROWEST, WIDEST
 from fctd.case.pipes.catalogue import SAME_DIAMETER, catalogue
 from fctd.case.pipes.names import CASING, TUBING, in_inches
+from fctd.case.systems import ACROSS, LENGTH
 from fctd.case.witsml.geometry import ROUNDING, Geometry, Interval
 from fctd.model.given.table import GivenTable, Writer
 from fctd.model.new_case import Blank, Block
@@ -56,10 +57,10 @@ def lay_hole(geometry: Geometry, file: str, template: Template, end: float, writ
 def _fill(table: GivenTable, interval: Interval, bore: float, template: Template, write: Writer) -> float | None:
     """Write an interval; gives its diameter [m] where the file has one.  bore : of the interval above [m]."""
     section = interval.section
-    stretch = f"from {write('length', interval.top)} to {write('length', interval.bottom)}"
+    stretch = f"from {write(LENGTH, interval.top)} to {write(LENGTH, interval.bottom)}"
     words = "no section" if section is None else section.type or "section"
     if section is not None and section.outer:
-        words += f", {write('diameter', section.outer)} outside"
+        words += f", {write(ACROSS, section.outer)} outside"
     table.text("name", words)
     kind = None if section is None else section.kind
     if kind is None:
@@ -67,14 +68,14 @@ def _fill(table: GivenTable, interval: Interval, bore: float, template: Template
         table.blank("kind", '"cased" or "open"', f"{given}, {stretch}")
     else:
         table.text("kind", kind)
-    table.value("to_md", "length", interval.bottom)
+    table.value("to_md", LENGTH, interval.bottom)
     diameter, why = (None, "no section") if section is None else _diameter(interval, bore, write)
     if why:
         of = "of the bit that drilled it" if kind == "open" else "inside"
         table.blank("diameter", f"the diameter {of}, such as '8.5 in'", f"{why}, {stretch}")
         diameter = None
     elif diameter is not None:
-        table.value("diameter", "diameter", diameter, "inside the casing" if kind == "cased" else "")
+        table.value("diameter", ACROSS, diameter, "inside the casing" if kind == "cased" else "")
     friction = None if section is None else section.friction
     if friction:
         table.line(f"friction = {friction:.9g}")
@@ -91,15 +92,15 @@ def _diameter(interval: Interval, bore: float, write: Writer) -> tuple[float | N
     inner, name = section.inner, f"section {section.number}, idSection"
     if inner is None:
         return None, f"{name} is missing"
-    text = f"{name} is {write('diameter', inner)}"
+    text = f"{name} is {write(ACROSS, inner)}"
     if not NARROWEST <= inner <= WIDEST:
         return inner, f"{text}, which no hole has"
     if section.outer and inner >= section.outer:
-        return inner, f"{text}, and odSection {write('diameter', section.outer)}"
+        return inner, f"{text}, and odSection {write(ACROSS, section.outer)}"
     if section.kind == "open" and 0 < inner < _DRILLED * bore:
         pipes = [pipe.size for pipe in catalogue() if pipe.kind in _SIZES and abs(pipe.outer - inner) <= SAME_DIAMETER]
         if pipes:
-            above = f"{write('diameter', bore)} above it"
+            above = f"{write(ACROSS, bore)} above it"
             return inner, f"{text}, the outer diameter of {in_inches(pipes[0])} in pipe, and the hole has {above}"
     return inner, ""
 
@@ -108,14 +109,14 @@ def _doubts(geometry: Geometry, found: list[Interval], end: float, write: Writer
     doubts = []
     bottom = found[-1].bottom
     if abs(bottom - end) > BELOW_TD:
-        doubts.append(f"its sections end at {write('length', bottom)}, the survey at {write('length', end)}")
+        doubts.append(f"its sections end at {write(LENGTH, bottom)}, the survey at {write(LENGTH, end)}")
     if geometry.bottom and abs(bottom - geometry.bottom) > ROUNDING:
-        whole = write("length", geometry.bottom)
-        doubts.append(f"its sections end at {write('length', bottom)}, and its mdBottom is {whole}")
+        whole = write(LENGTH, geometry.bottom)
+        doubts.append(f"its sections end at {write(LENGTH, bottom)}, and its mdBottom is {whole}")
     for interval in found:
         if interval.others and interval.section is not None:
             numbers = ", ".join(str(section.number) for section in interval.others)
-            stretch = f"from {write('length', interval.top)} to {write('length', interval.bottom)}"
+            stretch = f"from {write(LENGTH, interval.top)} to {write(LENGTH, interval.bottom)}"
             inner = f"that of section {interval.section.number} counts, the narrowest"
             doubts.append(f"{stretch} it also has section {numbers}: the diameter {inner}")
     return doubts

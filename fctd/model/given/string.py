@@ -13,6 +13,7 @@ from fctd.case.pipes.filling import lacks_joints
 from fctd.case.pipes.grades import drill_pipe_grade_of, grade_of
 from fctd.case.pipes.names import CASING, DRILL_PIPE, HEAVY, TUBING
 from fctd.case.string import SHORT, ComponentSpec
+from fctd.case.systems import ACROSS, ANGLE, AREA, LENGTH, LINEAR_MASS, STRESS, Kind
 from fctd.case.witsml.tubular import BIT, Tubular, TubularPart
 from fctd.model.first_runs import entry
 from fctd.model.given.pieces import AT_AN_END, pieces_of
@@ -62,10 +63,10 @@ def lay_string(tubular: Tubular, file: str, depth: float, write: Writer) -> Give
             string.parts.append((component.spec, min(length, depth)))
     bit = next((part for part in tubular.parts if part.kind == BIT), None)
     if bit is not None and bit.nozzles:
-        nozzles = ", ".join(f'"{write("diameter", one)}"' for one in bit.nozzles)
+        nozzles = ", ".join(f'"{write(ACROSS, one)}"' for one in bit.nozzles)
         string.bit.append(f"nozzles = [{nozzles}]")
     elif bit is not None and bit.flow_area:
-        string.bit.append(entry("flow_area", write("area", bit.flow_area)))
+        string.bit.append(entry("flow_area", write(AREA, bit.flow_area)))
     return string
 
 
@@ -77,7 +78,7 @@ def _short(tubular: Tubular, depth: float, write: Writer) -> str:
     whole = sum(length or 0.0 for length in lengths)
     if whole >= depth - AT_AN_END:
         return ""
-    return f"the string has {write('length', whole)} in all, and the hole {write('length', depth)}"
+    return f"the string has {write(LENGTH, whole)} in all, and the hole {write(LENGTH, depth)}"
 
 
 class _Component:
@@ -85,7 +86,7 @@ class _Component:
 
     def __init__(self, part: TubularPart, table: GivenTable, write: Writer) -> None:
         self._part, self._table, self._write = part, table, write
-        length = f" of {write('length', part.length)}" if part.length else ""
+        length = f" of {write(LENGTH, part.length)}" if part.length else ""
         self._title = f'component {part.number}, "{part.type or "without a type"}"{length}'
         self._keys: dict[str, Any] = {}
         self.doubts: list[str] = []
@@ -118,20 +119,20 @@ class _Component:
         self._bends()
         if part.joint_length is not None and part.joint_length > _LONGEST_JOINT:
             several = f", numJointStand {part.joints_of_stand:g}" if part.joints_of_stand else ""
-            joint = self._write("length", part.joint_length)
+            joint = self._write(LENGTH, part.joint_length)
             self._doubt(f"lenJointAv {joint}{several}, is that of a stand and not of a joint: it is not used")
         if part.type.casefold() in _UNKNOWN:
             self._doubt("is taken for a tool, which weighs as its body without wtPerLen")
 
     def _length(self, short: str) -> None:
         part = self._part
-        here = self._write("length", part.length or 0.0)
+        here = self._write(LENGTH, part.length or 0.0)
         if short:
             expected = "its length, and add the pipe above it, or delete the line if it reaches the surface"
             self._blank("length", expected, f"len is {here}, {short}")
         elif part.length:
             self._keys["length"] = part.length
-            self._table.value("length", "length", part.length)
+            self._table.value("length", LENGTH, part.length)
         else:
             self._blank("length", "its length", self._missing("len", part.length))
 
@@ -142,22 +143,22 @@ class _Component:
         if not outer:
             self._blank("outer_diameter", "the diameter of its body", self._missing("od", part.outer))
         elif outer < _THINNEST:
-            thin = f"od is {self._write('diameter', outer)}, thinner than any pipe: see its uom"
+            thin = f"od is {self._write(ACROSS, outer)}, thinner than any pipe: see its uom"
             self._blank("outer_diameter", "the diameter of its body", thin)
             outer = None
         elif part.gauge and outer > part.gauge + SAME_DIAMETER:
-            gauge = self._write("diameter", part.gauge)
-            self._blank("outer_diameter", "that of its body", f"od is {self._write('diameter', outer)}, diaBit {gauge}")
+            gauge = self._write(ACROSS, part.gauge)
+            self._blank("outer_diameter", "that of its body", f"od is {self._write(ACROSS, outer)}, diaBit {gauge}")
         else:
-            self._value("outer_diameter", "diameter", outer)
+            self._value("outer_diameter", ACROSS, outer)
         if not inner:
             self._blank("inner_diameter", "the diameter of its bore", self._missing("id", inner))
         elif outer and inner >= outer:
-            outside = self._write("diameter", outer)
-            found = f"id is {self._write('diameter', inner)}, od {outside}"
+            outside = self._write(ACROSS, outer)
+            found = f"id is {self._write(ACROSS, inner)}, od {outside}"
             self._blank("inner_diameter", "the diameter of its bore, below outer_diameter", found)
         else:
-            self._value("inner_diameter", "diameter", inner)
+            self._value("inner_diameter", ACROSS, inner)
 
     def _mass(self) -> None:
         """Mass with joints; a tool without one weighs as its body."""
@@ -165,10 +166,10 @@ class _Component:
         joints, mass = _JOINTED.get(part.kind or ""), part.mass
         body = body_mass(self._keys)
         if mass and joints and body and not LIGHTEST * body <= mass <= HEAVIEST * body:
-            found = f"wtPerLen is {self._write('mass', mass)}, its body alone has {self._write('mass', body)}"
+            found = f"wtPerLen is {self._write(LINEAR_MASS, mass)}, its body alone has {self._write(LINEAR_MASS, body)}"
             self._blank("linear_mass", f"its mass with {joints}, such as '36.8 kg/m'", found)
         elif mass:
-            self._value("linear_mass", "mass", mass, f"with {joints}" if joints else "")
+            self._value("linear_mass", LINEAR_MASS, mass, f"with {joints}" if joints else "")
             if (nominal := nominal_of(part)) is not None:
                 self._doubt(f"wtPerLen is the nominal weight, {nominal:g} lb/ft: with tool joints it is more")
         elif joints:
@@ -192,17 +193,17 @@ class _Component:
         joints = _JOINTED.get(part.kind or "")
         widest = part.touching
         if part.widest and outer and part.widest < outer - SAME_DIAMETER:
-            stated, outside = (self._write("diameter", one) for one in (part.widest, outer))
+            stated, outside = (self._write(ACROSS, one) for one in (part.widest, outer))
             self._blank("contact_diameter", "the diameter that touches", f"odMx is {stated}, od {outside}")
         elif widest and (outer is None or widest > outer):
-            self._value("contact_diameter", "diameter", widest)
+            self._value("contact_diameter", ACROSS, widest)
             if part.length and part.kind is None and part.length > SHORT * widest:
-                touches = f"touches with {self._write('diameter', widest)} along all of it"
+                touches = f"touches with {self._write(ACROSS, widest)} along all of it"
                 self._doubt(f"{touches}: give the part that is so wide as a component of its own")
         elif joints and (not widest or (outer and widest < outer)):
             found = self._missing("odMx, and no od of a connection", part.widest)
             if widest and outer:
-                found = f"od of a connection is {self._write('diameter', widest)}, od {self._write('diameter', outer)}"
+                found = f"od of a connection is {self._write(ACROSS, widest)}, od {self._write(ACROSS, outer)}"
             self._blank("contact_diameter", f"the diameter of its {joints}", found)
 
     def _strength(self) -> None:
@@ -211,7 +212,7 @@ class _Component:
         if grade is not None:
             self._table.text("yield_strength", grade)
         elif part.strength:
-            self._table.value("yield_strength", "stress", part.strength)
+            self._table.value("yield_strength", STRESS, part.strength)
         elif part.grade or part.strength == 0:
             said = f'grade "{part.grade}" is not known' if part.grade else "tensYield is 0"
             self._table.remark(f"Note: {said}: give yield_strength, else it is that of S-135.")
@@ -225,15 +226,15 @@ class _Component:
     def _bends(self) -> None:
         part = self._part
         for bend in part.bends:
-            angle = self._write("angle", bend.angle)
+            angle = self._write(ANGLE, bend.angle)
             if bend.distance is not None and part.length and abs(bend.distance - part.length) <= AT_AN_END:
-                self._value("bend", "angle", bend.angle, "at its upper end")
+                self._value("bend", ANGLE, bend.angle, "at its upper end")
                 continue
             self._doubt(f"its bend of {angle} is left out: give the part below it as a component of its own, with bend")
 
-    def _value(self, key: str, measure: Any, value: float, comment: str = "") -> None:
+    def _value(self, key: str, kind: Kind, value: float, comment: str = "") -> None:
         self._keys[key] = value
-        self._table.value(key, measure, value, comment)
+        self._table.value(key, kind, value, comment)
 
     def _blank(self, key: str, expected: str, found: str) -> None:
         self._table.blank(key, expected, f"{self._title}, {found}")
@@ -256,9 +257,9 @@ def _doubts_of(tubular: Tubular, depth: float, write: Writer) -> Iterator[str]:
         yield f'no component is a bit, and typeTubularAssy is "{tubular.assembly}": the case does not drill'
     for part in tubular.parts:
         if drilling and part.kind in (CASING, TUBING):
-            length = f" of {write('length', part.length)}" if part.length else ""
+            length = f" of {write(LENGTH, part.length)}" if part.length else ""
             what = f'component {part.number} is "{part.type}"{length}'
             yield f'{what}, and typeTubularAssy is "{tubular.assembly}": check both'
     below = math.fsum(part.length or 0.0 for part in tubular.parts[:-1])
     if below > depth:
-        yield f"the components below the uppermost have {write('length', below)}, and the hole {write('length', depth)}"
+        yield f"the components below the uppermost have {write(LENGTH, below)}, and the hole {write(LENGTH, depth)}"

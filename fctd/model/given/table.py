@@ -1,34 +1,18 @@
 """A table of a new case with what a file gives, and with blanks where it gives nothing that can be used."""
 
 import textwrap
-from typing import Final, Literal
+from collections.abc import Callable
 
-from fctd.case.units import ANGLE, AREA, LENGTH, LINEAR_MASS, STRESS, Dimension, Quantity
+from fctd.case.systems import Kind, System
 from fctd.model.first_runs import aligned, entry
-from fctd.model.new_case import FILL_IN, WIDEST, Blank, Block, UnitSystem
+from fctd.model.new_case import FILL_IN, WIDEST, Blank, Block
 
-Measure = Literal["length", "diameter", "mass", "stress", "area", "angle"]
-# How each is written.
-_UNITS: Final[dict[Measure, tuple[Dimension, dict[UnitSystem, str]]]] = {
-    "length": (LENGTH, {"si": "m", "field": "ft"}),
-    "diameter": (LENGTH, {"si": "mm", "field": "in"}),
-    "mass": (LINEAR_MASS, {"si": "kg/m", "field": "lb/ft"}),
-    "stress": (STRESS, {"si": "MPa", "field": "ksi"}),
-    "area": (AREA, {"si": "mm^2", "field": "in^2"}),
-    "angle": (ANGLE, {"si": "deg", "field": "deg"}),
-}
+Writer = Callable[[Kind, float], str]
 
 
-class Writer:
+def writer(units: System) -> Writer:
     """Writes SI values in the units of a system, with nine digits: files have them with the noise of a conversion."""
-
-    def __init__(self, units: UnitSystem) -> None:
-        self.system = units
-
-    def __call__(self, measure: Measure, value: float) -> str:
-        dimension, units = _UNITS[measure]
-        unit = units[self.system]
-        return f"{value / Quantity(dimension=dimension).parse(f'1 {unit}'):.9g} {unit}"
+    return lambda kind, value: f"{value / kind.si(units):.9g} {kind.unit(units)}"
 
 
 class GivenTable:
@@ -54,9 +38,9 @@ class GivenTable:
         """A line as it is."""
         self._lines.append(aligned(line, comment))
 
-    def value(self, key: str, measure: Measure, value: float, comment: str = "") -> None:
+    def value(self, key: str, kind: Kind, value: float, comment: str = "") -> None:
         """A line with a quantity, of which the SI value is given."""
-        self.text(key, self._write(measure, value), comment)
+        self.text(key, self._write(kind, value), comment)
 
     def blank(self, key: str, expected: str, found: str) -> None:
         """A key to be filled in, below a comment that says what to write and what the file has."""
