@@ -54,7 +54,7 @@ RULES: list[tuple[str, Any, str]] = [
     ("string", 3, "a table of keys and values"),
     ("operations", 3, "a list"),
     ("muds", {"density": 3}, "the key mud"),
-    ("file", "x.toml", "one of the keys name, datum, wellbore"),
+    ("file", "x.toml", "one of the keys name, units, datum, wellbore"),
     ("wellbore.overlp", "2 mm", "the key overlap"),
     ("rig.xyz", 1, "one of the keys block_weight, guide_friction, sheave_efficiency, torque_offset, torque_per_rpm"),
     ("wellbore.survey", "a.csv", "a survey file that exists"),

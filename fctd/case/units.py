@@ -171,11 +171,9 @@ class Number(Expects):
     def bounded(self) -> str:
         """The noun with its bounds: "a length above 0", "a speed above 0 and at most 10 m/s"."""
         bounds = {"above": self.above, "at least": self.at_least, "at most": self.at_most}
-        words = " and ".join(
-            f"{word} {quantity(limit, self.unit) if limit and self.unit else f'{limit:g}'}"
-            for word, limit in bounds.items()
-            if limit is not None
-        )
+        given = {word: limit for word, limit in bounds.items() if limit is not None}
+        unit = self.unit
+        words = " and ".join(f"{word} {quantity(of, unit) if of and unit else f'{of:g}'}" for word, of in given.items())
         return Message(f"{self.noun} {words}".strip())
 
     @property

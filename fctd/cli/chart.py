@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -105,9 +105,8 @@ def chart_command(options: ChartOptions) -> None:
     if keeping.resume is not None:
         with resumed_folder(keeping.resume, PROGRAM, accept_changes=keeping.accept_changes) as (folder, about):
             kept = ChartSaver(folder, keeping.interval(EVERY_CHART), key="--resume")
-            # Bare depths and rates were typed in the units of the chart.
-            asked = replace(beside(options, about["options"]), units=about["options"]["units"])
-            _chart(case_of(folder.path, about), asked, keeping.resume, lambda *_: nullcontext(kept))
+            case = case_of(folder.path, about)
+            _chart(case, beside(options, about["options"]), keeping.resume, lambda *_: nullcontext(kept))
         return
 
     @contextmanager
@@ -118,7 +117,7 @@ def chart_command(options: ChartOptions) -> None:
         with begun_folder(target, "--out", restart=keeping.restart) as folder:
             yield ChartSaver(
                 folder, keeping.interval(EVERY_CHART),
-                lambda: description_of(case, PROGRAM, "chart", to_keep(options), uuid4().hex), "--out",
+                lambda: description_of(case, PROGRAM, "chart", to_keep(options, options.units), uuid4().hex), "--out",
             )  # fmt: skip
 
     _chart(options.case_file, options, None, begin)

@@ -9,6 +9,7 @@ from typing import Annotated, Any, Final, TypeVar, get_args, get_origin, get_typ
 
 from typer.models import ArgumentInfo
 
+from fctd.case.systems import System
 from fctd.cli.quantities import Given
 
 T = TypeVar("T")
@@ -57,21 +58,21 @@ def _default(of: "Field[Any]") -> Any:
 def given_options(options: Any) -> dict[str, Any]:
     """The values by option; None of those that have their default."""
     found: dict[str, Any] = {}
-    for name, (hint, default) in _kept(options).items():
+    for name, (hint, default) in _restored(options).items():
         (info,) = hint.__metadata__
         option = str(info.metavar) if isinstance(info, ArgumentInfo) else info.default.split("/")[0]
         found[option] = None if getattr(options, name) == default else getattr(options, name)
     return found
 
 
-def to_keep(options: Any) -> dict[str, Any]:
-    """The options of an unfinished result as JSON takes them; a quantity is the text that was typed."""
-    return {name: _as_json(getattr(options, name)) for name in _kept(options)}
+def to_keep(options: Any, units: System) -> dict[str, Any]:
+    """The options of an unfinished result as JSON takes them; a quantity is the text that was typed, with its unit."""
+    return {name: _as_json(getattr(options, name), units) for name in _kept(options)}
 
 
 def beside(options: T, kept: Mapping[str, Any]) -> T:
     """The options, and in place of those that have their default the kept ones."""
-    defaults = {name: hint for name, (hint, default) in _kept(options).items() if getattr(options, name) == default}
+    defaults = {name: hint for name, (hint, default) in _restored(options).items() if getattr(options, name) == default}
     values = {name: _read(hint, kept[name]) for name, hint in defaults.items() if name in kept}
     return replace(options, **values)  # type: ignore[type-var]
 
@@ -83,10 +84,15 @@ def _kept(options: Any) -> dict[str, tuple[Any, Any]]:
     return {name: (hints[name], default) for name, default in names.items() if not is_dataclass(hints[name])}
 
 
-def _as_json(value: Any) -> Any:
+def _restored(options: Any) -> dict[str, tuple[Any, Any]]:
+    """Those that go on with it as they were; it may be shown in other units, and by default is in its own."""
+    return {name: of for name, of in _kept(options).items() if name != "units"}
+
+
+def _as_json(value: Any, units: System) -> Any:
     if isinstance(value, Path):
         return str(value.absolute())
-    return value.text if isinstance(value, Given) else value
+    return value.complete(units) if isinstance(value, Given) else value
 
 
 def _read(hint: Any, kept: Any) -> Any:

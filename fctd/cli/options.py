@@ -79,8 +79,9 @@ def units_of_case(options: Mapping[str, Any]) -> System:
 
     options : of the command, by the names of its arguments.
     """
-    files = options.get("sources") or [options.get(of) for of in ("case_file", "source", "resume", "sweep_file")]
-    named = {_named(Path(file), options.get("overrides", ())) for file in files if file and Path(file).exists()}
+    cases = [of for of in options.get("sources") or () if Path(of).exists()]  # others are keys that differ
+    files = cases or [options.get(of) for of in ("case_file", "source", "resume", "sweep_file")]
+    named = {_named(Path(file), options.get("overrides", ())) for file in files if file}
     return named.pop() if len(named) == 1 else "si"
 
 

@@ -63,6 +63,11 @@ class Given:
         """The quantity [SI]; InputError names the option."""
         return self.option.read(self.text, units)
 
+    def complete(self, units: System) -> str:
+        """The text, in which each bare number of FROM:TO:STEP has its unit."""
+        bare = self.option.kind.bare_unit(units)
+        return ":".join(f"{part} {bare}" if bare and is_number(part) else part for part in self.text.split(":"))
+
     def depth(self, case: Case, units: System) -> float:
         """A depth [m], ``td`` or ``shoe`` too; InputError names the option."""
         return read_depth(self.text, case, self.option.name, self.option.kind.bare_unit(units) or "m")

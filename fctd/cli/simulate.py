@@ -136,7 +136,7 @@ def simulate_file(
     refuse_source_files(case, (folder / name for name in own_files(folder).union(result_files(shown.csv))), "--out")
     with begun_folder(folder, "--out", restart=keeping.restart) as kept:
         identity = uuid4().hex
-        options = to_keep(shown) | dict(more or {})
+        options = to_keep(shown, shown.units) | dict(more or {})
         kept.describe(*description_of(case, program, "simulate", options, identity))
         _compute(case, folder, method, shown, keeping, kept, identity)
 

@@ -294,7 +294,7 @@ FEATURES: dict[str, Feature] = {
 
 # Keys that work in the same way whatever moves the string: what is laid out, read or kept.
 EVERYWHERE: Final = frozenset({
-    "name", "file", "datum.elevation", "datum.air_gap", "datum.water_depth",
+    "name", "units", "file", "datum.elevation", "datum.air_gap", "datum.water_depth",
     "wellbore.columns.header", "wellbore.columns.unit", "wellbore.sheet", "wellbore.survey_smoothing",
     "wellbore.tortuosity.amplitude", "wellbore.tortuosity.wavelength", "wellbore.tortuosity.seed",
     "wellbore.survey_method", "wellbore.geometry", "wellbore.cylinder_length", "wellbore.chord_tolerance",

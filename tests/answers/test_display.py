@@ -16,7 +16,7 @@ from tests.cases import make_case
 
 
 def test_loads_have_labels_and_units() -> None:
-    assert load_rows({"hookload_N": 803_000.0, "surface_torque_N_m": float("nan")}) == {
+    assert load_rows({"hookload_N": 803_000.0, "surface_torque_N_m": float("nan")}, "si") == {
         "hook load": "803.0 kN",
         "surface torque": "–",
     }

@@ -263,6 +263,21 @@ def test_a_killed_chart_goes_on_with_the_same_rows(
     assert not run_path(Path("chart.csv")).exists()
 
 
+def test_a_chart_in_field_units_goes_on_in_them_or_is_shown_in_si(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Its bare depths and speed are feet and feet a minute also where the rest is shown in metres."""
+    chart_in = ("chart", "small.toml", "--operation", "trip_in", "--depths", "2000:2600:100", "--speed", "90")
+    field = (*chart_in, "--units", "field", "--quiet")
+    assert run(monkeypatch, *field, "--out", "field.csv") == 0
+    in_si = ("chart", "small.toml", "--operation", "trip_in", "--depths", "2000 ft:2600 ft:100 ft", "--speed")
+    assert run(monkeypatch, *in_si, "90 ft/min", "--out", "si.csv", "--quiet") == 0
+    for units, whole in (((), "field.csv"), (("--units", "si"), "si.csv")):
+        killed(monkeypatch, (*field, "--out", "chart.csv", "--checkpoint-every", "0 s"), after=4, module=chart)
+        assert run(monkeypatch, "chart", "--resume", "chart.csv", "--quiet", *units) == 0, capsys.readouterr().err
+        assert Path("chart.csv").read_bytes() == Path(whole).read_bytes()
+
+
 def test_a_chart_that_reaches_its_limit(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(monkeypatch, *CHART, "--quiet", "--time-limit", "1e-9 s") == 1
     message = capsys.readouterr().err

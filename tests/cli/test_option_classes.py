@@ -11,7 +11,7 @@ import typer
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fctd.case.units import SPEED
+from fctd.case.systems import SPEED
 from fctd.cli.chart import ChartOptions, chart_command
 from fctd.cli.keeping import SaveOptions
 from fctd.cli.option_classes import beside, given_options, to_keep, with_options
@@ -55,12 +55,14 @@ def test_fields_are_arguments_in_their_order() -> None:
     st.none() | st.sampled_from(["1 m/s", "98.4 ft/min", "25"]),
 )  # fmt: skip
 def test_what_is_kept_comes_back_as_it_was_typed(case: Path | None, names: list[str], speed: str | None) -> None:
+    """But a bare number has the unit that it had."""
     asked = None if speed is None else SPEED_OPTION.parse(speed)
     begun = Outer(case=case, names=names, inner=Inner(True), speed=asked, quiet=True)
-    kept = json.loads(json.dumps(to_keep(begun)))
+    kept = json.loads(json.dumps(to_keep(begun, "field")))
     assert set(kept) == {"case", "names", "speed"}
+    again = SPEED_OPTION.parse("25 ft/min") if speed == "25" else asked
     resumed = beside(Outer(inner=Inner()), kept)
-    assert resumed == Outer(case=None if case is None else case.absolute(), names=names, inner=Inner(), speed=asked)
+    assert resumed == Outer(case=None if case is None else case.absolute(), names=names, inner=Inner(), speed=again)
     assert beside(Outer(names=["later"], inner=Inner()), kept).names == ["later"]
     assert {option for option, value in given_options(begun).items() if value is not None} == {
         option for option, value in (("CASE", case), ("--name", names), ("--speed", speed)) if value
@@ -68,11 +70,11 @@ def test_what_is_kept_comes_back_as_it_was_typed(case: Path | None, names: list[
 
 
 def test_a_chart_keeps_all_but_what_each_process_has() -> None:
-    kept = set(to_keep(ChartOptions(keeping=SaveOptions())))
+    kept = set(to_keep(ChartOptions(keeping=SaveOptions()), "si"))
     assert kept == {of.name for of in fields(ChartOptions)} - {"keeping", "quiet"}
     assert kept | {of.name for of in fields(SaveOptions)} | {"quiet"} == set(signature(chart_command).parameters)
 
 
-@pytest.mark.parametrize("option", [("--units", "field"), ("--load", "string"), ("--strict",), ("--limits",)])
+@pytest.mark.parametrize("option", [("--load", "string"), ("--strict",), ("--limits",)])
 def test_a_resumed_chart_refuses_what_it_has_already(option: tuple[str, ...], cli: Command) -> None:
     assert f"{option[0]} = " in cli("chart", "--resume", "chart.csv", *option, code=2).err

@@ -27,3 +27,16 @@ def test_sections_without_answers_are_left_out(answers: Answers) -> None:
 
 def test_the_title_keeps_one_line(made: Callable[[System], Report]) -> None:
     assert made("si").title == 'A & B <b>"well"</b> 水 \\x1b[31m'
+
+
+def test_a_torque_and_a_depth_have_the_same_digits_everywhere(made: Callable[[System], Report]) -> None:
+    """No pipe is buckled, whose depths are whole."""
+    for unit, digits in (("kN·m", {3}), ("m", {1})):
+        found = {
+            len(row[k].text.partition(".")[2])
+            for table in made("si").tables
+            for row in table.rows
+            for k, head in enumerate(table.heads)
+            if row[k].number is not None and (head.endswith(f"({unit})") or row[1].text == unit)
+        }
+        assert found == digits

@@ -59,7 +59,7 @@ def test_a_hook_load_that_flutters(amplitude: float, frequency: float, axial: fl
 def test_joint_damping_that_brakes_a_turning_string() -> None:
     assert brakes_turning(9.9, -1000.0) is None
     words = words_of(brakes_turning(50.0, -1000.0), "joint_damping", pytest.approx(5.0))
-    assert "takes 50 N m of the torque of the turning string, 5 % of it" in words
+    assert "takes 50 N·m of the torque of the turning string, 5 % of it" in words
     assert brakes_turning(0.0, 0.0) is None
 
 
