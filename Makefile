@@ -25,7 +25,7 @@ PYTHON ?= $(shell for p in python3.11 python3.12 python3.13 python3.14 python3; 
 
 # Said before the work begins; minutes on two cores from an empty cache of compiled code, as in the README.
 SET_UP_TAKES := 2
-TESTS_TAKE := $(if $(filter 0,$(BROWSER)),9,13)
+TESTS_TAKE := $(if $(filter 0,$(BROWSER)),7,11)
 STUDIES_TAKE := $(if $(filter-out 0,$(QUICK)),4,10)
 
 .PHONY: reproduce test bench docs lint bullet rivals next-numba lowest clean say-tests say-studies
