@@ -104,7 +104,8 @@ class Dataset:
 def identity_of(template: Template) -> str:
     """A hash of all that the rows of a sweep depend on: its file without [uncertainty], case and survey."""
     spec = template.spec.model_dump(mode="json", exclude={"uncertainty", "case", "file"})
-    raw = json.dumps([spec, template.raw | {"units": None}], sort_keys=True, default=str)
+    tables = {name: of for name, of in template.raw.items() if name != "units"}
+    raw = json.dumps([spec, tables], sort_keys=True, default=str)
     return hashlib.sha256(raw.encode() + template.base.wellbore.trajectory.tobytes()).hexdigest()
 
 
