@@ -19,7 +19,8 @@ from reportlab.pdfgen.canvas import Canvas
 from reportlab.platypus import BaseDocTemplate, CondPageBreak, Flowable, Frame, PageTemplate, Paragraph
 from reportlab.platypus import Table as Drawn
 
-from fctd.report.tables import Cell, Picture, Report, Table, Text
+from fctd.report.parts import Picture, Report, Text
+from fctd.results.shown_tables import Cell, Table
 
 FONT, BOLD = "FCTD-Sans", "FCTD-Sans-Bold"
 SIZE, SMALL = 8.0, 6.5  # of type [pt]

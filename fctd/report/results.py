@@ -15,10 +15,11 @@ from fctd.plots.flow import losses_panels
 from fctd.plots.loads import ChartLook
 from fctd.plots.profile import profile_figure
 from fctd.report.answers import Answers
-from fctd.report.tables import NONE, Cell, Part, Picture, Section, Table, Text, frame_table, number, text
+from fctd.report.parts import Part, Picture, Section, Text
 from fctd.results.columns import LOADS
 from fctd.results.notes import MEANINGS
 from fctd.results.series import FRICTION_LABEL
+from fctd.results.shown_tables import NONE, Cell, Table, frame_table, number, text
 from fctd.results.status import SteadyStatus
 from fctd.results.unit_systems import System, digits_of, in_words, shown
 from fctd.steady.margins import FATIGUE, OVERPULL, SET_DOWN, SLIPS, TORQUE

@@ -31,8 +31,9 @@ from fctd.model.capacity import Body
 from fctd.model.operations import SteadyRates, rad_per_s
 from fctd.model.section import section_of
 from fctd.model.summary import Summary
-from fctd.report.tables import NONE, Cell, Section, Table, Text, facts, number, short, text
+from fctd.report.parts import Section, Text
 from fctd.results.case_facts import Row, caliper_facts, fitting_facts, flow_curves, load_facts, path_facts
+from fctd.results.shown_tables import NONE, Cell, Table, facts, number, short, text
 
 
 def _cell(kind: Kind, value: float | None, units: System) -> Cell:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import io
 from typing import Any, Final
 
-from fctd.report.tables import Cell, Picture, Report, Section, Table, Text
+from fctd.report.parts import Picture, Report, Section, Text
+from fctd.results.shown_tables import Cell, Table
 
 _NARROWEST, _WIDEST = 11, 60  # characters of a column
 _DPI: Final = 110  # of pictures

@@ -7,7 +7,7 @@ import pytest
 
 from fctd.report.answers import Answers
 from fctd.report.content import Cover, report_of
-from fctd.report.tables import Report
+from fctd.report.parts import Report
 from fctd.results.unit_systems import System
 
 ALWAYS = ["Well", "Hole", "String", "Fluids", "Friction", "Rig and limits", "Assumptions", "Torque and drag"]

@@ -5,7 +5,7 @@ from html.parser import HTMLParser
 
 import pytest
 
-from fctd.report.tables import Report
+from fctd.report.parts import Report
 from fctd.results.unit_systems import System
 from tests.report.conftest import UNITS
 

@@ -17,8 +17,9 @@ from fctd.model.capacity import body_of
 from fctd.model.connection import make_up_torque
 from fctd.model.operations import rates_of_all
 from fctd.model.summary import summarise
-from fctd.report.tables import Cell, Report, Table, Text
+from fctd.report.parts import Report, Text
 from fctd.report.well import _datum, assumptions, fluids, friction, hole, string
+from fctd.results.shown_tables import Cell, Table
 from fctd.results.unit_systems import System
 from tests.report.conftest import WELL
 

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fctd.case.message import Message, quantity
-from fctd.report.tables import NONE, Cell, Table, facts, frame_table, number, short, text
+from fctd.results.shown_tables import NONE, Cell, Table, facts, frame_table, number, short, text
 
 
 @given(st.floats(-1e9, 1e9), st.integers(0, 6))

@@ -1,10 +1,10 @@
-"""What a report is made of: sections of tables, texts and pictures, which every kind of file draws as they are."""
+"""Tables as people read them: cells of text with their numbers, which screen, notebook and files draw as they are."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
@@ -17,7 +17,6 @@ from fctd.results.workbook import Heading, heading_of
 
 if TYPE_CHECKING:
     import pandas as pd
-    from matplotlib.figure import Figure
 
 NONE: Final = "–"  # of a cell without a value
 # Columns of words of the program, and of its sentences; other texts are the user's.
@@ -53,62 +52,6 @@ class Table:
             and all(cell.number is not None or cell.text in (NONE, "") for cell in column)
             for column in columns
         )
-
-
-@dataclass(frozen=True)
-class Text:
-    """A paragraph."""
-
-    text: str
-
-
-@dataclass(frozen=True)
-class Picture:
-    """A picture with its caption."""
-
-    caption: str
-    figure: Figure
-
-    @property
-    def size(self) -> tuple[float, float]:
-        """Width and height [in]."""
-        width, height = self.figure.get_size_inches()
-        return float(width), float(height)
-
-    def drawn(self, suffix: str, **options: Any) -> bytes:
-        """The picture in a format; options : of matplotlib's ``savefig``."""
-        from fctd.plots.style import drawn
-
-        return drawn(self.figure, suffix, **options)
-
-
-Part = Table | Text | Picture
-
-
-@dataclass(frozen=True)
-class Section:
-    """A section: its title, and what stands in it, in this order."""
-
-    title: str
-    parts: tuple[Part, ...]
-
-
-@dataclass(frozen=True)
-class Report:
-    """A report: title, company, who made it (both may be empty), the date, a logo (PNG), and its sections."""
-
-    title: str
-    company: str
-    by: str
-    date: str
-    logo: bytes | None
-    units: System
-    sections: tuple[Section, ...] = field(default=())
-
-    @property
-    def tables(self) -> list[Table]:
-        """All tables in their order."""
-        return [part for section in self.sections for part in section.parts if isinstance(part, Table)]
 
 
 def text(value: object) -> Cell:
