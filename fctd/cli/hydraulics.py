@@ -14,15 +14,15 @@ from fctd.case.message import frame_of
 from fctd.case.systems import ACROSS, DENSITY, FLOW
 from fctd.case.text import counted, printable
 from fctd.case.units import MOST_FLOW
-from fctd.cli.check import facts_table
-from fctd.cli.job import Depths, Job, grid, headed, number, numbers, right, rows_of
+from fctd.cli.job import Depths, Job, grid, headed, number, numbers, print_facts, right, rows_of
 from fctd.cli.options import CaseFile, Overrides, Quiet, Strict, Units, messages, screen
 from fctd.cli.pictures import PICTURE_HELP, TABLES, draw_panels
 from fctd.cli.quantities import PENETRATION, TO_TOTAL_DEPTH, Given, QuantityOption, quantity, several
 from fctd.cli.steady import file_option
 from fctd.hydraulics.cuttings import Cuttings
 from fctd.hydraulics.pressures import SHARE, Circulation, Eccentricity, circulations
-from fctd.results.case_facts import Row, flow_curves
+from fctd.results.case_facts import flow_curves
+from fctd.results.shown_tables import Fact, facts, short
 from fctd.results.unit_systems import System, in_words, shown
 from fctd.steady.equilibrium import lie_along
 
@@ -147,8 +147,7 @@ def _flows(given: Sequence[Given], case: Case, units: System) -> list[float]:
 
 def _print(job: Job, table: "pd.DataFrame", found: Sequence[Circulation]) -> None:
     units = job.units
-    if rows := flow_curves(job.case.mud, units):
-        screen.print(facts_table(rows))
+    print_facts(flow_curves(job.case.mud, units))
     for flow, of in table.groupby("flow_m3_s", sort=False):
         here = [one for one in found if one.flow == flow]
         if not here:
@@ -157,7 +156,7 @@ def _print(job: Job, table: "pd.DataFrame", found: Sequence[Circulation]) -> Non
         pumped = f"{job.words(last, 'flow_m3_s')}, {job.words(last, 'standpipe_Pa')}"
         job.say(f"{pumped} at the standpipe with the bit at {job.words(last, 'bit_depth_m')}")
         screen.print(_table(of, units) if len(of) > 1 else _parts(here[0], units))
-        screen.print(facts_table(_bit(last, units)))
+        print_facts(facts("", _bit(last, units)))
     job.say_reasons(table)
     if (off := max((one.circuit.too_high for one in found), default=0.0)) > WORTH_SAYING:
         messages.print(
@@ -193,9 +192,9 @@ def _parts(one: Circulation, units: System) -> Table:
     return table
 
 
-def _bit(row: dict[str, Any], units: System) -> list[Row]:
+def _bit(row: dict[str, Any], units: System) -> list[Fact]:
     """What the jets do, and what the flow does to the hook load."""
-    rows: list[Row] = []
+    rows: list[Fact] = []
     if not np.isnan(row["jet_speed_m_s"]):
         share = f"{100 * row['bit_drop_Pa'] / row['standpipe_Pa']:.0f} % of the standpipe pressure"
         rows = [
@@ -207,9 +206,9 @@ def _bit(row: dict[str, Any], units: System) -> list[Row]:
     return [*rows, _fact("hook load less by", row, "lift_N", units, ", in straight vertical hole")]
 
 
-def _fact(words: str, row: dict[str, Any], column: str, units: System, more: str = "") -> Row:
+def _fact(words: str, row: dict[str, Any], column: str, units: System, more: str = "") -> Fact:
     unit = shown(column, units)
-    return words, number(row[column] * unit.factor), unit.label + more
+    return words, short(row[column] * unit.factor, none=""), unit.label + more
 
 
 def _facts_line(one: Circulation, flows: Sequence[float], units: System) -> str:

@@ -10,9 +10,8 @@ from rich.table import Column, Table
 
 from fctd.case.errors import InputError
 from fctd.case.systems import SPEED, told
-from fctd.cli.check import facts_table
 from fctd.cli.hydraulics import Beside, read_eccentricity
-from fctd.cli.job import Depths, Job, grid, headed, numbers, rows_of
+from fctd.cli.job import Depths, Job, grid, headed, numbers, print_facts, rows_of
 from fctd.cli.options import CaseFile, Overrides, Quiet, Strict, Units, screen
 from fctd.cli.pictures import PICTURE_HELP, TABLES, draw_panels
 from fctd.cli.quantities import TO_TOTAL_DEPTH, Given, QuantityOption, quantity, several
@@ -108,7 +107,7 @@ def _words(texts: Sequence[str]) -> list[str]:
 
 def _print(job: Job, surges: "pd.DataFrame", fastest: "pd.DataFrame | None") -> None:
     units = job.units
-    screen.print(facts_table(flow_curves(job.case.mud, units)))
+    print_facts(flow_curves(job.case.mud, units))
     for (kind, end), of in surges[surges["reason"] == "none"].groupby(["operation", "end"], sort=False):
         screen.print(f"{kind}, {end} end")
         screen.print(_table(of, SURGES, "regime", units))

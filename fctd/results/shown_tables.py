@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from typing import TYPE_CHECKING, Any, Final, NamedTuple
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
 
 from fctd.case.operations import KINDS
-from fctd.case.systems import told
+from fctd.case.systems import Kind, told
 from fctd.case.text import printable
-from fctd.results.case_facts import Row
 from fctd.results.unit_systems import System, in_field_units
 from fctd.results.workbook import Heading, heading_of
 
@@ -34,24 +33,41 @@ class Cell(NamedTuple):
     number: float | None = None
 
 
+# What, how much, and its unit or what else there is to say.
+Fact: TypeAlias = tuple[str, Cell, str]
+
+
+class Head(NamedTuple):
+    """The head of a column: its words, the unit of its numbers, and whether it has numbers; None: as its cells tell."""
+
+    words: str
+    unit: str = ""
+    numbers: bool | None = None
+
+    def __str__(self) -> str:
+        return f"{self.words} ({self.unit})" if self.unit else self.words
+
+
 @dataclass(frozen=True)
 class Table:
     """A table: its title, the heads of its columns (none of a table of facts), rows of cells, and lines below it."""
 
     title: str
-    heads: tuple[str, ...]
+    heads: tuple[Head | str, ...]
     rows: tuple[tuple[Cell, ...], ...]
     notes: tuple[str, ...] = ()
 
     @cached_property
     def numeric(self) -> tuple[bool, ...]:
-        """Whether each column has numbers alone, and stands to the right."""
+        """Whether each column has numbers, and stands to the right: as its head says, else where it has them alone."""
         columns = list(zip(*self.rows, strict=True)) or [()] * len(self.heads)
+        said = [head.numbers if isinstance(head, Head) else None for head in self.heads or [""] * len(columns)]
         return tuple(
             any(cell.number is not None for cell in column)
             and all(cell.number is not None or cell.text in (NONE, "") for cell in column)
-            for column in columns
-        )
+            if numbers is None else numbers
+            for numbers, column in zip(said, columns, strict=True)
+        )  # fmt: skip
 
 
 def text(value: object) -> Cell:
@@ -59,31 +75,51 @@ def text(value: object) -> Cell:
     return Cell(printable(str(value)))
 
 
-def number(value: float, digits: int) -> Cell:
-    """A number with digits after the point; a dash for one that is not finite."""
-    return Cell(f"{value:z.{digits}f}", float(value)) if math.isfinite(value) else Cell(NONE)
+def number(value: float, digits: int, none: str = NONE) -> Cell:
+    """A number with digits after the point; none : of one that is not finite."""
+    return Cell(f"{value:z.{digits}f}", float(value)) if math.isfinite(value) else Cell(none)
 
 
-def short(value: float, digits: int = 4) -> Cell:
-    """A number with so many digits in all."""
-    if not math.isfinite(value):
-        return Cell(NONE)
-    return number(value, 0) if abs(value) >= 10**digits else Cell(f"{value:z.{digits}g}", float(value))
+def short(value: float, digits: int = 4, none: str = NONE) -> Cell:
+    """A number with so many digits in all; none : of one that is not finite."""
+    if not math.isfinite(value) or abs(value) >= 10 ** (digits - 1):
+        return number(value, 0, none)
+    return Cell(f"{value:z.{digits}g}", float(value))
 
 
-def facts(title: str, rows: Iterable[Row]) -> Table:
-    """A table of facts, one a row, whose values are numbers where they can be read as such."""
-    return Table(
-        title, (), tuple((text(what), _read(value), text(more.replace("^3", "³"))) for what, value, more in rows)
-    )
+def quantity(kind: Kind, value: float | None, units: System) -> Cell:
+    """A value [SI] with the digits of its kind, a dash for None."""
+    return Cell(NONE) if value is None else number(value * kind.shown(units).factor, kind.digits_in(units))
 
 
-def _read(value: str) -> Cell:
-    try:
-        found = float(value)
-    except ValueError:
-        return text(value)
-    return Cell(value, found) if math.isfinite(found) else text(value)
+def facts(title: str, rows: Iterable[Fact]) -> Table:
+    """A table of facts, one a row: what, its value, and its unit or what else there is to say."""
+    return Table(title, (), tuple((text(what), value, text(more)) for what, value, more in rows))
+
+
+def texts(title: str, rows: Mapping[str, object]) -> Table:
+    """A table of facts that are texts."""
+    return Table(title, (), tuple((text(what), text(value)) for what, value in rows.items()))
+
+
+def quantities(
+    title: str, columns: Sequence[tuple[str, Kind | None]], rows: Iterable[Sequence[object]], units: System,
+    notes: tuple[str, ...] = (),
+) -> Table:  # fmt: skip
+    """A table of values [SI] and texts.
+
+    columns : words of each, and the kind of its values, None of texts.  rows : values, None for a dash, or cells.
+    """
+    heads = (Head(words) if kind is None else Head(words, kind.label(units), True) for words, kind in columns)
+    kinds = [kind for _, kind in columns]
+    cells = (tuple(map(partial(_made, units), kinds, row)) for row in rows)
+    return Table(title, tuple(heads), tuple(cells), notes)
+
+
+def _made(units: System, kind: Kind | None, value: Any) -> Cell:
+    if isinstance(value, Cell):
+        return value
+    return text(NONE if value is None else value) if kind is None else quantity(kind, value, units)
 
 
 def frame_table(
@@ -99,16 +135,9 @@ def frame_table(
     heads, cells = [], []
     for k, name in enumerate(map(str, kept)):
         heading = heading_of(str(shown.columns[k]))
-        heads.append(_named(heading.text, (words or {}).get(name, "")))
+        heads.append(Head((words or {}).get(name) or heading.words, heading.unit))
         cells.append([_cell(name, value, heading, units) for value in shown.iloc[:, k]])
     return Table(title, tuple(heads), tuple(zip(*cells, strict=True)), tuple(map(printable, notes)))
-
-
-def _named(heading: str, word: str) -> str:
-    """A heading with another word, and its unit."""
-    if not word:
-        return heading
-    return f"{word} {heading[heading.rindex('(') :]}" if heading.endswith(")") else word
 
 
 def _cell(column: str, value: Any, heading: Heading, units: System) -> Cell:

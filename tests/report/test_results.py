@@ -21,7 +21,7 @@ def tables(report: Report, section: str) -> dict[str, Table]:
 
 
 def column(table: Table, head: str) -> list[float | None]:
-    return [row[table.heads.index(head)].number for row in table.rows]
+    return [row[[*map(str, table.heads)].index(head)].number for row in table.rows]
 
 
 @pytest.mark.parametrize(("units", "force", "depth"), [("si", "kN", "m"), ("field", "klbf", "ft")])
