@@ -14,7 +14,7 @@ from fctd.case.systems import LENGTH
 from fctd.case.text import counted
 from fctd.model.summary import Summary, segments_in_words, summarise
 from fctd.results.case_facts import hole_table, load_facts, path_facts, string_table
-from fctd.results.shown_tables import texts
+from fctd.results.shown_tables import facts
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -79,7 +79,7 @@ class CheckedCase:
     def _repr_html_(self) -> str:
         told = "".join(f"<p>warning: {escape(str(warning))}</p>" for warning in self.warnings)
         case, units = self.summary.case, self.summary.case.system
-        tables = texts(case.name, self.facts), hole_table(case, units), string_table(self.summary, units)
+        tables = facts(case.name, self.facts.items()), hole_table(case, units), string_table(self.summary, units)
         return told + "".join(map(html_table, tables))
 
 

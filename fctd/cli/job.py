@@ -26,7 +26,7 @@ from fctd.cli.quantities import DEPTHS, Given, quantity
 from fctd.cli.steady import DEPTHS_HELP, in_units, metadata_of, metadata_of_case
 from fctd.results.differences import in_a_row
 from fctd.results.notes import meanings_of
-from fctd.results.shown_tables import Head, Table
+from fctd.results.shown_tables import Cell, Head, Table, short
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, in_words, shown
 from fctd.store.tables import Rows
@@ -36,6 +36,7 @@ if TYPE_CHECKING:
 
 Show = Callable[..., None]
 Row = dict[str, Any]
+Looks = Mapping[str, Mapping[str, Any]]  # options of rich for columns by the words of their heads
 # Options of rich for columns.
 FOLD: Final = {"overflow": "fold"}
 WHOLE: Final = {"no_wrap": True}
@@ -204,29 +205,19 @@ def rows_of(table: "pd.DataFrame", most: int = 0, also: Iterable[int] = ()) -> l
     return [rows[k] for k in np.unique([*ends, *also])]
 
 
-def grid(*columns: Column, **options: Any) -> Grid:
-    """An empty table of a screen; options : of rich, in place of the usual ones."""
-    return Grid(*columns, **{"box": SIMPLE_HEAD, "collapse_padding": True, "pad_edge": False, **options})
+def right(*heads: str) -> list[Head]:
+    """Heads of numbers, whose units stand on lines of their own."""
+    return [Head(*head.partition("\n")[::2], numbers=True) for head in heads]
 
 
-def right(*heads: str, **options: Any) -> list[Column]:
-    """Columns of numbers."""
-    return [Column(head, justify="right", **options) for head in heads]
+def headed(columns: Mapping[str, str], units: System) -> list[Head]:
+    """Heads of numbers by the names of their columns, with words and units."""
+    return [Head(words, shown(name, units).label, numbers=True) for name, words in columns.items()]
 
 
-def headed(columns: Mapping[str, str], units: System, **options: bool) -> list[Column]:
-    """Columns of numbers by their names, with words and units."""
-    return right(*(f"{words}\n{shown(name, units).label}" for name, words in columns.items()), **options)
-
-
-def number(value: float) -> str:
-    """A number in four digits; nothing for NaN."""
-    return "" if np.isnan(value) else f"{value:.0f}" if abs(value) >= 1000 else f"{value:z.4g}"
-
-
-def numbers(row: Row, columns: Iterable[str], units: System) -> list[str]:
-    """The numbers of a row in the units of the screen."""
-    return [number(row.get(name, np.nan) * shown(name, units).factor) for name in columns]
+def numbers(row: Row, columns: Iterable[str], units: System) -> list[Cell]:
+    """The numbers of a row in the units of the screen, in four digits; nothing for NaN."""
+    return [short(row.get(name, np.nan) * shown(name, units).factor, none="") for name in columns]
 
 
 def print_table(
@@ -242,18 +233,19 @@ def print_table(
     columns = (
         Column(
             "\n".join(filter(None, (head.words, head.unit))),
-            **{**({"justify": "right", **numbers} if right else words), **looks.get(head.words, {})},
+            justify="right" if right else "left",
+            **looks.get(head.words, numbers if right else words),
         )
         for head, right in zip(heads, table.numeric, strict=True)
     )
-    drawn = grid(*columns, **options)
+    drawn = Grid(*columns, **{"box": SIMPLE_HEAD, "collapse_padding": True, "pad_edge": False, **options})
     for row in table.rows:
         drawn.add_row(*(cell.text for cell in row))
     screen.print(drawn)
 
 
-def print_facts(table: Table) -> None:
-    """Print a table of facts, if it has any; their values stand to the right."""
+def print_facts(table: Table, **options: Any) -> None:
+    """Print a table of facts, if it has any; their values stand to the right; options : as of ``print_table``."""
     heads = Head(""), Head("", "", True), Head("")
     if table.rows:
-        print_table(replace(table, heads=heads), show_header=False, collapse_padding=False)
+        print_table(replace(table, heads=heads), show_header=False, collapse_padding=False, **options)

@@ -19,7 +19,7 @@ from fctd.report.parts import Part, Picture, Section, Text
 from fctd.results.columns import LOADS
 from fctd.results.notes import MEANINGS
 from fctd.results.series import FRICTION_LABEL
-from fctd.results.shown_tables import NONE, Cell, Table, frame_table, number, text, texts
+from fctd.results.shown_tables import NONE, Cell, Table, facts, frame_table, number, text
 from fctd.results.status import SteadyStatus
 from fctd.results.unit_systems import System, digits_of, in_words, shown
 from fctd.steady.margins import FATIGUE, OVERPULL, SET_DOWN, SLIPS, TORQUE
@@ -215,4 +215,4 @@ def along(points: Sequence[Equilibrium], units: System) -> Section:
 
 def made_with(case: Case) -> Section:
     """Versions of the program and of what its numbers depend on, and a hash of the case."""
-    return Section("Versions", (texts("", {**versions(), "hash of the case with its survey": case.digest}),))
+    return Section("Versions", (facts("", [*versions().items(), ("hash of the case with its survey", case.digest)]),))

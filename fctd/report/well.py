@@ -43,7 +43,7 @@ from fctd.results.case_facts import (
     path_facts,
     string_table,
 )
-from fctd.results.shown_tables import NONE, Cell, Fact, Table, facts, number, quantities, quantity, short, text, texts
+from fctd.results.shown_tables import NONE, Cell, Fact, Table, facts, number, quantities, quantity, short, text
 
 
 def _facts(rows: Iterable[tuple[str, Kind, float | None, str]], units: System) -> list[Fact]:
@@ -67,7 +67,7 @@ def well(summary: Summary, units: System, company: str, by: str, date: str) -> S
     return Section(
         "Well",
         (
-            texts("General", {what: value for what, value in general.items() if value}),
+            facts("General", ((what, value) for what, value in general.items() if value)),
             _datum(case, units),
             path_facts(summary, units),
         ),

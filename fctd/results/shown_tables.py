@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
 
 from fctd.case.operations import KINDS
@@ -92,18 +92,21 @@ def quantity(kind: Kind, value: float | None, units: System) -> Cell:
     return Cell(NONE) if value is None else number(value * kind.shown(units).factor, kind.digits_in(units))
 
 
-def facts(title: str, rows: Iterable[Fact]) -> Table:
+def shown_table(
+    heads: Iterable[Head | str], rows: Iterable[Iterable[object]], title: str = "", notes: tuple[str, ...] = ()
+) -> Table:  # fmt: skip
+    """A table of cells and of what becomes cells of text, a dash for None."""
+    made = ([cell if isinstance(cell, Cell) else text(NONE if cell is None else cell) for cell in row] for row in rows)
+    return Table(title, tuple(heads), tuple(map(tuple, made)), notes)
+
+
+def facts(title: str, rows: Iterable[tuple[object, ...]]) -> Table:
     """A table of facts, one a row: what, its value, and its unit or what else there is to say."""
-    return Table(title, (), tuple((text(what), value, text(more)) for what, value, more in rows))
-
-
-def texts(title: str, rows: Mapping[str, object]) -> Table:
-    """A table of facts that are texts."""
-    return Table(title, (), tuple((text(what), text(value)) for what, value in rows.items()))
+    return shown_table((), rows, title)
 
 
 def quantities(
-    title: str, columns: Sequence[tuple[str, Kind | None]], rows: Iterable[Sequence[object]], units: System,
+    title: str, columns: Sequence[tuple[str, Kind | None]], rows: Iterable[Sequence[Any]], units: System,
     notes: tuple[str, ...] = (),
 ) -> Table:  # fmt: skip
     """A table of values [SI] and texts.
@@ -111,15 +114,14 @@ def quantities(
     columns : words of each, and the kind of its values, None of texts.  rows : values, None for a dash, or cells.
     """
     heads = (Head(words) if kind is None else Head(words, kind.label(units), True) for words, kind in columns)
-    kinds = [kind for _, kind in columns]
-    cells = (tuple(map(partial(_made, units), kinds, row)) for row in rows)
-    return Table(title, tuple(heads), tuple(cells), notes)
-
-
-def _made(units: System, kind: Kind | None, value: Any) -> Cell:
-    if isinstance(value, Cell):
-        return value
-    return text(NONE if value is None else value) if kind is None else quantity(kind, value, units)
+    made = (
+        (
+            value if kind is None or isinstance(value, Cell) else quantity(kind, value, units)
+            for value, (_, kind) in zip(row, columns, strict=True)
+        )
+        for row in rows
+    )
+    return shown_table(heads, made, title, notes)
 
 
 def frame_table(
