@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 from fctd import plots
 from fctd.case.errors import InputError
 from fctd.results.columns import COLUMNS, LOADS
-from fctd.results.shown_tables import NONE, Table
-from fctd.results.unit_systems import System, digits_of, shown
+from fctd.results.shown_tables import NONE, Table, of_column
+from fctd.results.unit_systems import System, shown
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -46,9 +46,9 @@ def html_of(title: str, table: pd.DataFrame, most: int = 12) -> str:
 def load_rows(loads: Mapping[str, float], units: System) -> dict[str, str]:
     """Labels of columns and their values with units, "hook load": "957.9 kN"; a dash for NaN."""
     return {
-        COLUMNS[name].label: NONE if isnan(value) else f"{value * factor:z.{digits_of(name, units)}f} {unit}"
+        COLUMNS[name].label: NONE if isnan(value) else f"{of_column(name, value, units).text} {unit}"
         for name, value in loads.items()
-        for factor, unit in [shown(name, units)]
+        for _, unit in [shown(name, units)]
     }
 
 

@@ -16,9 +16,9 @@ from fctd.plots.loads import LOAD_COLUMNS, Load
 from fctd.results.columns import BUCKLED, COLUMNS, DEPTH, IN_CHART
 from fctd.results.notes import MEANINGS
 from fctd.results.series import FRICTION_LABEL, in_words
-from fctd.results.shown_tables import Cell, Head, number, shown_table
+from fctd.results.shown_tables import Head, of_column, shown_table
 from fctd.results.status import SteadyStatus
-from fctd.results.unit_systems import System, digits_of, shown
+from fctd.results.unit_systems import System, shown
 from fctd.steady.torque_drag import Row
 
 T = TypeVar("T")
@@ -46,16 +46,15 @@ def print_chart(rows: list[Row], name: str, units: System, load: Load) -> None:
     each, shown_rows = max(SCREEN_ROWS // len(series), 1), list[list[Any]]()
     for (operation, friction), of in series.items():
         for k, row in enumerate(spread(of, each)):
-            values: list[Any] = [cell(row, column.name, units) for column in columns]
-            values += [_buckled(row, units_of[DEPTH.name].factor)] * buckled
-            names = (operation, friction) if fan else (operation,)
-            shown_rows.append([*(("",) * len(names) if k else names), *values, row["status"].replace("_", " ")])
+            values = (of_column(column.name, row[column.name], units) for column in columns)
+            where = [_buckled(row, units_of[DEPTH.name].factor)] * buckled
+            names = [""] * (1 + fan) if k else [operation, friction][: 1 + fan]
+            shown_rows.append([*names, *values, *where, row["status"].replace("_", " ")])
     table = shown_table(["operation", *(["μ"] * fan), *heads, "status"], shown_rows)
     looks: Looks = {"operation": WHOLE, "status": {"min_width": len(SteadyStatus.CONVERGED)}}
     print_table(table, looks, words=FOLD, numbers=FOLD)
-    printed = len(shown_rows)
-    left_out = f"; {printed} of them above, all of them in a file by --out" if printed < len(rows) else ""
-    screen.print(f"{counts_of(rows)}{left_out}", soft_wrap=True)
+    printed = f"; {len(shown_rows)} of them above, all of them in a file by --out"
+    screen.print(f"{counts_of(rows)}{printed if len(shown_rows) < len(rows) else ''}", soft_wrap=True)
     explain(load)
     depth = units_of["bit_depth_m"]
     for (operation, friction), of in series.items():
@@ -68,11 +67,6 @@ def spread(items: Sequence[T], most: int) -> list[T]:
     """At most so many items, evenly spread, always with the last one."""
     picked = np.unique(np.linspace(len(items) - 1, 0, min(most, len(items))).round().astype(int))
     return [items[k] for k in picked]
-
-
-def cell(row: Row, column: str, units: System) -> Cell:
-    """A load of a row to the digits of its column."""
-    return number(row[column] * shown(column, units).factor, digits_of(column, units))
 
 
 def counts_of(rows: Sequence[Row]) -> str:

@@ -9,15 +9,15 @@ from fctd.answers.comparison import Comparison
 from fctd.case.operations import KINDS
 from fctd.case.systems import told
 from fctd.case.text import printable
-from fctd.cli.chart_table import cell, counts_of, exceptions, explain, spread
-from fctd.cli.job import FOLD, WHOLE, print_table, rows_of
+from fctd.cli.chart_table import counts_of, exceptions, explain, spread
+from fctd.cli.job import FOLD, WHOLE, headed, print_table, rows_of
 from fctd.cli.options import messages, screen
 from fctd.plots.loads import LOAD_COLUMNS, NAMES, TORQUE, Load
 from fctd.results.columns import DEPTH
 from fctd.results.series import FRICTION_LABEL
-from fctd.results.shown_tables import Head, Table, number, shown_table
+from fctd.results.shown_tables import Head, Table, of_column, shown_table
 from fctd.results.status import SteadyStatus
-from fctd.results.unit_systems import System, digits_of, shown
+from fctd.results.unit_systems import System, shown
 from fctd.steady.torque_drag import Row
 
 SCREEN_ROWS: Final = 24  # of a table
@@ -69,16 +69,15 @@ def _table(
     cases: dict[str, ByDepth], series: Sequence[tuple[str, str]], column: str, units: System, *, fan: bool
 ) -> Table:
     """A column of the charts of all cases, a row for each operation, set of factors and bit depth."""
-    metre, digits = shown(DEPTH.name, units), digits_of(DEPTH.name, units)
     found: list[list[Any]] = []
     for key in series:
         rows = [of.get(key, {}) for of in cases.values()]
         for k, depth in enumerate(_depths(rows, max(SCREEN_ROWS // len(series), 1))):
             names = (key if fan else key[:1]) if k == 0 else ("",) * (1 + fan)
             values = [_value(of[depth], column, units) if depth in of else "" for of in rows]
-            found.append([*names, number(depth * metre.factor, digits), *values])
+            found.append([*names, of_column(DEPTH.name, depth, units), *values])
     heads = (Head(printable(name), numbers=True) for name in cases)
-    return shown_table(["operation", *(["μ"] * fan), Head("bit", metre.label, True), *heads], found)
+    return shown_table(["operation", *(["μ"] * fan), *headed({DEPTH.name: "bit"}, units), *heads], found)
 
 
 def _depths(rows: Sequence[dict[float, Row]], most: int) -> list[float]:
@@ -90,4 +89,4 @@ def _depths(rows: Sequence[dict[float, Row]], most: int) -> list[float]:
 
 def _value(row: Row, column: str, units: System) -> str:
     mark = "" if row["status"] == SteadyStatus.CONVERGED or np.isnan(row[column]) else "*"
-    return cell(row, column, units).text + mark
+    return of_column(column, row[column], units).text + mark

@@ -42,7 +42,7 @@ from fctd.results.buckling import BUCKLED
 from fctd.results.columns import COLUMNS, LOADS, SHAPES, SHARES
 from fctd.results.notes import as_metadata
 from fctd.results.profile import place_in_words
-from fctd.results.shown_tables import Fact, facts, number, short, text
+from fctd.results.shown_tables import Fact, facts, of_column, short, text
 from fctd.results.unit_systems import shown
 from fctd.steady.equilibrium import equilibrium
 from fctd.steady.steady_string import Equilibrium
@@ -128,30 +128,28 @@ def _print(job: Job, point: Equilibrium, *, lacking: bool) -> None:
     lacking : whether a profile was asked for that there is not.
     """
     units, metre = job.units, shown("bit_depth_m", job.units)
-    rows: list[Fact] = []
-    for name, value in _loads(point).items():
-        unit = shown(name, units)
-        rows.append((COLUMNS[name].label, number(value * unit.factor if point.answered else np.nan, 3), unit.label))
+
+    def fact(name: str, value: float, of: str = "", more: str = "") -> Fact:
+        return f"{of}{COLUMNS[name].label}", of_column(name, value, units, 3), shown(name, units).label + more
+
+    rows = [fact(name, value if point.answered else np.nan) for name, value in _loads(point).items()]
     if point.answered:
         profile = point.profile
         for name, worst in (("effective_tension_N", "min"), ("contact_force_N", "max"), ("von_mises_Pa", "max")):
-            unit, row = shown(name, units), profile.loc[profile[name].agg(f"idx{worst}")]
-            where = f"at {place_in_words(row['md_m'], point.bit_depth, metre.factor, metre.label)}"
-            rows.append(
-                (f"{worst}. {COLUMNS[name].label}", number(row[name] * unit.factor, 3), f"{unit.label} {where}")
-            )
-        for mode in BUCKLED:
-            for first, last in stretches(profile, mode):
-                where = f"{first * metre.factor:.0f} to {last * metre.factor:.0f}"
-                rows.append((f"beyond {mode} limit", text(where), metre.label))
-    if point.shape != "none":
-        rows.append(("shape", text(point.shape), ""))
-    for name, value in _found(point).items():
-        if COLUMNS[name] in SHARES:
-            rows.append((COLUMNS[name].label, short(100 * value, 3), "% of the friction"))
-        else:
-            unit = shown(name, units)
-            rows.append((COLUMNS[name].label, number(value * unit.factor, 3), unit.label))
+            row = profile.loc[profile[name].agg(f"idx{worst}")]
+            where = place_in_words(row["md_m"], point.bit_depth, metre.factor, metre.label)
+            rows.append(fact(name, row[name], f"{worst}. ", f" at {where}"))
+        rows += [
+            (f"beyond {mode} limit", text(f"{first * metre.factor:.0f} to {last * metre.factor:.0f}"), metre.label)
+            for mode in BUCKLED
+            for first, last in stretches(profile, mode)
+        ]
+    rows += [("shape", text(point.shape), "")] * (point.shape != "none")
+    rows += [
+        (COLUMNS[name].label, short(100 * value, 3), "% of the friction")
+        if COLUMNS[name] in SHARES else fact(name, value)
+        for name, value in _found(point).items()
+    ]  # fmt: skip
     print_facts(facts("", rows), pad_edge=True)
     screen.print(f"{point.status}, {point.iterations} iterations")
     if point.message:

@@ -11,7 +11,7 @@ from fctd.case.errors import InputError
 from fctd.case.load import Case, naming_file
 from fctd.case.message import frame_of
 from fctd.case.systems import ACROSS, DENSITY, FLOW
-from fctd.case.text import counted, printable
+from fctd.case.text import counted
 from fctd.case.units import MOST_FLOW
 from fctd.cli.job import FOLD, Depths, Job, headed, numbers, print_facts, print_table, right, rows_of
 from fctd.cli.options import CaseFile, Overrides, Quiet, Strict, Units, messages
@@ -178,13 +178,14 @@ def _table(of: "pd.DataFrame", units: System) -> Table:
 def _parts(one: Circulation, units: System) -> Table:
     """A row for every part of the circuit."""
     heads = (f"{words}\n{shown(name, units).label}" if words else "regime" for name, words in PARTS.items())
-    rows: list[list[Any]] = []
-    for row in one.parts():
-        of = f" {printable(row['name'])}" if row["name"] else ""
-        hole = f" in {row['interval']}" if row["interval"] else ""
-        cells = [numbers(row, [name], units)[0] if words else row[name] for name, words in PARTS.items()]
-        rise = "" if np.isnan(row["transport_ratio"]) else f"{100 * row['transport_ratio']:.0f} %"
-        rows.append([row["part"] + of + hole, *cells, rise])
+    rows = (
+        [
+            " ".join(filter(None, (row["part"], row["name"], row["interval"] and f"in {row['interval']}"))),
+            *(numbers(row, [name], units)[0] if words else row[name] for name, words in PARTS.items()),
+            "" if np.isnan(row["transport_ratio"]) else f"{100 * row['transport_ratio']:.0f} %",
+        ]
+        for row in one.parts()
+    )  # fmt: skip
     return shown_table(["part", *right(*heads), Head("cuttings\nrise at", numbers=True)], rows)
 
 

@@ -11,7 +11,7 @@ from fctd.cli.job import WHOLE, Job, print_table, right, rows_of
 from fctd.cli.options import CaseFile, Friction, Overrides, Strict, Units
 from fctd.cli.quantities import BIT_DEPTH, TOTAL_DEPTH, Given, QuantityOption, is_number, quantity, several
 from fctd.cli.steady import DEPTH_HELP, StuckAt, file_option
-from fctd.results.shown_tables import Head, number, shown_table
+from fctd.results.shown_tables import Head, number, of_column, shown_table
 from fctd.results.unit_systems import shown
 from fctd.steady.jar import UP, jar_forces
 
@@ -72,12 +72,14 @@ def _print(job: Job, table: "pd.DataFrame") -> None:
     units, rows = job.units, rows_of(table)
     where = [f"{what} at {job.words(rows[0], key)}" for what, key in PLACES.items()]
     job.say(f"{', '.join(where)}; forces in {shown('hookload_N', units).label}")
-    found: list[list[Any]] = []
-    for row in rows:
-        cells = [number(row[name] * shown(name, units).factor, 1) for name in SHOWN]
-        cells += [number(100 * row[name], 0) for name in ("share_used", "hoist_share")]
-        until = [row[name].replace("_", " ") for name in ("limit", "buckling") if row[name] != "none"]
-        found.append(["up" if row["direction"] == UP else "down", *cells, ", ".join(until)])
+    found = (
+        [
+            "up" if row["direction"] == UP else "down", *(of_column(name, row[name], units, 1) for name in SHOWN),
+            *(number(100 * row[name], 0) for name in ("share_used", "hoist_share")),
+            ", ".join(row[name].replace("_", " ") for name in ("limit", "buckling") if row[name] != "none"),
+        ]
+        for row in rows
+    )  # fmt: skip
     heads = [Head(words, numbers=True) for words in SHOWN.values()]
     print_table(
         shown_table(["\njar", *heads, *right("used\n%", "hoist\n%"), "first\nlimit"], found),

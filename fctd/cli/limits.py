@@ -21,7 +21,7 @@ from fctd.cli.steady import (
     read_drive,
     read_kinds,
 )
-from fctd.results.shown_tables import Cell, Head, number, shown_table
+from fctd.results.shown_tables import Head, number, of_column, shown_table
 from fctd.results.unit_systems import System, shown
 from fctd.steady.margin_table import AT_STUCK, USUAL, limits_of
 from fctd.steady.margins import FATIGUE, LACKING, MEANINGS, OVERPULL, SET_DOWN, SLIPS, TORQUE
@@ -124,9 +124,10 @@ def _print_margin(of: "pd.DataFrame", columns: Sequence[str], units: System) -> 
     for row in rows_of(of[of["bit_depth_m"].isin(picked)]):
         place = "" if np.isnan(row["md_m"]) else f"{row['md_m'] * metre.factor:.0f} {metre.label}"
         part = "" if row["part"] == "none" else printable(row["part"])
+        cells = (of_column(name, row[name], units, int(name.endswith("_N_m"))) if name else None for name in columns)
         rows.append([
-            row["limit"].replace("_", " "), number(row["bit_depth_m"] * metre.factor, 0),
-            number(100 * row["share_used"], 0, ""), *(_cell(row, column, units) for column in columns),
+            row["limit"].replace("_", " "), of_column("bit_depth_m", row["bit_depth_m"], units, 0),
+            number(100 * row["share_used"], 0, ""), *cells,
             ", ".join(text for text in (place, part) if text),
         ])  # fmt: skip
     looks = {"until": {**WHOLE, "min_width": max(map(len, limits))}}
@@ -134,11 +135,6 @@ def _print_margin(of: "pd.DataFrame", columns: Sequence[str], units: System) -> 
     print_table(
         shown_table(["until", *(Head(name, numbers=True) for name in names), "where"], rows), looks, words=WHOLE
     )
-
-
-def _cell(row: dict[str, Any], column: str, units: System) -> Cell:
-    digits = 1 if column.endswith("_N_m") else 0
-    return number(row[column] * shown(column, units).factor if column else np.nan, digits)
 
 
 def _bending(job: Job, table: "pd.DataFrame") -> list[str]:

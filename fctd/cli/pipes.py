@@ -1,7 +1,7 @@
 """``fctd pipes``: the pipe of the catalogue, and what it bears."""
 
 import re
-from typing import Annotated, Any, Final
+from typing import Annotated, Final
 
 import typer
 
@@ -81,14 +81,15 @@ COLUMNS: Final[tuple[tuple[str, Kind, tuple[int, int]], ...]] = (
 
 
 def _table(pipes: list[Pipe], pages: list[str], units: System) -> Table:
-    rows: list[list[Any]] = []
-    for pipe in pipes:
-        cells = [
-            None if value is None else number(value * kind.shown(units).factor, digits[SYSTEMS.index(units)])
-            for value, (_, kind, digits) in zip(_values(pipe), COLUMNS, strict=True)
+    rows = (
+        [
+            pipe.name, *(
+                None if value is None else number(value * kind.shown(units).factor, digits[SYSTEMS.index(units)])
+                for value, (_, kind, digits) in zip(_values(pipe), COLUMNS, strict=True)
+            ), " ".join(dict.fromkeys(str(pages.index(key) + 1) for key in pipe.sources)),
         ]
-        numbers = dict.fromkeys(pages.index(key) + 1 for key in pipe.sources)
-        rows.append([pipe.name, *cells, " ".join(map(str, numbers))])
+        for pipe in pipes
+    )  # fmt: skip
     return shown_table(["pipe", *(Head(words, kind.label(units), True) for words, kind, _ in COLUMNS), "from"], rows)
 
 

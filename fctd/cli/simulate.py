@@ -52,7 +52,7 @@ from fctd.cli.options import (
 from fctd.cli.pictures import DRAWN, check_files
 from fctd.results.buckling import MODES
 from fctd.results.columns import BUCKLED, COLUMNS
-from fctd.results.shown_tables import number, shown_table
+from fctd.results.shown_tables import of_column, shown_table
 from fctd.results.status import RunStatus
 from fctd.results.swings import ENOUGH_PERIODS
 from fctd.results.tables import SimulationResult, check_result_folder, identity_of, own_files, result_files
@@ -220,7 +220,7 @@ def _summarise(result: SimulationResult, units: System) -> None:
         at = f"{last['bit_depth_m'] * depth.factor:.1f} {depth.label}"
         loads = ("hookload_N", "surface_torque_N_m", "sum_r_mu_fn_N_m", "total_contact_force_N")
         heads = right(*(f"{COLUMNS[name].label} {shown(name, units).label}" for name in loads), "contacts")
-        cells = [number(last[name] * shown(name, units).factor, digits_of(name, units)) for name in loads]
+        cells = [of_column(name, last[name], units) for name in loads]
         title = f"{printable(result.case.name)}: {last['operation']}, bit at {at}"
         print_table(shown_table(heads, [[*cells, last["contact_count"]]]), title=title, **BOXED)
         buckled = result.history[result.history["buckling"] != "none"]

@@ -43,7 +43,20 @@ from fctd.results.case_facts import (
     path_facts,
     string_table,
 )
-from fctd.results.shown_tables import NONE, Cell, Fact, Table, facts, number, quantities, quantity, short, text
+from fctd.results.shown_tables import (
+    NONE,
+    Cell,
+    Fact,
+    Head,
+    Table,
+    facts,
+    number,
+    quantities,
+    quantity,
+    short,
+    shown_table,
+    text,
+)
 
 
 def _facts(rows: Iterable[tuple[str, Kind, float | None, str]], units: System) -> list[Fact]:
@@ -144,10 +157,9 @@ def fluids(case: Case, units: System) -> Section:
     notes = ("The case gives no rheology: steady loads do not depend on it without flow.",) if lacks else ()
     parts.append(replace(known, rows=known.rows + flow_curves(mud, units).rows, notes=notes))
     if mud.fann is not None and mud.fit is not None:
-        readings = ("rev/min", "read (degrees)", "fitted (degrees)")
         pairs = zip(mud.fann.items(), mud.fit.misfit, strict=True)
-        read = tuple((short(speed), short(value), number(value + miss, 1)) for (speed, value), miss in pairs)
-        parts.append(Table("Viscometer", readings, read))
+        read = ((short(speed), short(value), number(value + miss, 1)) for (speed, value), miss in pairs)
+        parts.append(shown_table(["rev/min", Head("read", "degrees"), Head("fitted", "degrees")], read, "Viscometer"))
     sides = [(side, row) for side in ("inside", "outside") for row in getattr(mud, side)]
     if sides:
         heads = ("side", None), ("down to", LENGTH), ("density", DENSITY), ("plug below", None)
@@ -200,13 +212,15 @@ def _origin(case: Case, given: Sequence[FrictionSet]) -> Iterator[Text | Table]:
         return
     posterior = read_posterior(beside)
     yield Text(f"Calibrated by fctd calibrate: {beside.name}.")
-    rows = []
-    for k, unknown in enumerate(posterior.unknowns):
-        now = held(unknown.name, case)
-        spread = math.sqrt(float(posterior.covariance[k, k]))
-        found = short(float(posterior.best[k])), short(spread, 2), short(float(now[0])) if now else Cell(NONE)
-        rows.append((text(unknown.name), *found, text(unknown.unit)))
-    yield Table("Calibration", ("unknown", "calibrated", "standard deviation", "in this case", "unit"), tuple(rows))
+    rows = (
+        (
+            unknown.name, short(float(posterior.best[k])), short(math.sqrt(float(posterior.covariance[k, k])), 2),
+            short(float(now[0])) if (now := held(unknown.name, case)) else None, unknown.unit,
+        )
+        for k, unknown in enumerate(posterior.unknowns)
+    )  # fmt: skip
+    heads = "unknown", "calibrated", "standard deviation", "in this case", "unit"
+    yield shown_table(heads, rows, "Calibration")
 
 
 def rig(case: Case, units: System) -> Section:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
 from fctd.case.operations import KINDS
 from fctd.case.systems import Kind, told
 from fctd.case.text import printable
-from fctd.results.unit_systems import System, in_field_units
+from fctd.results.unit_systems import System, digits_of, in_field_units, shown
 from fctd.results.workbook import Heading, heading_of
 
 if TYPE_CHECKING:
@@ -92,6 +92,11 @@ def quantity(kind: Kind, value: float | None, units: System) -> Cell:
     return Cell(NONE) if value is None else number(value * kind.shown(units).factor, kind.digits_in(units))
 
 
+def of_column(name: str, value: float, units: System, digits: int | None = None) -> Cell:
+    """A value [SI] of a column of results; digits : after the point, default: those of the column."""
+    return number(value * shown(name, units).factor, digits_of(name, units) if digits is None else digits)
+
+
 def shown_table(
     heads: Iterable[Head | str], rows: Iterable[Iterable[object]], title: str = "", notes: tuple[str, ...] = ()
 ) -> Table:  # fmt: skip
@@ -133,12 +138,12 @@ def frame_table(
     words : heads of columns in place of those of their names.
     """
     kept = frame[[name for name in columns if name in frame and (frame[name].notna() & (frame[name] != "none")).any()]]
-    shown = in_field_units(kept) if units == "field" else kept
+    read = in_field_units(kept) if units == "field" else kept
     heads, cells = [], []
     for k, name in enumerate(map(str, kept)):
-        heading = heading_of(str(shown.columns[k]))
+        heading = heading_of(str(read.columns[k]))
         heads.append(Head((words or {}).get(name) or heading.words, heading.unit))
-        cells.append([_cell(name, value, heading, units) for value in shown.iloc[:, k]])
+        cells.append([_cell(name, value, heading, units) for value in read.iloc[:, k]])
     return Table(title, tuple(heads), tuple(zip(*cells, strict=True)), tuple(map(printable, notes)))
 
 
