@@ -137,8 +137,8 @@ def test_a_kind_of_quantity_is_one_line(copy: Path) -> None:
     table, headings, read = done.stdout.rsplit("\n", 4)[-4:-1]
     assert "pit_ft3" in done.stdout
     assert table.endswith("35.3146667214886 ft³")
-    assert headings.startswith("2 Heading(text='pit (ft³)', factor=1.0, format='0.00')")
-    assert headings.endswith("Heading(text='pit (m³)', factor=1.0, format='0.0')")
+    assert headings.startswith("2 Heading(words='pit', unit='ft³', factor=1.0, format='0.00')")
+    assert headings.endswith("Heading(words='pit', unit='m³', factor=1.0, format='0.0')")
     assert read == "0.028316846592 1.0"
 
 

@@ -6,15 +6,15 @@ from dataclasses import dataclass
 from html import escape
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from fctd.answers.display import html_of, html_table
+from fctd.answers.display import html_table
 from fctd.case.friction import factors_label
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case, naming_file
-from fctd.case.systems import DOG_LEG, FORCE, LENGTH
+from fctd.case.systems import LENGTH
 from fctd.case.text import counted
 from fctd.model.summary import Summary, segments_in_words, summarise
+from fctd.results.case_facts import hole_table, load_facts, path_facts, string_table
+from fctd.results.shown_tables import facts
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -35,19 +35,10 @@ class CheckedCase:
     @property
     def facts(self) -> dict[str, str]:
         """Path and weights with their units, those of the case."""
-        path, case = self.summary.path, self.summary.case
-        (long, m), (load, kN), (per, course) = LENGTH.shown(case.system), FORCE.shown(case.system), DOG_LEG[case.system]
-        return {
-            "total depth, measured": f"{path.depth * long:.1f} {m} ({counted(path.stations, 'station')})",
-            "true vertical depth": f"{path.vertical_depth * long:.1f} {m}",
-            "departure": f"{path.departure * long:.1f} {m}",
-            "greatest inclination": f"{np.degrees(path.inclination):.1f}° at {path.inclination_at * long:.0f} {m}",
-            "greatest dog-leg": f"{np.degrees(path.dogleg) * per:.2f}{course} from {path.dogleg_from * long:.0f} {m}",
-            "string in air": f"{self.summary.air * load:.1f} {kN}",
-            "string in mud": f"{self.summary.buoyed * load:.1f} {kN}",
-            "block weight": f"{case.rig.block_weight * load:.1f} {kN}",
-            "segments": self.segments,
-        }
+        units = self.summary.case.system
+        rows = path_facts(self.summary, units).rows + load_facts(self.summary, units).rows
+        told = {what.text: f"{value.text} {more.text}".replace(" °", "°").rstrip() for what, value, more in rows}
+        return told | {"segments": self.segments}
 
     @property
     def hole(self) -> pd.DataFrame:
@@ -87,8 +78,9 @@ class CheckedCase:
 
     def _repr_html_(self) -> str:
         told = "".join(f"<p>warning: {escape(str(warning))}</p>" for warning in self.warnings)
-        tables = html_table(self.summary.case.name, self.facts), html_of("hole", self.hole)
-        return "".join((told, *tables, html_of("string", self.string)))
+        case, units = self.summary.case, self.summary.case.system
+        tables = facts(case.name, self.facts.items()), hole_table(case, units), string_table(self.summary, units)
+        return told + "".join(map(html_table, tables))
 
 
 def check_case(case: Case) -> CheckedCase:

@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 from fctd import plots
 from fctd.case.errors import InputError
 from fctd.results.columns import COLUMNS, LOADS
-from fctd.results.unit_systems import System, digits_of, shown
+from fctd.results.shown_tables import NONE, Table, of_column
+from fctd.results.unit_systems import System, shown
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -29,12 +30,12 @@ Answer = TypeVar("Answer")
 MAIN = LOADS[:2]
 
 
-def html_table(title: str, rows: Mapping[str, str]) -> str:
-    """A table of names and values below a title, as HTML; texts are escaped."""
+def html_table(table: Table) -> str:
+    """A table below its title, as HTML; texts are escaped."""
     import pandas as pd
 
-    table = pd.DataFrame({title: list(rows.values())}, index=list(rows)).to_html()
-    return table.replace(' style="text-align: right;"', ' style="text-align: left;"')
+    shown = pd.DataFrame([[cell.text for cell in row] for row in table.rows], columns=[*map(str, table.heads)] or None)
+    return f"<p><b>{escape(table.title)}</b></p>{shown.to_html(header=bool(table.heads), index=False)}"
 
 
 def html_of(title: str, table: pd.DataFrame, most: int = 12) -> str:
@@ -45,9 +46,9 @@ def html_of(title: str, table: pd.DataFrame, most: int = 12) -> str:
 def load_rows(loads: Mapping[str, float], units: System) -> dict[str, str]:
     """Labels of columns and their values with units, "hook load": "957.9 kN"; a dash for NaN."""
     return {
-        COLUMNS[name].label: "–" if isnan(value) else f"{value * factor:z.{digits_of(name, units)}f} {unit}"
+        COLUMNS[name].label: NONE if isnan(value) else f"{of_column(name, value, units).text} {unit}"
         for name, value in loads.items()
-        for factor, unit in [shown(name, units)]
+        for _, unit in [shown(name, units)]
     }
 
 

@@ -4,6 +4,7 @@ from fctd import plots
 from fctd.answers.display import MAIN, Picture, answering, html_table, load_rows, picture
 from fctd.case.text import counted
 from fctd.results import tables
+from fctd.results.shown_tables import facts
 from fctd.results.unit_systems import System
 from fctd.simulation import simulate as in_time
 
@@ -15,7 +16,7 @@ class SimulationResult(tables.SimulationResult):
     def _repr_html_(self) -> str:
         loads = {load.name: float(self.history[load.name].iloc[-1]) for load in MAIN} if len(self.history) else {}
         rows = {"status": str(self.status), "records": str(len(self.history)), **load_rows(loads, self.case.system)}
-        return html_table(f"{self.case.name}{self._end}", rows)
+        return html_table(facts(f"{self.case.name}{self._end}", rows.items()))
 
     def plot(self, units: System | None = None) -> Picture:
         """Hook load, torque, rotation and depth over time, and where the string touched."""

@@ -21,6 +21,7 @@ from fctd.model.operations import SteadyRates, rates_of_all
 from fctd.results.attrs import attrs_of
 from fctd.results.columns import IN_CHART, Column
 from fctd.results.notes import RowNote
+from fctd.results.shown_tables import facts
 from fctd.results.unit_systems import System, in_field_units
 from fctd.steady import refine as cut
 from fctd.steady import steady_string
@@ -169,7 +170,7 @@ class Equilibrium(steady_string.Equilibrium):
 
     def _repr_html_(self) -> str:
         title = f"{self.case.name}: {self.operation}, bit at {self.bit_depth:g} m"
-        return html_table(title, {"status": str(self.status), **self._load_rows(IN_CHART)})
+        return html_table(facts(title, [("status", self.status), *self._load_rows(IN_CHART).items()]))
 
     def plot(self, units: System | None = None) -> Picture:
         """The string from the top to the bit: tension, torque, side force and so on over depth."""

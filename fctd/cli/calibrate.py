@@ -1,6 +1,6 @@
 """``fctd calibrate CASE MEASURED.csv``: unknowns of a case from measured rows."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
@@ -9,7 +9,6 @@ import numpy as np
 import pandas as pd
 import typer
 from rich.markup import escape
-from rich.table import Column, Table
 
 from fctd import plots
 from fctd.calibration.calibrate import Order, calibrate
@@ -21,7 +20,7 @@ from fctd.calibration.unknowns import NAMES
 from fctd.case.message import Message, within
 from fctd.case.systems import told
 from fctd.case.text import counted, printable
-from fctd.cli.job import Job, grid, right, rows_of
+from fctd.cli.job import FOLD, Job, print_table, right, rows_of
 from fctd.cli.options import (
     CaseFile,
     Friction,
@@ -37,6 +36,7 @@ from fctd.cli.options import (
 )
 from fctd.cli.pictures import DRAWN, TABLES
 from fctd.cli.steady import file_option, metadata_of_case
+from fctd.results.shown_tables import Head, shown_table
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, in_words, shown_unit
 
@@ -160,19 +160,19 @@ def notes_of(found: Calibration) -> Iterator[tuple[str, str]]:
 
 def print_calibration(found: Calibration, units: System) -> None:
     """Print unknowns, strong correlations, residuals, rows left out, and predictions of deeper sections."""
-    unknowns = _table(["unknown", ""], ["value", "95 %", "interval"], ["interval from"])
+    unknowns: list[list[Any]] = []
     for row in rows_of(found.table):
         factor, label = shown_unit(str(row["unit"]), units)
         numbers = [f"{row[key] * factor:.4g}" for key in ("value", "low", "high")]
-        unknowns.add_row(str(row["name"]), label, *numbers, f"{row['how']}{', at a bound' if row['at_bound'] else ''}")
-    screen.print(unknowns)
+        unknowns.append([row["name"], label, *numbers, f"{row['how']}{', at a bound' if row['at_bound'] else ''}"])
+    _print(["unknown", "", *right("value", "95 %", "interval"), "interval from"], unknowns)
     print_factors(found)
     names, matrix = found.forward.names, found.correlations.to_numpy(float)
     for i, one in enumerate(names):
         for other, value in zip(names[:i], matrix[i], strict=False):
             if abs(value) >= 0.9:
                 screen.print(f"correlation of {other} and {one}: {value:.3f}", soft_wrap=True)
-    rows = _table(["row", "load"], ["measured", "fitted", "off", "off/noise", "left out"], [])
+    rows: list[list[Any]] = []
     table = found.leave_one_out
     without = dict(zip(zip(table["id"], table["load"], strict=True), table["predicted"], strict=True))
     for row in rows_of(found.residuals):
@@ -182,8 +182,8 @@ def print_calibration(found: Calibration, units: System) -> None:
         numbers += [f"{row[name] * factor:z.1f}" for name in ("fitted", "residual")]
         alone = f"{float(without[key]) * factor:z.1f}" if key in without else "–"
         name = f"{row['id']}{_pumps(row, units)}" if row["used"] else f"({row['id']}{_pumps(row, units)})"
-        rows.add_row(name, f"{row['load']}, {label}", *numbers, f"{row['in_noise']:z.1f}", alone)
-    screen.print(rows)
+        rows.append([name, f"{row['load']}, {label}", *numbers, f"{row['in_noise']:z.1f}", alone])
+    _print(["row", "load", *right("measured", "fitted", "off", "off/noise", "left out")], rows)
     left = "row" if found.scattered is None else "rows of its day"
     screen.print(f"off: beyond the recorded range; left out: predicted by a fit without the {left}", soft_wrap=True)
     if lifted := float(found.residuals["lift_N"].abs().max()):
@@ -207,15 +207,15 @@ def print_factors(found: Calibration) -> None:
     table = found.factors
     if not len(table):
         return
-    rows = _table(["hole", "motion"], ["friction factor", "95 %", "interval"], ["from rows"])
+    rows: list[list[Any]] = []
     for row in rows_of(table):
         names = [*row["rows"]]
         listed = ", ".join(names[:_MOST_ROWS]) + (
             f" and {len(names) - _MOST_ROWS} more" if len(names) > _MOST_ROWS else ""
         )
         numbers = [f"{row[key]:.3f}" for key in ("value", "low", "high")]
-        rows.add_row(str(row["hole"]), str(row["motion"]), *numbers, printable(listed) or "none shows it")
-    screen.print(rows)
+        rows.append([row["hole"], row["motion"], *numbers, listed or "none shows it"])
+    _print(["hole", "motion", *right("friction factor", "95 %", "interval"), "from rows"], rows)
 
 
 def _pumps(row: Mapping[Any, Any], units: System) -> str:
@@ -228,11 +228,11 @@ def _pumps(row: Mapping[Any, Any], units: System) -> str:
 
 def print_prediction(table: pd.DataFrame, units: System) -> None:
     """Print predicted readings with their bands, and how many measured ones lie inside."""
-    rows = _table(["row", "load"], ["predicted", "50 %", "95 %", "measured"], ["inside"])
+    rows: list[list[Any]] = []
     for row in rows_of(table):
         factor, label = shown_unit(str(row["unit"]), units)
         if row["reason"] != "none":
-            rows.add_row(str(row["id"]), f"{row['load']}, {label}", *["–"] * 4, "")
+            rows.append([row["id"], f"{row['load']}, {label}", *["–"] * 4, ""])
             continue
         numbers = [f"{row['predicted'] * factor:z.1f}"]
         numbers += [_span(row[f"low{band}"] * factor, row[f"high{band}"] * factor) for band in (50, 95)]
@@ -240,8 +240,8 @@ def print_prediction(table: pd.DataFrame, units: System) -> None:
         if row["inside95"] is not None:
             inside = "50 %" if row["inside50"] else "95 %" if row["inside95"] else "no"
             measured = _span(row["low"] * factor, row["high"] * factor)
-        rows.add_row(str(row["id"]), f"{row['load']}, {label}", *numbers, measured, inside)
-    screen.print(rows)
+        rows.append([row["id"], f"{row['load']}, {label}", *numbers, measured, inside])
+    _print(["row", "load", *right("predicted", "50 %", "95 %", "measured"), "inside"], rows)
     for name, reason in (
         table[table["reason"] != "none"].drop_duplicates("id")[["id", "reason"]].itertuples(index=False)
     ):
@@ -263,6 +263,5 @@ def _span(low: float, high: float) -> str:
     return ends[0] if ends[0] == ends[1] else "–".join(ends).replace("-", "−")
 
 
-def _table(texts: list[str], numbers: list[str], last: list[str]) -> Table:
-    before, after = ([Column(heading, overflow="fold") for heading in of] for of in (texts, last))
-    return grid(*before, *right(*numbers, overflow="fold", no_wrap=screen.keeps_numbers), *after)
+def _print(heads: Sequence[Head | str], rows: list[list[Any]]) -> None:
+    print_table(shown_table(heads, rows), words=FOLD, numbers={**FOLD, "no_wrap": screen.keeps_numbers})

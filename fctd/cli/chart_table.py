@@ -6,19 +6,19 @@ from itertools import groupby
 from typing import Any, TypeVar
 
 import numpy as np
-from rich.box import SIMPLE_HEAD
-from rich.table import Column, Table
 
 from fctd.case.message import Message, within
 from fctd.case.systems import told
 from fctd.case.text import counted, printable
+from fctd.cli.job import FOLD, WHOLE, Looks, headed, print_table
 from fctd.cli.options import messages, screen
 from fctd.plots.loads import LOAD_COLUMNS, Load
 from fctd.results.columns import BUCKLED, COLUMNS, DEPTH, IN_CHART
 from fctd.results.notes import MEANINGS
 from fctd.results.series import FRICTION_LABEL, in_words
+from fctd.results.shown_tables import Head, of_column, shown_table
 from fctd.results.status import SteadyStatus
-from fctd.results.unit_systems import System, digits_of, shown
+from fctd.results.unit_systems import System, shown
 from fctd.steady.torque_drag import Row
 
 T = TypeVar("T")
@@ -41,28 +41,20 @@ def print_chart(rows: list[Row], name: str, units: System, load: Load) -> None:
     fan = len(frictions) > 1  # one set of factors, which may be a long text, stands above the table
     screen.print(printable(name if fan else f"{name}; {in_words(frictions[0])}"), style="bold", soft_wrap=True)
     buckled = not all(np.isnan(row["buckled_from_md_m"]) for row in rows)
-    loads = [f"{column.heading or load}\n{units_of[column.name].label}" for column in columns]
-    table = Table(
-        Column("operation", no_wrap=True),
-        *([Column("μ", overflow="fold")] if fan else []),
-        *(Column(heading, justify="right", overflow="fold") for heading in loads),
-        *([Column(f"buckled\n{units_of[DEPTH.name].label}", overflow="fold")] if buckled else []),
-        Column("status", min_width=len(SteadyStatus.CONVERGED)),
-        box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
-    )  # fmt: skip
-    each, printed = max(SCREEN_ROWS // len(series), 1), 0
+    heads = headed({column.name: column.heading or load for column in columns}, units)
+    heads += [Head("buckled", units_of[DEPTH.name].label, numbers=False)] * buckled
+    each, shown_rows = max(SCREEN_ROWS // len(series), 1), list[list[Any]]()
     for (operation, friction), of in series.items():
-        picked = spread(of, each)
-        printed += len(picked)
-        for k, row in enumerate(picked):
-            values = [cell(row, column.name, units) for column in columns]
-            if buckled:
-                values.append(_buckled(row, units_of[DEPTH.name].factor))
-            names = (operation, friction) if fan else (operation,)
-            table.add_row(*(("",) * len(names) if k else names), *values, row["status"].replace("_", " "))
-    screen.print(table)
-    left_out = f"; {printed} of them above, all of them in a file by --out" if printed < len(rows) else ""
-    screen.print(f"{counts_of(rows)}{left_out}", soft_wrap=True)
+        for k, row in enumerate(spread(of, each)):
+            values = (of_column(column.name, row[column.name], units) for column in columns)
+            where = [_buckled(row, units_of[DEPTH.name].factor)] * buckled
+            names = [""] * (1 + fan) if k else [operation, friction][: 1 + fan]
+            shown_rows.append([*names, *values, *where, row["status"].replace("_", " ")])
+    table = shown_table(["operation", *(["μ"] * fan), *heads, "status"], shown_rows)
+    looks: Looks = {"operation": WHOLE, "status": {"min_width": len(SteadyStatus.CONVERGED)}}
+    print_table(table, looks, words=FOLD, numbers=FOLD)
+    printed = f"; {len(shown_rows)} of them above, all of them in a file by --out"
+    screen.print(f"{counts_of(rows)}{printed if len(shown_rows) < len(rows) else ''}", soft_wrap=True)
     explain(load)
     depth = units_of["bit_depth_m"]
     for (operation, friction), of in series.items():
@@ -75,12 +67,6 @@ def spread(items: Sequence[T], most: int) -> list[T]:
     """At most so many items, evenly spread, always with the last one."""
     picked = np.unique(np.linspace(len(items) - 1, 0, min(most, len(items))).round().astype(int))
     return [items[k] for k in picked]
-
-
-def cell(row: Row, column: str, units: System) -> str:
-    """A load of a row to the digits of its column."""
-    value = row[column] * shown(column, units).factor
-    return "–" if np.isnan(value) else f"{value:z.{digits_of(column, units)}f}"
 
 
 def counts_of(rows: Sequence[Row]) -> str:

@@ -1,18 +1,21 @@
 """``fctd check CASE``: what was understood of a case, to compare with the well plan."""
 
-from collections.abc import Sequence
-
-from rich.box import SIMPLE_HEAD
-from rich.table import Column, Table
-
-from fctd.case.friction import factors_label
-from fctd.case.load import Case, naming_file
+from fctd.case.load import naming_file
 from fctd.case.text import printable
 from fctd.cli.base_command import Silent
+from fctd.cli.job import FOLD, print_facts, print_table
 from fctd.cli.options import CaseFile, Friction, Overrides, Strict, Units, changes_of, read_case, screen, tell
 from fctd.model.summary import Summary, segments_in_words, summarise
-from fctd.results.case_facts import Row, caliper_facts, fitting_facts, flow_curves, load_facts, path_facts
-from fctd.results.unit_systems import Shown, System, shown
+from fctd.results.case_facts import (
+    caliper_facts,
+    fitting_facts,
+    flow_curves,
+    hole_table,
+    load_facts,
+    path_facts,
+    string_table,
+)
+from fctd.results.unit_systems import System, shown
 
 
 def check_command(
@@ -37,59 +40,12 @@ def check_command(
 
 
 def _print(summary: Summary, units: System) -> None:
-    metre, across, force = (shown(name, units) for name in ("bit_depth_m", "clearance_m", "hookload_N"))
-    screen.print(printable(summary.case.name), style="bold")
-    screen.print(facts_table(path_facts(summary, units)))
-    screen.print(_hole(summary.case, metre, across))
-    if summary.case.wellbore.calipers is not None:
-        screen.print(facts_table(caliper_facts(summary.case.wellbore.calipers, units)))
-    screen.print(_string(summary, metre, across, force))
-    if rows := fitting_facts(summary.case, units):
-        screen.print(facts_table(rows))
-    screen.print(facts_table(load_facts(summary, units)))
-    if rows := flow_curves(summary.case.mud, units):
-        screen.print(facts_table(rows))
-
-
-def facts_table(rows: Sequence[Row]) -> Table:
-    """A table of one fact a row."""
-    table = Table(box=SIMPLE_HEAD, show_header=False, pad_edge=False)
-    for row in rows:
-        table.add_row(*row)
-    table.columns[1].justify = "right"
-    return table
-
-
-def _hole(case: Case, metre: Shown, across: Shown) -> Table:
-    table = _table(["hole", "kind"], [f"from\n{metre.label}", f"to\n{metre.label}", f"diameter\n{across.label}", "μ"])
-    start = 0.0
-    for k, interval in enumerate(case.wellbore.intervals, start=1):
-        sizes = (start * metre.factor, interval.to_md * metre.factor, interval.diameter * across.factor)
-        cells = (f"{sizes[0]:.1f}", f"{sizes[1]:.1f}", f"{sizes[2]:.4g}", factors_label([interval]))
-        table.add_row(_name(interval.name, k), interval.kind or "–", *cells)
-        start = interval.to_md
-    return table
-
-
-def _string(summary: Summary, metre: Shown, across: Shown, force: Shown) -> Table:
-    intervals = summary.case.wellbore.intervals
-    columns = [f"from\n{metre.label}", f"to\n{metre.label}", f"in air\n{force.label}", f"in mud\n{force.label}"]
-    columns += [f"clearance\nin {k + 1}, {across.label}" for k in range(len(intervals))]
-    table = _table(["string, the bit at the bottom"], columns)
-    for part in summary.parts:
-        depths = (f"{part.from_md * metre.factor:.1f}", f"{part.to_md * metre.factor:.1f}")
-        weights = (f"{part.air * force.factor:.1f}", f"{part.buoyed * force.factor:.1f}")
-        table.add_row(printable(part.name), *depths, *weights, *(f"{c * across.factor:.3g}" for c in part.clearances))
-    return table
-
-
-def _table(names: Sequence[str], numbers: Sequence[str]) -> Table:
-    return Table(
-        *(Column(heading, overflow="fold") for heading in names),
-        *(Column(heading, justify="right", overflow="fold") for heading in numbers),
-        box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
-    )  # fmt: skip
-
-
-def _name(name: str | None, number: int) -> str:
-    return f"{number}" if name is None else f"{number}: {printable(name)}"
+    case = summary.case
+    screen.print(printable(case.name), style="bold")
+    print_facts(path_facts(summary, units))
+    print_table(hole_table(case, units), words=FOLD, numbers=FOLD)
+    if case.wellbore.calipers is not None:
+        print_facts(caliper_facts(case.wellbore.calipers, units))
+    print_table(string_table(summary, units), words=FOLD, numbers=FOLD)
+    for told in (fitting_facts(case, units), load_facts(summary, units), flow_curves(case.mud, units)):
+        print_facts(told)

@@ -1,24 +1,23 @@
 """Charts of several cases on the screen: loads side by side, and lines for what is not converged or has a note."""
 
 from collections.abc import Sequence
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
-from rich.box import SIMPLE_HEAD
-from rich.table import Column, Table
 
 from fctd.answers.comparison import Comparison
 from fctd.case.operations import KINDS
 from fctd.case.systems import told
 from fctd.case.text import printable
-from fctd.cli.chart_table import cell, counts_of, exceptions, explain, spread
-from fctd.cli.job import rows_of
+from fctd.cli.chart_table import counts_of, exceptions, explain, spread
+from fctd.cli.job import FOLD, WHOLE, headed, print_table, rows_of
 from fctd.cli.options import messages, screen
 from fctd.plots.loads import LOAD_COLUMNS, NAMES, TORQUE, Load
 from fctd.results.columns import DEPTH
 from fctd.results.series import FRICTION_LABEL
+from fctd.results.shown_tables import Head, Table, of_column, shown_table
 from fctd.results.status import SteadyStatus
-from fctd.results.unit_systems import System, digits_of, shown
+from fctd.results.unit_systems import System, shown
 from fctd.steady.torque_drag import Row
 
 SCREEN_ROWS: Final = 24  # of a table
@@ -43,7 +42,8 @@ def print_comparison(found: Comparison, units: System, load: Load) -> None:
         drawn = [key for key in series if column != TORQUE or key[0] in turning]
         if drawn:
             screen.print(f"{NAMES[column]}, {shown(column, units).label}", soft_wrap=True)
-            screen.print(_table(by_depth, drawn, column, units, fan=fan))
+            looks = {"operation": WHOLE, "bit": WHOLE}
+            print_table(_table(by_depth, drawn, column, units, fan=fan), looks, words=FOLD, numbers=FOLD)
     if any(row["status"] != SteadyStatus.CONVERGED for of in rows.values() for row in of):
         screen.print("*: not converged", soft_wrap=True)
     for name, of in rows.items():
@@ -69,21 +69,15 @@ def _table(
     cases: dict[str, ByDepth], series: Sequence[tuple[str, str]], column: str, units: System, *, fan: bool
 ) -> Table:
     """A column of the charts of all cases, a row for each operation, set of factors and bit depth."""
-    metre, digits = shown(DEPTH.name, units), digits_of(DEPTH.name, units)
-    table = Table(
-        Column("operation", no_wrap=True),
-        *([Column("μ", overflow="fold")] if fan else []),
-        Column(f"bit\n{metre.label}", justify="right", no_wrap=True),
-        *(Column(printable(name), justify="right", overflow="fold") for name in cases),
-        box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
-    )  # fmt: skip
+    found: list[list[Any]] = []
     for key in series:
         rows = [of.get(key, {}) for of in cases.values()]
         for k, depth in enumerate(_depths(rows, max(SCREEN_ROWS // len(series), 1))):
             names = (key if fan else key[:1]) if k == 0 else ("",) * (1 + fan)
             values = [_value(of[depth], column, units) if depth in of else "" for of in rows]
-            table.add_row(*names, f"{depth * metre.factor:.{digits}f}", *values)
-    return table
+            found.append([*names, of_column(DEPTH.name, depth, units), *values])
+    heads = (Head(printable(name), numbers=True) for name in cases)
+    return shown_table(["operation", *(["μ"] * fan), *headed({DEPTH.name: "bit"}, units), *heads], found)
 
 
 def _depths(rows: Sequence[dict[float, Row]], most: int) -> list[float]:
@@ -95,4 +89,4 @@ def _depths(rows: Sequence[dict[float, Row]], most: int) -> list[float]:
 
 def _value(row: Row, column: str, units: System) -> str:
     mark = "" if row["status"] == SteadyStatus.CONVERGED or np.isnan(row[column]) else "*"
-    return cell(row, column, units) + mark
+    return of_column(column, row[column], units).text + mark

@@ -10,7 +10,7 @@ import typer
 from fctd.case.errors import InputError
 from fctd.case.load import check_bit_depth, naming_file
 from fctd.cli.feeding import OPTION, PlotFeeding, check_feeding, draw_feeding
-from fctd.cli.job import Job, grid
+from fctd.cli.job import Job, print_facts
 from fctd.cli.options import (
     CaseFile,
     Friction,
@@ -42,6 +42,7 @@ from fctd.results.buckling import BUCKLED
 from fctd.results.columns import COLUMNS, LOADS, SHAPES, SHARES
 from fctd.results.notes import as_metadata
 from fctd.results.profile import place_in_words
+from fctd.results.shown_tables import Fact, facts, of_column, short, text
 from fctd.results.unit_systems import shown
 from fctd.steady.equilibrium import equilibrium
 from fctd.steady.steady_string import Equilibrium
@@ -127,31 +128,29 @@ def _print(job: Job, point: Equilibrium, *, lacking: bool) -> None:
     lacking : whether a profile was asked for that there is not.
     """
     units, metre = job.units, shown("bit_depth_m", job.units)
-    table = grid(show_header=False, collapse_padding=False, pad_edge=True)
-    for name, value in _loads(point).items():
-        unit = shown(name, units)
-        text = f"{value * unit.factor:z.3f}" if point.answered else "–"
-        table.add_row(COLUMNS[name].label, text, unit.label)
+
+    def fact(name: str, value: float, of: str = "", more: str = "") -> Fact:
+        return f"{of}{COLUMNS[name].label}", of_column(name, value, units, 3), shown(name, units).label + more
+
+    rows = [fact(name, value if point.answered else np.nan) for name, value in _loads(point).items()]
     if point.answered:
         profile = point.profile
         for name, worst in (("effective_tension_N", "min"), ("contact_force_N", "max"), ("von_mises_Pa", "max")):
-            unit, row = shown(name, units), profile.loc[profile[name].agg(f"idx{worst}")]
-            where = f"at {place_in_words(row['md_m'], point.bit_depth, metre.factor, metre.label)}"
-            table.add_row(f"{worst}. {COLUMNS[name].label}", f"{row[name] * unit.factor:z.3f}", f"{unit.label} {where}")
-        for mode in BUCKLED:
-            for first, last in stretches(profile, mode):
-                where = f"{first * metre.factor:.0f} to {last * metre.factor:.0f}"
-                table.add_row(f"beyond {mode} limit", where, metre.label)
-    if point.shape != "none":
-        table.add_row("shape", point.shape, "")
-    for name, value in _found(point).items():
-        if COLUMNS[name] in SHARES:
-            table.add_row(COLUMNS[name].label, f"{100 * value:.3g}", "% of the friction")
-        else:
-            unit = shown(name, units)
-            table.add_row(COLUMNS[name].label, f"{value * unit.factor:z.3f}", unit.label)
-    table.columns[1].justify = "right"
-    screen.print(table)
+            row = profile.loc[profile[name].agg(f"idx{worst}")]
+            where = place_in_words(row["md_m"], point.bit_depth, metre.factor, metre.label)
+            rows.append(fact(name, row[name], f"{worst}. ", f" at {where}"))
+        rows += [
+            (f"beyond {mode} limit", text(f"{first * metre.factor:.0f} to {last * metre.factor:.0f}"), metre.label)
+            for mode in BUCKLED
+            for first, last in stretches(profile, mode)
+        ]
+    rows += [("shape", text(point.shape), "")] * (point.shape != "none")
+    rows += [
+        (COLUMNS[name].label, short(100 * value, 3), "% of the friction")
+        if COLUMNS[name] in SHARES else fact(name, value)
+        for name, value in _found(point).items()
+    ]  # fmt: skip
+    print_facts(facts("", rows), pad_edge=True)
     screen.print(f"{point.status}, {point.iterations} iterations")
     if point.message:
         print_status(point.status, point.message, units)

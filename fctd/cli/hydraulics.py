@@ -6,23 +6,22 @@ from typing import TYPE_CHECKING, Annotated, Any, Final
 
 import numpy as np
 import typer
-from rich.table import Column, Table
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case, naming_file
 from fctd.case.message import frame_of
 from fctd.case.systems import ACROSS, DENSITY, FLOW
-from fctd.case.text import counted, printable
+from fctd.case.text import counted
 from fctd.case.units import MOST_FLOW
-from fctd.cli.check import facts_table
-from fctd.cli.job import Depths, Job, grid, headed, number, numbers, right, rows_of
-from fctd.cli.options import CaseFile, Overrides, Quiet, Strict, Units, messages, screen
+from fctd.cli.job import FOLD, Depths, Job, headed, numbers, print_facts, print_table, right, rows_of
+from fctd.cli.options import CaseFile, Overrides, Quiet, Strict, Units, messages
 from fctd.cli.pictures import PICTURE_HELP, TABLES, draw_panels
 from fctd.cli.quantities import PENETRATION, TO_TOTAL_DEPTH, Given, QuantityOption, quantity, several
 from fctd.cli.steady import file_option
 from fctd.hydraulics.cuttings import Cuttings
 from fctd.hydraulics.pressures import SHARE, Circulation, Eccentricity, circulations
-from fctd.results.case_facts import Row, flow_curves
+from fctd.results.case_facts import flow_curves
+from fctd.results.shown_tables import Fact, Head, Table, facts, short, shown_table
 from fctd.results.unit_systems import System, in_words, shown
 from fctd.steady.equilibrium import lie_along
 
@@ -147,8 +146,7 @@ def _flows(given: Sequence[Given], case: Case, units: System) -> list[float]:
 
 def _print(job: Job, table: "pd.DataFrame", found: Sequence[Circulation]) -> None:
     units = job.units
-    if rows := flow_curves(job.case.mud, units):
-        screen.print(facts_table(rows))
+    print_facts(flow_curves(job.case.mud, units))
     for flow, of in table.groupby("flow_m3_s", sort=False):
         here = [one for one in found if one.flow == flow]
         if not here:
@@ -156,8 +154,8 @@ def _print(job: Job, table: "pd.DataFrame", found: Sequence[Circulation]) -> Non
         last = here[-1].summary()
         pumped = f"{job.words(last, 'flow_m3_s')}, {job.words(last, 'standpipe_Pa')}"
         job.say(f"{pumped} at the standpipe with the bit at {job.words(last, 'bit_depth_m')}")
-        screen.print(_table(of, units) if len(of) > 1 else _parts(here[0], units))
-        screen.print(facts_table(_bit(last, units)))
+        print_table(_table(of, units) if len(of) > 1 else _parts(here[0], units), words=FOLD)
+        print_facts(facts("", _bit(last, units)))
     job.say_reasons(table)
     if (off := max((one.circuit.too_high for one in found), default=0.0)) > WORTH_SAYING:
         messages.print(
@@ -174,28 +172,26 @@ def _print(job: Job, table: "pd.DataFrame", found: Sequence[Circulation]) -> Non
 
 def _table(of: "pd.DataFrame", units: System) -> Table:
     """A row for every depth, evenly spread where they are many."""
-    table = grid(*headed(SHOWN, units))
-    for row in rows_of(of, SCREEN_ROWS):
-        table.add_row(*numbers(row, SHOWN, units))
-    return table
+    return shown_table(headed(SHOWN, units), (numbers(row, SHOWN, units) for row in rows_of(of, SCREEN_ROWS)))
 
 
 def _parts(one: Circulation, units: System) -> Table:
     """A row for every part of the circuit."""
     heads = (f"{words}\n{shown(name, units).label}" if words else "regime" for name, words in PARTS.items())
-    table = grid(Column("part", overflow="fold"), *right(*heads, "cuttings\nrise at"))
-    for row in one.parts():
-        of = f" {printable(row['name'])}" if row["name"] else ""
-        hole = f" in {row['interval']}" if row["interval"] else ""
-        cells = [numbers(row, [name], units)[0] if words else row[name] for name, words in PARTS.items()]
-        rise = "" if np.isnan(row["transport_ratio"]) else f"{100 * row['transport_ratio']:.0f} %"
-        table.add_row(row["part"] + of + hole, *cells, rise)
-    return table
+    rows = (
+        [
+            " ".join(filter(None, (row["part"], row["name"], row["interval"] and f"in {row['interval']}"))),
+            *(numbers(row, [name], units)[0] if words else row[name] for name, words in PARTS.items()),
+            "" if np.isnan(row["transport_ratio"]) else f"{100 * row['transport_ratio']:.0f} %",
+        ]
+        for row in one.parts()
+    )  # fmt: skip
+    return shown_table(["part", *right(*heads), Head("cuttings\nrise at", numbers=True)], rows)
 
 
-def _bit(row: dict[str, Any], units: System) -> list[Row]:
+def _bit(row: dict[str, Any], units: System) -> list[Fact]:
     """What the jets do, and what the flow does to the hook load."""
-    rows: list[Row] = []
+    rows: list[Fact] = []
     if not np.isnan(row["jet_speed_m_s"]):
         share = f"{100 * row['bit_drop_Pa'] / row['standpipe_Pa']:.0f} % of the standpipe pressure"
         rows = [
@@ -207,14 +203,14 @@ def _bit(row: dict[str, Any], units: System) -> list[Row]:
     return [*rows, _fact("hook load less by", row, "lift_N", units, ", in straight vertical hole")]
 
 
-def _fact(words: str, row: dict[str, Any], column: str, units: System, more: str = "") -> Row:
+def _fact(words: str, row: dict[str, Any], column: str, units: System, more: str = "") -> Fact:
     unit = shown(column, units)
-    return words, number(row[column] * unit.factor), unit.label + more
+    return words, short(row[column] * unit.factor, none=""), unit.label + more
 
 
 def _facts_line(one: Circulation, flows: Sequence[float], units: System) -> str:
     depth = one.laid.string.bit_depth
-    pumped = [number(flow * shown("flow_m3_s", units).factor) for flow in flows]
+    pumped = [short(flow * shown("flow_m3_s", units).factor).text for flow in flows]
     listed = f"{', '.join(pumped)} {shown('flow_m3_s', units).label}"
     nozzles = counted(len(one.laid.case.bit.nozzles), "nozzle")
     return f"{listed}, bit at {in_words(depth, 'bit_depth_m', units)}, {nozzles}; API RP 13D"

@@ -3,16 +3,15 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
 import typer
-from rich.table import Column
 
 from fctd.case.systems import FORCE, told
 from fctd.cli.base_command import Silent
-from fctd.cli.job import Job, grid, right, rows_of
-from fctd.cli.options import CaseFile, Friction, Overrides, Strict, Units, screen
+from fctd.cli.job import WHOLE, Job, print_table, right, rows_of
+from fctd.cli.options import CaseFile, Friction, Overrides, Strict, Units
 from fctd.cli.quantities import BIT_DEPTH, TOTAL_DEPTH, Given, QuantityOption, is_number, quantity, several
 from fctd.cli.steady import DEPTH_HELP, StuckAt, file_option
+from fctd.results.shown_tables import Head, number, of_column, shown_table
 from fctd.results.unit_systems import shown
 from fctd.steady.jar import UP, jar_forces
 
@@ -73,16 +72,20 @@ def _print(job: Job, table: "pd.DataFrame") -> None:
     units, rows = job.units, rows_of(table)
     where = [f"{what} at {job.words(rows[0], key)}" for what, key in PLACES.items()]
     job.say(f"{', '.join(where)}; forces in {shown('hookload_N', units).label}")
-    found = grid(
-        Column("\njar", no_wrap=True), *right(*SHOWN.values(), "used\n%", "hoist\n%", no_wrap=True),
-        Column("first\nlimit"),
+    found = (
+        [
+            "up" if row["direction"] == UP else "down", *(of_column(name, row[name], units, 1) for name in SHOWN),
+            *(number(100 * row[name], 0) for name in ("share_used", "hoist_share")),
+            ", ".join(row[name].replace("_", " ") for name in ("limit", "buckling") if row[name] != "none"),
+        ]
+        for row in rows
     )  # fmt: skip
-    for row in rows:
-        cells = ["–" if np.isnan(row[name]) else f"{row[name] * shown(name, units).factor:z.1f}" for name in SHOWN]
-        cells += ["–" if np.isnan(row[name]) else f"{100 * row[name]:.0f}" for name in ("share_used", "hoist_share")]
-        until = [row[name].replace("_", " ") for name in ("limit", "buckling") if row[name] != "none"]
-        found.add_row("up" if row["direction"] == UP else "down", *cells, ", ".join(until))
-    screen.print(found)
+    heads = [Head(words, numbers=True) for words in SHOWN.values()]
+    print_table(
+        shown_table(["\njar", *heads, *right("used\n%", "hoist\n%"), "first\nlimit"], found),
+        {"\njar": WHOLE},
+        numbers=WHOLE,
+    )
     job.say(
         "a force at the jar is the tension there, below 0 a push; over free is the hook load above that of the free "
         "string; what running pumps add at a jar is left out",

@@ -5,13 +5,15 @@ Options that several of them have stand here too, and the one table that a scree
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Union, cast
+from typing import TYPE_CHECKING, Annotated, Any, Final, Union, cast
 
 import numpy as np
 from rich.box import SIMPLE_HEAD
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
-from rich.table import Column, Table
+from rich.table import Column
+from rich.table import Table as Grid
 
 from fctd.case.doubts import warnings_of
 from fctd.case.errors import InputError
@@ -24,6 +26,7 @@ from fctd.cli.quantities import DEPTHS, Given, quantity
 from fctd.cli.steady import DEPTHS_HELP, in_units, metadata_of, metadata_of_case
 from fctd.results.differences import in_a_row
 from fctd.results.notes import meanings_of
+from fctd.results.shown_tables import Cell, Head, Table, short
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, in_words, shown
 from fctd.store.tables import Rows
@@ -33,6 +36,10 @@ if TYPE_CHECKING:
 
 Show = Callable[..., None]
 Row = dict[str, Any]
+Looks = Mapping[str, Mapping[str, Any]]  # options of rich for columns by the words of their heads
+# Options of rich for columns.
+FOLD: Final = {"overflow": "fold"}
+WHOLE: Final = {"no_wrap": True}
 # A table, or what writes to a path and returns the files; None of a file without content.
 Written = Union["pd.DataFrame", Rows, Callable[[Path], list[Path]], None]
 
@@ -198,26 +205,47 @@ def rows_of(table: "pd.DataFrame", most: int = 0, also: Iterable[int] = ()) -> l
     return [rows[k] for k in np.unique([*ends, *also])]
 
 
-def grid(*columns: Column, **options: Any) -> Table:
-    """An empty table of a screen; options : of rich, in place of the usual ones."""
-    return Table(*columns, **{"box": SIMPLE_HEAD, "collapse_padding": True, "pad_edge": False, **options})
+def right(*heads: str) -> list[Head]:
+    """Heads of numbers, whose units stand on lines of their own."""
+    return [Head(*head.partition("\n")[::2], numbers=True) for head in heads]
 
 
-def right(*heads: str, **options: Any) -> list[Column]:
-    """Columns of numbers."""
-    return [Column(head, justify="right", **options) for head in heads]
+def headed(columns: Mapping[str, str], units: System) -> list[Head]:
+    """Heads of numbers by the names of their columns, with words and units."""
+    return [Head(words, shown(name, units).label, numbers=True) for name, words in columns.items()]
 
 
-def headed(columns: Mapping[str, str], units: System, **options: bool) -> list[Column]:
-    """Columns of numbers by their names, with words and units."""
-    return right(*(f"{words}\n{shown(name, units).label}" for name, words in columns.items()), **options)
+def numbers(row: Row, columns: Iterable[str], units: System) -> list[Cell]:
+    """The numbers of a row in the units of the screen, in four digits; nothing for NaN."""
+    return [short(row.get(name, np.nan) * shown(name, units).factor, none="") for name in columns]
 
 
-def number(value: float) -> str:
-    """A number in four digits; nothing for NaN."""
-    return "" if np.isnan(value) else f"{value:.0f}" if abs(value) >= 1000 else f"{value:z.4g}"
+def print_table(
+    table: Table, looks: Mapping[str, Mapping[str, Any]] = {}, *, words: Mapping[str, Any] = {},
+    numbers: Mapping[str, Any] = {}, **options: Any,
+) -> None:  # fmt: skip
+    """Print a table, the unit of a head below its words.
+
+    looks : options of rich for columns by the words of their heads; words, numbers : for the other columns of texts and
+    of numbers; options : of the table, in place of the usual ones.
+    """
+    heads = [Head(head) if isinstance(head, str) else head for head in table.heads]
+    columns = (
+        Column(
+            "\n".join(filter(None, (head.words, head.unit))),
+            justify="right" if right else "left",
+            **looks.get(head.words, numbers if right else words),
+        )
+        for head, right in zip(heads, table.numeric, strict=True)
+    )
+    drawn = Grid(*columns, **{"box": SIMPLE_HEAD, "collapse_padding": True, "pad_edge": False, **options})
+    for row in table.rows:
+        drawn.add_row(*(cell.text for cell in row))
+    screen.print(drawn)
 
 
-def numbers(row: Row, columns: Iterable[str], units: System) -> list[str]:
-    """The numbers of a row in the units of the screen."""
-    return [number(row.get(name, np.nan) * shown(name, units).factor) for name in columns]
+def print_facts(table: Table, **options: Any) -> None:
+    """Print a table of facts, if it has any; their values stand to the right; options : as of ``print_table``."""
+    heads = Head(""), Head("", "", True), Head("")
+    if table.rows:
+        print_table(replace(table, heads=heads), show_header=False, collapse_padding=False, **options)

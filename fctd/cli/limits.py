@@ -5,11 +5,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Final
 
 import numpy as np
-from rich.table import Column, Table
 
 from fctd.case.systems import told
 from fctd.case.text import printable
-from fctd.cli.job import Depths, Job, grid, rows_of
+from fctd.cli.job import WHOLE, Depths, Job, print_table, rows_of
 from fctd.cli.options import CaseFile, Friction, Overrides, Quiet, Strict, Units, screen
 from fctd.cli.quantities import TO_TOTAL_DEPTH
 from fctd.cli.steady import (
@@ -22,6 +21,7 @@ from fctd.cli.steady import (
     read_drive,
     read_kinds,
 )
+from fctd.results.shown_tables import Head, number, of_column, shown_table
 from fctd.results.unit_systems import System, shown
 from fctd.steady.margin_table import AT_STUCK, USUAL, limits_of
 from fctd.steady.margins import FATIGUE, LACKING, MEANINGS, OVERPULL, SET_DOWN, SLIPS, TORQUE
@@ -97,7 +97,7 @@ def _print(job: Job, table: "pd.DataFrame") -> None:
         if margin in SHOWN:
             words, *columns = STUCK[margin] if stuck else SHOWN[margin]
             screen.print(f"{operation}: {words}, {shown(columns[1], units).label}")
-            screen.print(_table(of, columns, units))
+            _print_margin(of, columns, units)
     if stuck:
         where = job.words(rows_of(table)[0], "stuck_md_m")
         job.say(f"stuck at {where}: what is left counts from the free string with its bit below")
@@ -111,36 +111,30 @@ def _print(job: Job, table: "pd.DataFrame") -> None:
         job.say(f"{at}{what}: {told(of['reason'].iloc[0], units)}")
 
 
-def _table(of: "pd.DataFrame", columns: Sequence[str], units: System) -> Table:
-    """The rows of a margin, at evenly spread depths where they are many."""
+def _print_margin(of: "pd.DataFrame", columns: Sequence[str], units: System) -> None:
+    """Print the rows of a margin, at evenly spread depths where they are many."""
     metre = shown("bit_depth_m", units)
     depths = of["bit_depth_m"].unique()
     most = max(SCREEN_ROWS // of["limit"].nunique(), 1)
     picked = depths[np.unique(np.linspace(len(depths) - 1, 0, min(most, len(depths))).round().astype(int))]
     limits = [row.replace("_", " ") for row in of["limit"]]
     below = "at stuck point" if "stuck_md_m" in of else "at bit"
-    numbers = [f"bit, {metre.label}", "used, %", below, "at surface", "left"]
-    table = grid(
-        Column("until", no_wrap=True, min_width=max(map(len, limits))),
-        *(Column(name, justify="right", no_wrap=True, min_width=len(name)) for name in numbers),
-        Column("where", no_wrap=True, overflow="ellipsis"),
-    )  # fmt: skip
+    names = [f"bit, {metre.label}", "used, %", below, "at surface", "left"]
+    rows: list[list[Any]] = []
     for row in rows_of(of[of["bit_depth_m"].isin(picked)]):
         place = "" if np.isnan(row["md_m"]) else f"{row['md_m'] * metre.factor:.0f} {metre.label}"
         part = "" if row["part"] == "none" else printable(row["part"])
-        table.add_row(
-            row["limit"].replace("_", " "), f"{row['bit_depth_m'] * metre.factor:.0f}",
-            "" if np.isnan(row["share_used"]) else f"{100 * row['share_used']:.0f}",
-            *(_cell(row, column, units) for column in columns),
+        cells = (of_column(name, row[name], units, int(name.endswith("_N_m"))) if name else None for name in columns)
+        rows.append([
+            row["limit"].replace("_", " "), of_column("bit_depth_m", row["bit_depth_m"], units, 0),
+            number(100 * row["share_used"], 0, ""), *cells,
             ", ".join(text for text in (place, part) if text),
-        )  # fmt: skip
-    return table
-
-
-def _cell(row: dict[str, Any], column: str, units: System) -> str:
-    if not column or np.isnan(row[column]):
-        return "–"
-    return f"{row[column] * shown(column, units).factor:z.{1 if column.endswith('_N_m') else 0}f}"
+        ])  # fmt: skip
+    looks = {"until": {**WHOLE, "min_width": max(map(len, limits))}}
+    looks |= {name: {**WHOLE, "min_width": len(name)} for name in names}
+    print_table(
+        shown_table(["until", *(Head(name, numbers=True) for name in names), "where"], rows), looks, words=WHOLE
+    )
 
 
 def _bending(job: Job, table: "pd.DataFrame") -> list[str]:

@@ -6,7 +6,6 @@ from typing import Annotated, NoReturn
 
 import numpy as np
 import typer
-from rich.table import Column
 
 from fctd import plots
 from fctd.case.errors import InputError, naming
@@ -16,7 +15,7 @@ from fctd.case.systems import told
 from fctd.case.tables.headers import parse_choices
 from fctd.case.text import counted, printable
 from fctd.cli import quantities
-from fctd.cli.job import Job, grid, right, rows_of
+from fctd.cli.job import WHOLE, Job, print_table, right, rows_of
 from fctd.cli.options import (
     CaseFile,
     Overrides,
@@ -39,6 +38,7 @@ from fctd.monitoring.quantities import SERIES
 from fctd.monitoring.roadmap import FAN
 from fctd.monitoring.series import read_series
 from fctd.monitoring.text_series import Tail
+from fctd.results.shown_tables import number, shown_table
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, shown
 from fctd.store.origin import versions
@@ -211,14 +211,15 @@ def _print(job: Job, found: Monitored) -> None:
         shown(name, job.units) for name in ("bit_depth_m", "weight_indicator_N", "drive_torque_N_m")
     )
     numbers = f"bit\n{depth.label}", "rows", f"weight ind.\n{force.label}", f"torque\n{torque.label}", "μ", "95 % band"
-    table = grid(Column("stretch", no_wrap=True), *right(*numbers), collapse_padding=False)
-    for row in rows_of(inferred, SCREEN_ROWS):
-        table.add_row(
-            row["mode"], f"{row['bit_depth_m'] * depth.factor:.0f}", str(row["samples"]),
-            f"{row['weight_indicator_N'] * force.factor:.1f}", f"{row['drive_torque_N_m'] * torque.factor:z.2f}",
-            f"{row['friction']:z.2f}", f"{row['friction_low']:z.2f} to {row['friction_high']:z.2f}",
-        )  # fmt: skip
-    screen.print(table)
+    rows = (
+        (
+            row["mode"], number(row["bit_depth_m"] * depth.factor, 0), number(row["samples"], 0),
+            number(row["weight_indicator_N"] * force.factor, 1), number(row["drive_torque_N_m"] * torque.factor, 2),
+            number(row["friction"], 2), f"{row['friction_low']:z.2f} to {row['friction_high']:z.2f}",
+        )
+        for row in rows_of(inferred, SCREEN_ROWS)
+    )  # fmt: skip
+    print_table(shown_table(["stretch", *right(*numbers)], rows), words=WHOLE, collapse_padding=False)
     left = stretches.loc[stretches["friction"].isna(), "left_out"].value_counts()
     reasons = "".join(f"; {count}: {why}" for why, count in left.items())
     alarms = counted(len(found.alarms), "alarm")

@@ -4,8 +4,6 @@ import re
 from typing import Annotated, Final
 
 import typer
-from rich.box import SIMPLE_HEAD
-from rich.table import Column, Table
 
 from fctd.case.errors import InputError
 from fctd.case.pipes.catalogue import Pipe, catalogue, of_grade, sources
@@ -14,11 +12,11 @@ from fctd.case.pipes.grades import drill_pipe_grade_of
 from fctd.case.pipes.names import DRILL_PIPE, class_of
 from fctd.case.systems import ACROSS, FORCE, LINEAR_MASS, STRENGTH, SYSTEMS, TORQUE, Kind, System
 from fctd.cli.base_command import Silent
+from fctd.cli.job import WHOLE, print_table
 from fctd.cli.options import screen, units_option
 from fctd.model.capacity import body_of
 from fctd.model.connection import make_up_torque
-
-NONE = "–"
+from fctd.results.shown_tables import Head, Table, number, shown_table
 
 
 def pipes_command(
@@ -47,10 +45,10 @@ def pipes_command(
     if quiet:
         return
     pages = list(dict.fromkeys(key for pipe in found for key in pipe.sources))
-    screen.print(_table(found, pages, units))
-    for number, key in enumerate(pages, start=1):
+    print_table(_table(found, pages, units), {"pipe": {"min_width": 10}}, words=WHOLE, numbers=WHOLE)
+    for k, key in enumerate(pages, start=1):
         source = sources()[key]
-        screen.print(f"[{number}] {source.title}, {source.address}, opened {source.opened}", soft_wrap=True)
+        screen.print(f"[{k}] {source.title}, {source.address}, opened {source.opened}", soft_wrap=True)
 
 
 def found_by(words: list[str]) -> list[Pipe]:
@@ -83,19 +81,16 @@ COLUMNS: Final[tuple[tuple[str, Kind, tuple[int, int]], ...]] = (
 
 
 def _table(pipes: list[Pipe], pages: list[str], units: System) -> Table:
-    headings = [f"{heading}\n{kind.label(units)}" for heading, kind, _ in COLUMNS]
-    table = Table(
-        Column("pipe", min_width=10), *(Column(heading, justify="right", no_wrap=True) for heading in headings),
-        Column("from", no_wrap=True), box=SIMPLE_HEAD, collapse_padding=True, pad_edge=False,
-    )  # fmt: skip
-    for pipe in pipes:
-        cells = [
-            NONE if value is None else f"{value * kind.shown(units).factor:.{digits[SYSTEMS.index(units)]}f}"
-            for value, (_, kind, digits) in zip(_values(pipe), COLUMNS, strict=True)
+    rows = (
+        [
+            pipe.name, *(
+                None if value is None else number(value * kind.shown(units).factor, digits[SYSTEMS.index(units)])
+                for value, (_, kind, digits) in zip(_values(pipe), COLUMNS, strict=True)
+            ), " ".join(dict.fromkeys(str(pages.index(key) + 1) for key in pipe.sources)),
         ]
-        numbers = dict.fromkeys(pages.index(key) + 1 for key in pipe.sources)
-        table.add_row(pipe.name, *cells, " ".join(map(str, numbers)))
-    return table
+        for pipe in pipes
+    )  # fmt: skip
+    return shown_table(["pipe", *(Head(words, kind.label(units), True) for words, kind, _ in COLUMNS), "from"], rows)
 
 
 def _values(pipe: Pipe) -> list[float | None]:

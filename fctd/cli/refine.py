@@ -2,13 +2,12 @@
 
 from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 import typer
-from rich.table import Column
 
-from fctd.cli.job import Job, grid, right, rows_of
+from fctd.cli.job import FOLD, WHOLE, Job, print_table, right, rows_of
 from fctd.cli.options import (
     CaseFile,
     Friction,
@@ -20,10 +19,10 @@ from fctd.cli.options import (
     print_notes,
     print_status,
     read_share,
-    screen,
 )
 from fctd.cli.quantities import BIT_DEPTH, Given, quantity
 from fctd.cli.steady import DEPTH_HELP, KIND_HELP, Flow, ResolveBuckling, Rpm, Speed, read_drive, read_kinds
+from fctd.results.shown_tables import shown_table
 from fctd.results.unit_systems import shown
 from fctd.steady.refine import Refinement, refine
 from fctd.steady.refined_file import survey_from, write_refined
@@ -93,7 +92,7 @@ def _print(job: Job, refined: Refinement, graded: bool, *, lacking: bool) -> Non
         shown(name, job.units) for name in ("bit_depth_m", "hookload_N", "surface_torque_N_m", "clearance_m")
     )
     numbers = f"hook load\n{load.label}", f"torque\n{torque.label}", "change\n%", "error\n%", "time\nms"
-    table = grid(Column("", no_wrap=True), Column("operation", no_wrap=True), *right(*numbers, overflow="fold"))
+    told: list[list[Any]] = []
     for (stage, layout, _), rows in refined.steps.groupby(["stage", "layout", "level"], sort=False):
         chord, segments = rows["chord_m"].iloc[0] * across.factor, rows["segments"].iloc[0]
         string = f"{segments} {layout}" if graded else f"{segments} segments"
@@ -108,9 +107,9 @@ def _print(job: Job, refined: Refinement, graded: bool, *, lacking: bool) -> Non
             nothing = ("–", "–", "no answer", "–")
             loads = nothing if np.isnan(row["hookload_N"]) else answer
             kind = row["operation"] + (" (locked up)" if row["status"] == "locked_up" else "")
-            table.add_row(name, kind, *loads, f"{1e3 * row['time_s']:.0f}")
+            told.append([name, kind, *loads, f"{1e3 * row['time_s']:.0f}"])
             name = ""
-    screen.print(table)
+    print_table(shown_table(["", "operation", *right(*numbers)], told), words=WHOLE, numbers=FOLD)
     if refined.status.acceptable:
         cut = f"{refined.layout} segments" if graded else "segments"
         job.say(

@@ -3,19 +3,20 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Final
 from uuid import uuid4
 
 import numpy as np
 import typer
+from rich.box import HEAVY_HEAD
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
-from rich.table import Table
 
 from fctd import plots
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.text import counted, file_name, printable
 from fctd.cli.interrupts import deferred
+from fctd.cli.job import print_table, right
 from fctd.cli.keeping import (
     EVERY_RUN,
     OptionalCase,
@@ -51,6 +52,7 @@ from fctd.cli.options import (
 from fctd.cli.pictures import DRAWN, check_files
 from fctd.results.buckling import MODES
 from fctd.results.columns import BUCKLED, COLUMNS
+from fctd.results.shown_tables import of_column, shown_table
 from fctd.results.status import RunStatus
 from fctd.results.swings import ENOUGH_PERIODS
 from fctd.results.tables import SimulationResult, check_result_folder, identity_of, own_files, result_files
@@ -62,6 +64,9 @@ from fctd.simulation.simulate import simulate
 from fctd.store.run_folder import RunFolder
 
 ShownUnits = Annotated[System, units_option("Units of screen and CSV files; the Parquet files are in SI units")]
+
+# Of a table of loads.
+BOXED: Final[dict[str, Any]] = {"box": HEAVY_HEAD, "collapse_padding": False, "pad_edge": True}
 
 
 @with_options
@@ -213,15 +218,11 @@ def _summarise(result: SimulationResult, units: System) -> None:
     if len(result.history):
         last, depth = result.history.iloc[-1], shown("bit_depth_m", units)
         at = f"{last['bit_depth_m'] * depth.factor:.1f} {depth.label}"
-        table = Table(title=f"{printable(result.case.name)}: {last['operation']}, bit at {at}")
-        cells = []
-        for name in ("hookload_N", "surface_torque_N_m", "sum_r_mu_fn_N_m", "total_contact_force_N"):
-            unit = shown(name, units)
-            table.add_column(f"{COLUMNS[name].label} {unit.label}", justify="right")
-            cells.append(f"{last[name] * unit.factor:.{digits_of(name, units)}f}")
-        table.add_column("contacts", justify="right")
-        table.add_row(*cells, f"{last['contact_count']}")
-        screen.print(table)
+        loads = ("hookload_N", "surface_torque_N_m", "sum_r_mu_fn_N_m", "total_contact_force_N")
+        heads = right(*(f"{COLUMNS[name].label} {shown(name, units).label}" for name in loads), "contacts")
+        cells = [of_column(name, last[name], units) for name in loads]
+        title = f"{printable(result.case.name)}: {last['operation']}, bit at {at}"
+        print_table(shown_table(heads, [[*cells, last["contact_count"]]]), title=title, **BOXED)
         buckled = result.history[result.history["buckling"] != "none"]
         if len(buckled):
             first, last = (buckled[column.name].agg(how) for column, how in zip(BUCKLED, ("min", "max"), strict=True))
@@ -246,10 +247,7 @@ def _print_operations(result: SimulationResult, units: System) -> None:
     """Print mean and swing of hook load and torque of every operation, and the time for which the bit stood still."""
     if not len(result.operations):
         return
-    table = Table(title="mean ± swing over whole periods, peak of the whole operation")
-    for heading in ("operation", "load", "mean ± swing", "peak", "periods"):
-        table.add_column(heading, justify="left" if heading in ("operation", "load") else "right")
-    short = []
+    rows, short = [], []
     for row in result.operations.to_dict("records"):
         turns = row["bit_still_share"] >= 0
         names = [row["operation"], f"{row['start_s']:.0f} to {row['end_s']:.0f} s"]
@@ -261,16 +259,14 @@ def _print_operations(result: SimulationResult, units: System) -> None:
                 row[column.replace(stem, f"{stem}_{part}")] * unit.factor for part in ("mean", "swing", "peak")
             )
             periods = row[f"{stem}_periods"]
-            table.add_row(
-                name,
-                f"{COLUMNS[column].heading} {unit.label}",
-                f"{mean:z.{digits}f} ± {swing:z.{digits}f}",
-                f"{peak:z.{digits}f}",
-                f"{periods} × {row[f'{stem}_period_s']:.3g} s",
-            )
+            rows.append([
+                name, f"{COLUMNS[column].heading} {unit.label}", f"{mean:z.{digits}f} ± {swing:z.{digits}f}",
+                f"{peak:z.{digits}f}", f"{periods} × {row[f'{stem}_period_s']:.3g} s",
+            ])  # fmt: skip
             if periods < ENOUGH_PERIODS and (turns or column == "hookload_N"):
                 short.append(f"{row['operation']} ({COLUMNS[column].label})")
-    screen.print(table)
+    table = shown_table(["operation", "load", *right("mean ± swing", "peak", "periods")], rows)
+    print_table(table, title="mean ± swing over whole periods, peak of the whole operation", **BOXED)
     if weight := result.case.rig.block_weight:
         block = in_words(weight, "hookload_N", units)
         screen.print(f"hook load: of the string alone; the block adds {block} to the indicator", soft_wrap=True)

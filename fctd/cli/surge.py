@@ -6,19 +6,18 @@ from typing import TYPE_CHECKING, Annotated, Any, Final
 
 import numpy as np
 import typer
-from rich.table import Column, Table
 
 from fctd.case.errors import InputError
 from fctd.case.systems import SPEED, told
-from fctd.cli.check import facts_table
 from fctd.cli.hydraulics import Beside, read_eccentricity
-from fctd.cli.job import Depths, Job, grid, headed, numbers, rows_of
+from fctd.cli.job import FOLD, Depths, Job, headed, numbers, print_facts, print_table, rows_of
 from fctd.cli.options import CaseFile, Overrides, Quiet, Strict, Units, screen
 from fctd.cli.pictures import PICTURE_HELP, TABLES, draw_panels
 from fctd.cli.quantities import TO_TOTAL_DEPTH, Given, QuantityOption, quantity, several
 from fctd.cli.steady import file_option
 from fctd.hydraulics.surge import ENDS, FASTEST, TRIPS, fastest_trips, surge_pressures
 from fctd.results.case_facts import flow_curves
+from fctd.results.shown_tables import shown_table
 from fctd.results.unit_systems import System, shown
 
 if TYPE_CHECKING:
@@ -108,13 +107,13 @@ def _words(texts: Sequence[str]) -> list[str]:
 
 def _print(job: Job, surges: "pd.DataFrame", fastest: "pd.DataFrame | None") -> None:
     units = job.units
-    screen.print(facts_table(flow_curves(job.case.mud, units)))
+    print_facts(flow_curves(job.case.mud, units))
     for (kind, end), of in surges[surges["reason"] == "none"].groupby(["operation", "end"], sort=False):
         screen.print(f"{kind}, {end} end")
-        screen.print(_table(of, SURGES, "regime", units))
+        _print_rows(of, SURGES, "regime", units)
         if fastest is not None:
             trip = fastest[(fastest["operation"] == kind) & (fastest["end"] == end)]
-            screen.print(_table(trip, TRIPPED, "reason", units))
+            _print_rows(trip, TRIPPED, "reason", units)
             job.say(_duration(trip, units))
     job.say_reasons(surges)
 
@@ -130,10 +129,10 @@ def _duration(trip: "pd.DataFrame", units: System) -> str:
     return f"{time / 3600:.2f} h between {ends[0]:.0f} and {ends[1]:.0f} {metre.label}, connections included"
 
 
-def _table(of: "pd.DataFrame", columns: dict[str, str], last: str, units: System) -> Table:
-    """Columns of a table and a last one of words, at evenly spread rows where they are many."""
-    table = grid(*headed(columns, units), Column("" if last == "reason" else last, overflow="fold"))
-    for row in rows_of(of, SCREEN_ROWS):
-        words = "" if row[last] == "none" else told(row[last], units)
-        table.add_row(*numbers(row, columns, units), words)
-    return table
+def _print_rows(of: "pd.DataFrame", columns: dict[str, str], last: str, units: System) -> None:
+    """Print columns of a table and a last one of words, at evenly spread rows where they are many."""
+    rows = (
+        (*numbers(row, columns, units), "" if row[last] == "none" else told(row[last], units))
+        for row in rows_of(of, SCREEN_ROWS)
+    )
+    print_table(shown_table([*headed(columns, units), "" if last == "reason" else last], rows), words=FOLD)

@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 import typer
-from rich.table import Column, Table
 
 from fctd import plots
 from fctd.answers.swept import dataset_of
@@ -13,12 +12,13 @@ from fctd.case.errors import InputError
 from fctd.case.operation_names import kinds_of
 from fctd.case.systems import LENGTH
 from fctd.case.text import counted, printable
-from fctd.cli.job import grid, right, rows_of
+from fctd.cli.job import FOLD, WHOLE, print_table, right, rows_of
 from fctd.cli.options import Quiet, Units, check_target, messages, print_written, screen
 from fctd.cli.pictures import DRAWN, check_files
 from fctd.cli.quantities import Given, QuantityOption, quantity, si
 from fctd.cli.steady import file_option
 from fctd.cli.sweep import SweepFile
+from fctd.results.shown_tables import shown_table
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, in_field_units, long_in_field_units, shown, shown_if_any
 from fctd.store.origin import versions
@@ -35,6 +35,7 @@ NUMBERS = ("value", "low", "high", "mean", "sd", "error")
 # Measures that the screen leaves to the files.
 IN_FILES = ("SRRC", "R2_rank")
 WIDE: dict[str, Any] = {"collapse_padding": False, "pad_edge": True, "title_justify": "left"}  # of a table
+OPERATION = {"operation": {**FOLD, **WHOLE}}
 TABLES = ("percentiles", "probabilities", "indices", "convergence")
 
 
@@ -134,52 +135,59 @@ def _figures(
     return figures
 
 
-def _table(title: str, texts: tuple[str, ...], numbers: tuple[str, ...]) -> Table:
-    columns = *(Column(text, overflow="fold") for text in texts), *right(*numbers)
-    return grid(Column("operation", overflow="fold", no_wrap=True), *columns, title=title, **WIDE)
-
-
 def _print(found: Uncertainty, units: System) -> None:
     """Print percentiles at the last depth, the probabilities of events anywhere, and the influences."""
     screen.print(f"{printable(found.spec.name)}: {counted(found.rows['sample'].nunique(), 'sample')}", style="bold")
     _print_percentiles(found, units)
-    table = grid(
-        Column("operation"), Column("event"), *right("probability", "95 %"), title="Probability at any depth", **WIDE
-    )
     anywhere = found.probabilities[found.probabilities["bit_depth_m"].isna()]
-    for row in rows_of(anywhere[anywhere["count"] > 0]):
-        table.add_row(
-            row["operation"], row["event"], f"{row['probability']:.3g}", f"{row['low']:.3g} to {row['high']:.3g}"
+    rows: list[list[Any]] = [
+        [row["operation"], row["event"], f"{row['probability']:.3g}", f"{row['low']:.3g} to {row['high']:.3g}"]
+        for row in rows_of(anywhere[anywhere["count"] > 0])
+    ]
+    if rows:
+        print_table(
+            shown_table(["operation", "event", *right("probability", "95 %")], rows),
+            title="Probability at any depth",
+            **WIDE,
         )
-    if table.row_count:
-        screen.print(table)
     if found.trouble:
         messages.print(f"no indices: {printable(found.trouble)}", soft_wrap=True)
     if found.indices.empty:
         return
     metre = shown("bit_depth_m", units)
     at = "" if np.isnan(found.bit_depth) else f" at {found.bit_depth * metre.factor:.5g} {metre.label}"
-    table = _table(f"Influence{at}", ("column", "measure", "parameter"), ("value", "±"))
+    rows = []
     for row in rows_of(found.indices[~found.indices["measure"].isin(IN_FILES)]):
         factor, unit = shown_if_any(row["column"], units) if row["measure"] in WITH_UNIT else (1.0, "")
         error = "" if np.isnan(row["error"]) else f"{row['error'] * factor:.2g}"
         names = (row["operation"], row["column"], row["measure"], row["parameter"])
-        table.add_row(*names, f"{row['value'] * factor:.3g} {unit}".rstrip(), error)
-    screen.print(table)
+        rows.append([*names, f"{row['value'] * factor:.3g} {unit}".rstrip(), error])
+    print_table(
+        shown_table(["operation", "column", "measure", "parameter", *right("value", "±")], rows),
+        OPERATION,
+        words=FOLD,
+        title=f"Influence{at}",
+        **WIDE,
+    )
 
 
 def _print_percentiles(found: Uncertainty, units: System) -> None:
-    table = _table("Percentiles at the last depth", ("column",), ("%", "value", "95 %", "samples"))
-    rows = found.percentiles
-    if "bit_depth_m" in rows:
-        rows = rows[rows["bit_depth_m"] == rows["bit_depth_m"].max()]
-    for row in rows_of(rows):
+    rows, of = [], found.percentiles
+    if "bit_depth_m" in of:
+        of = of[of["bit_depth_m"] == of["bit_depth_m"].max()]
+    for row in rows_of(of):
         if (row["operation"], row["column"]) in found.noise:
             continue
         factor, unit = shown_if_any(row["column"], units)
         low, high = ("–" if np.isnan(row[end]) else f"{row[end] * factor:z.4g}" for end in ("low", "high"))
         value = "–" if np.isnan(row["value"]) else f"{row['value'] * factor:z.4g} {unit}"
-        table.add_row(
-            row["operation"], row["column"], f"{row['percentile']:g}", value, f"{low} to {high}", str(row["samples"])
-        )
-    screen.print(table)
+        rows.append([
+            row["operation"], row["column"], f"{row['percentile']:g}", value, f"{low} to {high}", row["samples"]
+        ])  # fmt: skip
+    print_table(
+        shown_table(["operation", "column", *right("%", "value", "95 %", "samples")], rows),
+        OPERATION,
+        words=FOLD,
+        title="Percentiles at the last depth",
+        **WIDE,
+    )

@@ -9,11 +9,12 @@ import typer
 from fctd.case.errors import InputError
 from fctd.case.systems import HOURS, LENGTH, told
 from fctd.case.text import counted, printable
-from fctd.cli.job import Job, depths_option, grid, right, rows_of
-from fctd.cli.options import CaseFile, Friction, Overrides, Quiet, Strict, Units, screen
+from fctd.cli.job import WHOLE, Job, depths_option, print_table, rows_of
+from fctd.cli.options import CaseFile, Friction, Overrides, Quiet, Strict, Units
 from fctd.cli.pictures import PICTURE_HELP, draw_panels
 from fctd.cli.quantities import PENETRATION, TO_TOTAL_DEPTH, Given, QuantityOption, quantity, si
 from fctd.cli.steady import Rpm, file_option
+from fctd.results.shown_tables import Head, number, shown_table
 from fctd.results.unit_systems import System, in_words, shown
 from fctd.steady.wear import STEP, TURNING, USUAL_FACTORS, casing_wear
 
@@ -157,10 +158,12 @@ def _print(job: Job, table: "pd.DataFrame", lines: list[str]) -> None:
     unit = {name: _unit(name, job.units) for name in SHOWN}
     for casing, of in table.groupby("casing", sort=False):
         job.say(printable(str(casing)))
-        found = grid(*right(*(f"{words}\n{unit[name][1]}" for name, words in SHOWN.items()), no_wrap=True))
-        for row in rows_of(of, SCREEN_ROWS, [int(np.argmax(of["high_groove_m"].to_numpy()))]):
-            found.add_row(*(f"{row[name] * unit[name][0]:.{DIGITS[name][job.units == 'field']}f}" for name in SHOWN))
-        screen.print(found)
+        rows = (
+            [number(row[name] * unit[name][0], DIGITS[name][job.units == "field"]) for name in SHOWN]
+            for row in rows_of(of, SCREEN_ROWS, [int(np.argmax(of["high_groove_m"].to_numpy()))])
+        )
+        heads = [Head(words, unit[name][1], numbers=True) for name, words in SHOWN.items()]
+        print_table(shown_table(heads, rows), numbers=WHOLE)
     job.say(
         *map(printable, lines),
         "side forces are those on 30 ft of string; burst is 0.875·2Yt/D of the wall t that is left, which a groove "

@@ -10,7 +10,7 @@ from fctd.model.summary import segments_in_words, summarise
 from fctd.plots.loads import ChartLook, Load
 from fctd.report import results, well
 from fctd.report.answers import Answers
-from fctd.report.tables import Report, Section
+from fctd.report.parts import Report, Section
 from fctd.results.unit_systems import System, shown
 
 

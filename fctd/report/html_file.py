@@ -5,7 +5,8 @@ from __future__ import annotations
 import base64
 from typing import Final
 
-from fctd.report.tables import Picture, Report, Table
+from fctd.report.parts import Picture, Report
+from fctd.results.shown_tables import Table
 
 _TYPES: Final = {".svg": "image/svg+xml", ".png": "image/png"}
 

@@ -19,7 +19,8 @@ from reportlab.pdfgen.canvas import Canvas
 from reportlab.platypus import BaseDocTemplate, CondPageBreak, Flowable, Frame, PageTemplate, Paragraph
 from reportlab.platypus import Table as Drawn
 
-from fctd.report.tables import Cell, Picture, Report, Table, Text
+from fctd.report.parts import Picture, Report, Text
+from fctd.results.shown_tables import Cell, Table
 
 FONT, BOLD = "FCTD-Sans", "FCTD-Sans-Bold"
 SIZE, SMALL = 8.0, 6.5  # of type [pt]
@@ -234,7 +235,7 @@ def _drawn(table: Table, room: float, height: float) -> Drawn:
 
     rows = [[shown(of, width) for of, width in zip(row, widths, strict=True)] for row in table.rows]
     if table.heads:
-        rows.insert(0, [_paragraph(head, style) for head, style in zip(table.heads, heads, strict=True)])
+        rows.insert(0, [_paragraph(str(head), style) for head, style in zip(table.heads, heads, strict=True)])
     look = [
         ("FONT", (0, 0), (-1, -1), FONT, size, 1.2 * size), ("VALIGN", (0, 0), (-1, -1), "TOP"),
         ("LEFTPADDING", (0, 0), (-1, -1), PAD), ("RIGHTPADDING", (0, 0), (-1, -1), PAD),
@@ -265,7 +266,7 @@ def _sizes(table: Table, room: float) -> tuple[float, list[float]]:
 
 def _column(table: Table, k: int, size: float, room: float) -> tuple[float, float]:
     """Least width of a column and that in which nothing wraps but its head [pt]."""
-    head = table.heads[k] if table.heads else ""
+    head = str(table.heads[k]) if table.heads else ""
     words = [pdfmetrics.stringWidth(word, BOLD, size) for word in _shown(head).split()]
     least, most = max(words, default=0.0), max(*words, 0.5 * sum(words), 0.0) if words else 0.0
     for row in table.rows:

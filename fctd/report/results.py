@@ -15,12 +15,13 @@ from fctd.plots.flow import losses_panels
 from fctd.plots.loads import ChartLook
 from fctd.plots.profile import profile_figure
 from fctd.report.answers import Answers
-from fctd.report.tables import NONE, Cell, Part, Picture, Section, Table, Text, frame_table, number, text
+from fctd.report.parts import Part, Picture, Section, Text
 from fctd.results.columns import LOADS
 from fctd.results.notes import MEANINGS
 from fctd.results.series import FRICTION_LABEL
+from fctd.results.shown_tables import NONE, Cell, Table, facts, frame_table, of_column, shown_table, text
 from fctd.results.status import SteadyStatus
-from fctd.results.unit_systems import System, digits_of, in_words, shown
+from fctd.results.unit_systems import System, in_words, shown
 from fctd.steady.margins import FATIGUE, OVERPULL, SET_DOWN, SLIPS, TORQUE
 from fctd.steady.steady_string import Equilibrium
 from fctd.store.origin import versions
@@ -142,16 +143,17 @@ def profiles(found: Answers, units: System) -> Section:
 
 def _loads_of(points: Sequence[Equilibrium], units: System) -> Table:
     """A row for every load, a column for every operation."""
-    rows = []
-    for load in LOADS:
-        unit = shown(load.name, units)
-        values = [load.value(point) if point.answered else float("nan") for point in points]
-        cells = (number(value * unit.factor, digits_of(load.name, units)) for value in values)
-        rows.append((text(load.label), text(unit.label), *cells))
+    rows = (
+        (
+            load.label, shown(load.name, units).label,
+            *(of_column(load.name, load.value(point), units) if point.answered else None for point in points),
+        )
+        for load in LOADS
+    )  # fmt: skip
     heads = ("load", "unit", *(KINDS[point.operation].label for point in points))
     status = "; ".join(f"{KINDS[point.operation].label}: {point.status.replace('_', ' ')}" for point in points)
     bit = in_words(points[0].bit_depth, "bit_depth_m", units)
-    return Table(f"Loads with the bit at {bit}", heads, tuple(rows), (status,))
+    return shown_table(heads, rows, f"Loads with the bit at {bit}", (status,))
 
 
 def mud(found: Answers, units: System) -> Section:
@@ -214,6 +216,4 @@ def along(points: Sequence[Equilibrium], units: System) -> Section:
 
 def made_with(case: Case) -> Section:
     """Versions of the program and of what its numbers depend on, and a hash of the case."""
-    rows = tuple((text(name), text(version)) for name, version in versions().items())
-    rows += ((text("hash of the case with its survey"), text(case.digest)),)
-    return Section("Versions", (Table("", (), rows),))
+    return Section("Versions", (facts("", [*versions().items(), ("hash of the case with its survey", case.digest)]),))

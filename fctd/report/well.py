@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from fctd.calibration.predict import posterior_file, read_posterior
@@ -18,32 +19,50 @@ from fctd.case.systems import (
     FLOW,
     FORCE,
     LENGTH,
-    LINEAR_MASS,
     PRESSURE,
+    ROTATION,
     SPEED,
     STRESS,
     TEMPERATURE,
     TORQUE,
     Kind,
     System,
+    signed,
 )
 from fctd.model.capacity import Body
 from fctd.model.operations import SteadyRates, rad_per_s
 from fctd.model.section import section_of
 from fctd.model.summary import Summary
-from fctd.report.tables import NONE, Cell, Section, Table, Text, facts, number, short, text
-from fctd.results.case_facts import Row, caliper_facts, fitting_facts, flow_curves, load_facts, path_facts
+from fctd.report.parts import Section, Text
+from fctd.results.case_facts import (
+    caliper_facts,
+    fitting_facts,
+    flow_curves,
+    hole_table,
+    load_facts,
+    path_facts,
+    string_table,
+)
+from fctd.results.shown_tables import (
+    NONE,
+    Cell,
+    Fact,
+    Head,
+    Table,
+    facts,
+    number,
+    quantities,
+    quantity,
+    short,
+    shown_table,
+    text,
+)
 
 
-def _cell(kind: Kind, value: float | None, units: System) -> Cell:
-    """A value [SI], a dash for None."""
-    return Cell(NONE) if value is None else number(value * kind.shown(units).factor, kind.digits_in(units))
-
-
-def _facts(rows: Iterable[tuple[str, Kind, float | None, str]], units: System) -> list[tuple[Cell, ...]]:
-    """Rows of a table of facts, of those that have a value: words, its kind, value [SI], and what else to say."""
+def _facts(rows: Iterable[tuple[str, Kind, float | None, str]], units: System) -> list[Fact]:
+    """Facts of those quantities that have a value: words, kind, value [SI], and what else to say."""
     return [
-        (text(words), _cell(of, value, units), text(f"{of.label(units)}{more}"))
+        (words, quantity(of, value, units), f"{of.label(units)}{more}")
         for words, of, value, more in rows
         if value is not None
     ]
@@ -53,17 +72,17 @@ def well(summary: Summary, units: System, company: str, by: str, date: str) -> S
     """General, datum, path."""
     case = summary.case
     survey = "stations in the case file" if case.wellbore.survey is None else case.wellbore.survey.name
-    general: list[Row] = [
-        ("well", case.name, ""), ("company", company, ""), ("prepared by", by, ""), ("date", date, ""),
-        ("case file", "" if case.file is None else case.file.name, ""), ("survey", survey, ""),
-        ("method", case.wellbore.survey_method.replace("_", " "), ""),
-    ]  # fmt: skip
+    general = {
+        "well": case.name, "company": company, "prepared by": by, "date": date,
+        "case file": "" if case.file is None else case.file.name, "survey": survey,
+        "method": case.wellbore.survey_method.replace("_", " "),
+    }  # fmt: skip
     return Section(
         "Well",
         (
-            Table("General", (), tuple((text(what), text(value)) for what, value, _ in general if value)),
+            facts("General", ((what, value) for what, value in general.items() if value)),
             _datum(case, units),
-            facts("Path", path_facts(summary, units)),
+            path_facts(summary, units),
         ),
     )
 
@@ -82,74 +101,45 @@ def _datum(case: Case, units: System) -> Table | Text:
     datum_of = "Depths count from the rotary table downwards."
     if not rows:
         return Text(f"{datum_of} The case does not give its elevation (table [datum]).")
-    return Table("Datum", (), tuple(rows), (datum_of,))
+    return replace(facts("Datum", rows), notes=(datum_of,))
 
 
 def hole(case: Case, units: System) -> Section:
     """Intervals, caliper, window of densities."""
-    depth, size = LENGTH.label(units), ACROSS.label(units)
-    named = any(one.casing is not None for one in case.wellbore.intervals)
-    heads = ("interval", "kind", f"from ({depth})", f"to ({depth})", f"diameter ({size})", *(["casing"] * named))
-    rows, start = [], 0.0
-    for k, one in enumerate(case.wellbore.intervals, start=1):
-        ends = _cell(LENGTH, start, units), _cell(LENGTH, one.to_md, units)
-        of_pipe = [text(one.casing or NONE)] * named
-        rows.append((text(one.name or k), text(one.kind or NONE), *ends, _cell(ACROSS, one.diameter, units), *of_pipe))
-        start = one.to_md
-    parts = [Table("Intervals", heads, tuple(rows))]
+    parts = [hole_table(case, units, casings=any(one.casing is not None for one in case.wellbore.intervals))]
     if case.wellbore.calipers is not None:
-        parts.append(facts("Caliper", caliper_facts(case.wellbore.calipers, units)))
+        parts.append(caliper_facts(case.wellbore.calipers, units))
     if case.wellbore.window:
-        density = DENSITY.label(units)
-        of_window = (f"true vertical depth ({depth})", f"pore ({density})", f"fracture ({density})")
-        window = tuple(
-            (_cell(LENGTH, row.tvd, units), _cell(DENSITY, row.pore, units), _cell(DENSITY, row.fracture, units))
-            for row in case.wellbore.window
-        )
-        parts.append(Table("Window of mud densities", of_window, window))
+        of_window = ("true vertical depth", LENGTH), ("pore", DENSITY), ("fracture", DENSITY)
+        window = [(row.tvd, row.pore, row.fracture) for row in case.wellbore.window]
+        parts.append(quantities("Window of mud densities", of_window, window, units))
     return Section("Hole", tuple(parts))
 
 
 def string(summary: Summary, units: System) -> Section:
     """Components from the top to the bit, what they bear, fittings, weights."""
-    case, depth, size, force = summary.case, LENGTH.label(units), ACROSS.label(units), FORCE.label(units)
-    inside = summary.parts
-    components = case.string.components[: len(inside)][::-1]
-    heads = (
-        "component", f"from ({depth})", f"to ({depth})", f"outer diameter ({size})", f"inner diameter ({size})",
-        f"contact diameter ({size})", f"mass ({LINEAR_MASS.label(units)})", f"in air ({force})", f"in mud ({force})",
-    )  # fmt: skip
-    rows = [
-        (
-            text(part.name), _cell(LENGTH, part.from_md, units), _cell(LENGTH, part.to_md, units),
-            *(_cell(ACROSS, getattr(of, f"{which}_diameter"), units) for which in ("outer", "inner", "contact")),
-            _cell(LINEAR_MASS, part.mass, units), _cell(FORCE, part.air, units), _cell(FORCE, part.buoyed, units),
-        )
-        for part, of in zip(inside, components, strict=True)
-    ]  # fmt: skip
+    case = summary.case
     bears = (
-        "component", "pipe", f"yield strength ({STRESS.label(units)})", f"tension ({force})",
-        f"torque ({TORQUE.label(units)})", f"make-up torque ({TORQUE.label(units)})",
-        f"burst ({PRESSURE.label(units)})", f"collapse ({PRESSURE.label(units)})",
+        ("component", None), ("pipe", None), ("yield strength", STRESS), ("tension", FORCE), ("torque", TORQUE),
+        ("make-up torque", TORQUE), ("burst", PRESSURE), ("collapse", PRESSURE),
     )  # fmt: skip
     capacities = []
-    for of in components:
+    for of in case.string.components[: len(summary.parts)][::-1]:
         section = section_of(of, case.mud.density)
         body = Body(2 * section.outer, 2 * section.inner, section.yield_strength)
-        capacities.append((
-            text(of.name), text(of.pipe or NONE), _cell(STRESS, section.yield_strength, units),
-            _cell(FORCE, body.tension, units), _cell(TORQUE, body.torsion, units),
-            _cell(TORQUE, section.make_up, units), _cell(PRESSURE, section.burst, units),
-            _cell(PRESSURE, section.collapse, units),
-        ))  # fmt: skip
+        most = body.tension, body.torsion, section.make_up, section.burst, section.collapse
+        capacities.append((of.name, of.pipe, section.yield_strength, *most))
     note = "Of the body at yield, each load by itself; make-up torque is the largest that is recommended, where known."
+    title = f"String, the bit at {quantity(LENGTH, summary.bit_depth, units).text} {LENGTH.label(units)}"
     parts = [
-        Table(f"String, the bit at {_cell(LENGTH, summary.bit_depth, units).text} {depth}", heads, tuple(rows)),
-        Table("Capacities", bears, tuple(capacities), (note,)),
+        replace(string_table(summary, units, sizes=True), title=title),
+        quantities("Capacities", bears, capacities, units, (note,)),
     ]
-    if rows_of := fitting_facts(case, units):
-        parts.append(facts("Fittings", rows_of))
-    parts.append(facts("Weights", load_facts(summary, units)))
+    if (fittings := fitting_facts(case, units)).rows:
+        parts.append(fittings)
+    # The screen has the units of weights as people type them.
+    weights = tuple((what, value, text(signed(more.text))) for what, value, more in load_facts(summary, units).rows)
+    parts.append(Table("Weights", (), weights))
     return Section("String", tuple(parts))
 
 
@@ -162,33 +152,25 @@ def fluids(case: Case, units: System) -> Section:
         ("pressure outside at surface", PRESSURE, mud.outside_pressure or None, ""),
         ("total flow area of the nozzles", AREA, case.bit.nozzle_area or None, ""),
     ]
-    rows = [*_facts(given, units), (text("lower end"), Cell(""), text(case.end))]
-    rows += facts("", flow_curves(mud, units)).rows
+    known = facts("Mud", [*_facts(given, units), ("lower end", Cell(""), case.end)])
     lacks = mud.curve is None and not any(row.curve is not None for row in (*mud.inside, *mud.outside))
     notes = ("The case gives no rheology: steady loads do not depend on it without flow.",) if lacks else ()
-    parts.append(Table("Mud", (), tuple(rows), notes))
+    parts.append(replace(known, rows=known.rows + flow_curves(mud, units).rows, notes=notes))
     if mud.fann is not None and mud.fit is not None:
-        readings = ("rev/min", "read (degrees)", "fitted (degrees)")
         pairs = zip(mud.fann.items(), mud.fit.misfit, strict=True)
-        read = tuple((short(speed), short(value), number(value + miss, 1)) for (speed, value), miss in pairs)
-        parts.append(Table("Viscometer", readings, read))
+        read = ((short(speed), short(value), number(value + miss, 1)) for (speed, value), miss in pairs)
+        parts.append(shown_table(["rev/min", Head("read", "degrees"), Head("fitted", "degrees")], read, "Viscometer"))
     sides = [(side, row) for side in ("inside", "outside") for row in getattr(mud, side)]
     if sides:
-        heads = ("side", f"down to ({LENGTH.label(units)})", f"density ({DENSITY.label(units)})", "plug below")
-        by_depth = tuple(
-            (
-                text(side), _cell(LENGTH, row.to_md, units), _cell(DENSITY, row.density, units),
-                text("yes" if getattr(row, "plug", False) else NONE),
-            )
-            for side, row in sides
-        )  # fmt: skip
-        parts.append(Table("Fluids by depth", heads, by_depth))
+        heads = ("side", None), ("down to", LENGTH), ("density", DENSITY), ("plug below", None)
+        by_depth = [
+            (side, row.to_md, row.density, "yes" if getattr(row, "plug", False) else None) for side, row in sides
+        ]
+        parts.append(quantities("Fluids by depth", heads, by_depth, units))
     if case.temperature:
-        warmer = (f"true vertical depth ({LENGTH.label(units)})", f"change ({TEMPERATURE.label(units)})")
-        changes = tuple(
-            (_cell(LENGTH, row.tvd, units), _cell(TEMPERATURE, row.change, units)) for row in case.temperature
-        )
-        parts.append(Table("Change of temperature", warmer, changes))
+        warmer = ("true vertical depth", LENGTH), ("change", TEMPERATURE)
+        changes = [(row.tvd, row.change) for row in case.temperature]
+        parts.append(quantities("Change of temperature", warmer, changes, units))
     return Section("Fluids", tuple(parts))
 
 
@@ -230,13 +212,15 @@ def _origin(case: Case, given: Sequence[FrictionSet]) -> Iterator[Text | Table]:
         return
     posterior = read_posterior(beside)
     yield Text(f"Calibrated by fctd calibrate: {beside.name}.")
-    rows = []
-    for k, unknown in enumerate(posterior.unknowns):
-        now = held(unknown.name, case)
-        spread = math.sqrt(float(posterior.covariance[k, k]))
-        found = short(float(posterior.best[k])), short(spread, 2), short(float(now[0])) if now else Cell(NONE)
-        rows.append((text(unknown.name), *found, text(unknown.unit)))
-    yield Table("Calibration", ("unknown", "calibrated", "standard deviation", "in this case", "unit"), tuple(rows))
+    rows = (
+        (
+            unknown.name, short(float(posterior.best[k])), short(math.sqrt(float(posterior.covariance[k, k])), 2),
+            short(float(now[0])) if (now := held(unknown.name, case)) else None, unknown.unit,
+        )
+        for k, unknown in enumerate(posterior.unknowns)
+    )  # fmt: skip
+    heads = "unknown", "calibrated", "standard deviation", "in this case", "unit"
+    yield shown_table(heads, rows, "Calibration")
 
 
 def rig(case: Case, units: System) -> Section:
@@ -256,14 +240,14 @@ def rig(case: Case, units: System) -> Section:
     ]
     rows = _facts(given, units)
     rows += [
-        (text(words), short(value), text(more))
+        (words, short(value), more)
         for words, value, more in (
             ("sheave efficiency", of.sheave_efficiency, ""),
             ("design factor", limits.design_factor, "of tension, stress and pressure"),
             ("share of the make-up torque", limits.torque_share, "that may be used"),
         )
     ]
-    return Section("Rig and limits", (Table("", (), tuple(rows)),))
+    return Section("Rig and limits", (facts("", rows),))
 
 
 def assumptions(
@@ -314,12 +298,12 @@ def _rates(case: Case, rates: Mapping[str, SteadyRates], drive: Mapping[str, Any
     """Speed, rotation and flow of each operation, and where they are from."""
     own = {operation.kind for operation in case.operations}
     given = any(value is not None for value in drive.values())
-    rows = tuple(
+    rows = (
         (
-            Cell(KINDS[kind].label), _cell(SPEED, abs(rate.speed), units), number(rate.spin / rad_per_s(1.0), 1),
-            _cell(FLOW, rate.flow, units), text("options, else " * given + ("case" if kind in own else "default")),
+            KINDS[kind].label, abs(rate.speed), number(rate.spin / rad_per_s(1.0), 1), rate.flow,
+            "options, else " * given + ("case" if kind in own else "default"),
         )
         for kind, rate in rates.items()
     )  # fmt: skip
-    heads = ("operation", f"speed ({SPEED.label(units)})", "rotation (rev/min)", f"flow ({FLOW.label(units)})", "from")
-    return Table("Rates", heads, rows)
+    heads = ("operation", None), ("speed", SPEED), ("rotation", ROTATION), ("flow", FLOW), ("from", None)
+    return quantities("Rates", heads, rows, units)

@@ -5,7 +5,8 @@ from __future__ import annotations
 import io
 from typing import Any, Final
 
-from fctd.report.tables import Cell, Picture, Report, Section, Table, Text
+from fctd.report.parts import Picture, Report, Section, Text
+from fctd.results.shown_tables import Cell, Table
 
 _NARROWEST, _WIDEST = 11, 60  # characters of a column
 _DPI: Final = 110  # of pictures
@@ -81,7 +82,7 @@ def _write_table(sheet: Any, table: Table, styles: _Styles, row: int, widths: di
     """Write a table from a row on, and its columns' widths in characters; returns the row below it."""
     sheet.write_string(row, 0, table.title, styles.title)
     row += bool(table.title)
-    for k, head in enumerate(table.heads):
+    for k, head in enumerate(map(str, table.heads)):
         sheet.write_string(row, k, head, styles.head)
         widths[k] = max(widths.get(k, _NARROWEST), max(map(len, head.split(" ")), default=0))
     row += bool(table.heads)

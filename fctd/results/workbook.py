@@ -28,11 +28,17 @@ _MOST: Final = 40  # items of a list that are written out
 
 
 class Heading(NamedTuple):
-    """How a workbook has a column: its header, factor of its numbers, and their format."""
+    """How a workbook has a column: words and unit of its header, factor of its numbers, and their format."""
 
-    text: str
+    words: str
+    unit: str
     factor: float
     format: str
+
+    @property
+    def text(self) -> str:
+        """The header."""
+        return f"{self.words} ({self.unit})" if self.unit else self.words
 
 
 def heading_of(column: str) -> Heading:
@@ -46,7 +52,7 @@ def heading_of(column: str) -> Heading:
         factor, unit, digits = kind.shown("si").factor, kind.unit("si"), kind.digits_in("si")
     digits = digits if known is None or known.digits is None else known.digits
     sign = signed(unit).replace("deg", "°")
-    return Heading(label + (f" ({sign})" if sign else ""), factor, f"0.{'0' * digits}".removesuffix("."))
+    return Heading(label, sign, factor, f"0.{'0' * digits}".removesuffix("."))
 
 
 def to_workbook(frame: pd.DataFrame, path: Path, metadata: Mapping[str, Any]) -> None:

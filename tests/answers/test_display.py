@@ -10,6 +10,7 @@ import fctd
 from fctd import plots
 from fctd.answers.display import html_table, load_rows, picture
 from fctd.case.errors import InputError
+from fctd.results.shown_tables import facts
 from fctd.steady import steady_string
 from fctd.steady.equilibrium import equilibrium as solve
 from tests.cases import make_case
@@ -23,9 +24,9 @@ def test_loads_have_labels_and_units() -> None:
 
 
 def test_texts_are_escaped() -> None:
-    table = html_table("a <b> & c", {"<i>": "1 < 2"})
+    table = html_table(facts("a <b> & c", [("<i>", "1 < 2")]))
     assert "a &lt;b&gt; &amp; c" in table
-    assert "<th>&lt;i&gt;</th>" in table
+    assert "<td>&lt;i&gt;</td>" in table
     assert "1 &lt; 2" in table
 
 

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from fctd.case.load import load_case
 from fctd.cli import job
-from fctd.cli.job import Job, number, rows_of
+from fctd.cli.job import Job, rows_of
+from fctd.results.shown_tables import short
 from tests.commands import Command
 
 
@@ -32,7 +33,7 @@ def test_rows_of_a_long_table_are_evenly_spread_and_end_with_its_last(count: int
     ("value", "text"), [(np.nan, ""), (1234.5, "1234"), (-0.0, "0"), (12.3456, "12.35"), (0.00012345, "0.0001234")]
 )
 def test_a_number_of_a_screen_has_four_digits(value: float, text: str) -> None:
-    assert number(value) == text
+    assert short(value, none="").text == text
 
 
 def test_a_table_is_written_where_the_screen_is_closed(case_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:

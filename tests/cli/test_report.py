@@ -10,7 +10,7 @@ import pytest
 from fctd.case.load import load_case
 from fctd.cli.report import _default_depths
 from fctd.report import answers
-from fctd.report.tables import Picture
+from fctd.report.parts import Picture
 from tests.cli.tiny import settings
 from tests.commands import Command
 

@@ -9,7 +9,7 @@ from fctd.case.load import Case, load_case
 from fctd.report.answers import Answers, Asked, answer
 from fctd.report.content import Cover, report_of
 from fctd.report.html_file import to_html
-from fctd.report.tables import Report
+from fctd.report.parts import Report
 from fctd.report.xlsx_file import to_xlsx
 from fctd.results.unit_systems import System
 

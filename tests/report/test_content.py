@@ -7,7 +7,7 @@ import pytest
 
 from fctd.report.answers import Answers
 from fctd.report.content import Cover, report_of
-from fctd.report.tables import Report
+from fctd.report.parts import Report
 from fctd.results.unit_systems import System
 
 ALWAYS = ["Well", "Hole", "String", "Fluids", "Friction", "Rig and limits", "Assumptions", "Torque and drag"]
@@ -36,7 +36,7 @@ def test_a_torque_and_a_depth_have_the_same_digits_everywhere(made: Callable[[Sy
             len(row[k].text.partition(".")[2])
             for table in made("si").tables
             for row in table.rows
-            for k, head in enumerate(table.heads)
+            for k, head in enumerate(map(str, table.heads))
             if row[k].number is not None and (head.endswith(f"({unit})") or row[1].text == unit)
         }
         assert found == digits

@@ -8,7 +8,8 @@ from typing import Any
 import pytest
 from matplotlib.figure import Figure
 
-from fctd.report.tables import Cell, Part, Picture, Report, Section, Table, Text, number
+from fctd.report.parts import Part, Picture, Report, Section, Text
+from fctd.results.shown_tables import Cell, Table, number
 from fctd.results.unit_systems import System
 from tests.report.conftest import ADDRESS, FORMULA
 

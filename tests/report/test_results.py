@@ -8,8 +8,9 @@ from fctd.case.load import load_case
 from fctd.plots.loads import ChartLook
 from fctd.report import results
 from fctd.report.answers import Answers, Asked, answer
-from fctd.report.tables import NONE, Report, Table, Text
+from fctd.report.parts import Report, Text
 from fctd.results.columns import LOADS
+from fctd.results.shown_tables import NONE, Table
 from fctd.results.unit_systems import System, shown
 from tests.report.conftest import KINDS, WELL
 
@@ -20,7 +21,7 @@ def tables(report: Report, section: str) -> dict[str, Table]:
 
 
 def column(table: Table, head: str) -> list[float | None]:
-    return [row[table.heads.index(head)].number for row in table.rows]
+    return [row[[*map(str, table.heads)].index(head)].number for row in table.rows]
 
 
 @pytest.mark.parametrize(("units", "force", "depth"), [("si", "kN", "m"), ("field", "klbf", "ft")])

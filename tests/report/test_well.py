@@ -17,8 +17,9 @@ from fctd.model.capacity import body_of
 from fctd.model.connection import make_up_torque
 from fctd.model.operations import rates_of_all
 from fctd.model.summary import summarise
-from fctd.report.tables import Cell, Report, Table, Text
+from fctd.report.parts import Report, Text
 from fctd.report.well import _datum, assumptions, fluids, friction, hole, string
+from fctd.results.shown_tables import Cell, Table
 from fctd.results.unit_systems import System
 from tests.report.conftest import WELL
 
@@ -39,7 +40,8 @@ def test_the_datum_at_sea_on_land_and_unknown(made: Callable[[System], Report]) 
 
 def test_casing_of_the_catalogue_is_named() -> None:
     case = load_case(WELL, {"wellbore.intervals[0].casing": "9 5/8 in 47 L-80", "wellbore.intervals[0].diameter": None})
-    assert [row[-2:] for row in texts(hole(case, "field").parts[0])] == [["8.681", "9 5/8 in 47 L-80"], ["8.500", "–"]]
+    told = [row[-3:] for row in texts(hole(case, "field").parts[0])]
+    assert told == [["8.681", "0.2", "9 5/8 in 47 L-80"], ["8.5", "0.3", "–"]]
 
 
 def test_capacities_are_those_of_the_catalogue(made: Callable[[System], Report]) -> None:

@@ -8,7 +8,8 @@ from typing import Any
 
 import pytest
 
-from fctd.report.tables import Cell, Report, Table
+from fctd.report.parts import Report
+from fctd.results.shown_tables import Cell, Table
 from fctd.results.unit_systems import System
 from tests.report.conftest import UNITS
 
