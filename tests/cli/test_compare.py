@@ -68,27 +68,6 @@ def test_the_same_case_twice_differs_in_no_key(case_file: Path, cli: Command) ->
     assert "tiny (copy)" in printed
 
 
-@pytest.mark.parametrize(
-    ("arguments", "expected"),
-    [
-        (["CASE"], "2 case files or more"),
-        ([HEAVY, "CASE"], "a case file before it, which it changes"),
-        (["CASE", "CASE", "mud.densty=3"], "mud.densty"),
-        (["CASE", "none.toml"], "none.toml"),
-        (["CASE", "CASE", "=3"], "expected key=value"),
-        (["CASE", "CASE", "--plot", "CASE"], "--plot"),
-        (["CASE", "CASE", "--depths", "5000:6000:10"], "tiny.toml: --depths"),
-        (["CASE", "CASE", "--depths", "shoe:td:10"], "the case has one interval"),
-        (["CASE", "CASE", "--friction", "cased=0.2,open=0.3"], "tiny.toml: wellbore.intervals[0].kind"),
-        (["CASE"] * 7 + ["--plot", "p.png"], "at most 6 cases"),
-    ],
-)
-def test_wrong_input_is_named(arguments: list[str], expected: str, case_file: Path, cli: Command) -> None:
-    given = [str(case_file) if word == "CASE" else word for word in arguments]
-    options = OPTIONS if "--depths" not in given else OPTIONS[:2]
-    assert expected in cli("compare", *given, *options, code=2).err
-
-
 def test_warnings_of_a_file_are_told_once_and_strict_ends(case_file: Path, cli: Command) -> None:
     options = [*OPTIONS, "--load", "indicator"]
     told = cli("compare", case_file, case_file, "friction=0.3", *options).err

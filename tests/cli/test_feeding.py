@@ -19,44 +19,6 @@ def level(tmp_path: Path) -> Path:
     return file
 
 
-@pytest.mark.parametrize(
-    ("options", "expected"),
-    [
-        (
-            ("--operation", "trip_out", "--set", "solver.buckling=feed"),
-            "a string that slides down without rotation (trip_in or drill_sliding), which the block feeds",
-        ),
-        (
-            ("--operation", "trip_in", "--rpm", "60", "--set", "solver.buckling=feed"),
-            "a string without rotation: one that turns is not fed from rest (--rpm 0)",
-        ),
-        (
-            (*RESOLVED, "--friction", "0"),
-            "a hole with friction: a string that slides without it is not fed from rest",
-        ),
-        (
-            ("--operation", "drill_sliding"),
-            'solver.buckling = "feed" (--set solver.buckling=feed): else no string is fed from rest',
-        ),
-    ],
-)
-def test_what_is_never_fed_is_refused_before_it_is_solved(
-    options: tuple[str, ...], expected: str, level: Path, cli: Command, tmp_path: Path
-) -> None:
-    picture = tmp_path / "feeding.png"
-    printed = cli("equilibrium", level, *options, "--bit-depth", "150", "--plot-feeding", picture, code=2)
-    assert printed.err == f'--plot-feeding = "{picture}": expected {expected}\n'
-    assert printed.out == ""
-    assert not picture.exists()
-
-
-def test_a_page_or_the_file_of_another_picture_is_refused(level: Path, cli: Command) -> None:
-    given = ("equilibrium", level, *RESOLVED, "--bit-depth", "150")
-    assert "ends in .png or .svg or .pdf" in cli(*given, "--plot-feeding", "feeding.html", code=2).err
-    same = cli(*given, "--plot", "a.png", "--plot-feeding", "./a.png", code=2).err
-    assert same == '--plot-feeding = "a.png": expected a file of its own for each picture\n'
-
-
 def test_a_string_that_does_not_buckle_is_not_fed(case_file: Path, tmp_path: Path, cli: Command) -> None:
     """Its loads are printed, and the other files written."""
     picture, out = tmp_path / "feeding.png", tmp_path / "profile.csv"

@@ -3,7 +3,6 @@
 from pathlib import Path
 
 import pandas as pd
-import pytest
 
 from tests.commands import Command
 
@@ -35,27 +34,3 @@ def test_quiet_prints_nothing(cli: Command, tmp_path: Path) -> None:
     out = tmp_path / "free.csv"
     assert cli("freepoint", WELL, "--pull", "200 kN", "--stretch", "0.6 m", "--out", out, "--quiet").out == ""
     assert len(pd.read_csv(out)) == 1
-
-
-def test_another_first_reading(cli: Command) -> None:
-    said = cli("freepoint", WELL, "--pull", "200 kN", "--stretch", "0.6 m", "--first-hookload", "1000 kN").out
-    assert "0.6 m by 200 kN more than 1000 kN" in said
-
-
-@pytest.mark.parametrize(
-    ("options", "told"),
-    [
-        ([], "--pull is missing: expected pull and stretch, or torque and turns"),
-        (["--pull", "100 kN"], "--stretch is missing: expected pull and stretch together"),
-        (["--pull", "100 m", "--stretch", "1 m"], '--pull = "100 m": expected a force'),
-        (["--pull", "100", "--stretch", "1 m"], '--pull = "100": expected a force with its unit'),
-        (["--pull", "0 kN", "--stretch", "1 m"], "--pull = 0.0: expected a force above 0"),
-        (["--torque", "1 kN*m", "--turns", "-2"], "--turns = -2.0: expected a number of turns above 0"),
-        (["--pull", "1 kN", "--stretch", "1 m", "--bit-depth", "4 km"], "--bit-depth"),
-        (["--pull", "1 kN", "--stretch", "1 m", "--out", "x.png"], "--out"),
-    ],
-)
-def test_wrong_readings_are_refused_in_a_line(cli: Command, options: list[str], told: str) -> None:
-    said = cli("freepoint", WELL, *options, code=2).err
-    assert told in said
-    assert "Traceback" not in said

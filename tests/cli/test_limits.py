@@ -73,30 +73,10 @@ def test_a_string_beyond_its_limit_fails_only_where_strict(cli: Command, well: P
     assert "beyond it already" in cli(*weak, "--strict", code=1).out
 
 
-@pytest.mark.parametrize(
-    ("options", "told"),
-    [
-        (("--depths", "4 km"), "--depths"),
-        (("--depths", "900:800:10"), "--depths"),
-        (("--operation", "pull"), "operation"),
-        (("--set", "limits.design_factor=0.5"), "limits.design_factor"),
-        (("--set", "limits.torque_share=110"), "limits.torque_share"),
-        (("--out", "x.png"), "--out"),
-    ],
-)
-def test_wrong_input_is_told_in_a_line(cli: Command, well: Path, options: tuple[str, str], told: str) -> None:
-    assert told in cli("limits", well, *options, code=2).err
-
-
 def test_a_chart_draws_the_limits(cli: Command, well: Path) -> None:
     plot = well.with_suffix(".svg")
     cli("chart", well, "--operation", "trip_out", "--depths", "800:950:150", "--limits", "--plot", plot)
     assert all(f"limit: {name}" in plot.read_text() for name in ("yield", "hoist"))
-
-
-def test_limits_of_a_chart_need_a_picture(cli: Command, well: Path) -> None:
-    said = cli("chart", well, "--operation", "trip_out", "--depths", "800:900:50", "--limits", code=2)
-    assert "--limits = true: expected --plot beside it" in said.err
 
 
 @pytest.mark.slow
@@ -120,16 +100,3 @@ def test_stuck_pipe_is_loaded_at_its_stuck_point(cli: Command, well: Path, monke
     # The pipe above the stuck point weighs 250 m of 35 kg/m in mud of 1.2 sg.
     arrives = 900e3 - stuck.loc["hoist", "force_at_stuck_N"]
     assert arrives == pytest.approx(250 * 35.0 * 9.80665 * (1 - 1.2 / 7.85), rel=0.01)
-
-
-@pytest.mark.parametrize(
-    ("options", "told"),
-    [
-        (("--stuck-at", "1100 m"), '--stuck-at = "1100 m": expected a depth below'),
-        (("--stuck-at", "bottom"), '--stuck-at = "bottom": expected a length'),
-        (("--stuck-at", "250 m", "--operation", "drill_rotating"), '--operation = "drill_rotating": expected trip_out'),
-        (("--stuck-at", "250 m", "--flow", "2000 L/min"), ": expected none beside stuck_at: the pumps stand"),
-    ],
-)
-def test_stuck_pipe_that_is_none_is_refused(cli: Command, well: Path, options: tuple[str, ...], told: str) -> None:
-    assert told in cli("limits", well, *options, code=2).err

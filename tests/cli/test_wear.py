@@ -52,31 +52,3 @@ def test_a_string_that_is_doubtful_is_named(cli: Command) -> None:
     """Pushed beyond its helix on segments that cannot bend so."""
     pushed = (*CASED, "--hours", "1", "--depths", "2000", "--set", "bit.weight_on_bit=370 kN")
     assert "the string is doubtful at 1 bit depth, the last 2000 m: under_resolved" in cli(*pushed, code=1).out
-
-
-@pytest.mark.parametrize(
-    ("options", "told"),
-    [
-        ([], "--hours is missing: expected duration or penetration"),
-        (["--hours", "10", "--penetration", "20"], "--penetration is missing: expected duration or penetration"),
-        (["--penetration", "20 m/h"], "--depths is missing: expected depths that are drilled"),
-        (["--hours", "-1"], '--hours = "-1": expected a time'),
-        (["--hours", "1", "--wear-factor", "5e-10"], "--wear-factor = 5e-10: expected a wear factor in 1e-10/psi"),
-        (["--hours", "1", "--wear-factor", "low"], '--wear-factor = "low": expected a wear factor'),
-        (["--hours", "1", "--operation", "trip_in"], '--operation = "trip_in": expected rotate_off_bottom'),
-        (["--hours", "1", "--step", "0 m"], "--step"),
-        (["--hours", "1", "--set", "wellbore.intervals[0].casing=9 5/8 in 47"], "with its grade"),
-        (["--hours", "1", "--out", "x.doc"], "--out"),
-    ],
-)
-def test_wrong_input_is_told_in_a_line(cli: Command, options: list[str], told: str) -> None:
-    said = cli(*CASED, *options, code=2).err
-    assert told in said
-    assert "Traceback" not in said
-
-
-def test_a_case_without_casing_is_refused_with_what_to_write(cli: Command) -> None:
-    said = cli("wear", WELL, "--hours", "1", code=2).err
-    assert (
-        "wellbore.intervals[0].casing is missing: expected casing whose wall wears, such as '9 5/8 in 47 N-80'" in said
-    )
