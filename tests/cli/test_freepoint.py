@@ -20,14 +20,6 @@ def test_both_readings_and_the_numbers_of_the_guide(cli: Command, tmp_path: Path
         for depth in table[name]:
             assert f"{depth:.0f} m" in said
         assert f"{table[name].iloc[0]:.0f} m" in GUIDE.read_text(encoding="utf-8")
-    assert "stretch: 0.6 m by 200 kN more than 932 kN, bit at 3000 m" in said
-    assert "twist: 4 turns by 15 kN·m more than 0 kN·m" in said
-
-
-def test_field_units_and_a_reading_of_no_depth(cli: Command) -> None:
-    said = cli("freepoint", WELL, "--pull", "40 klbf", "--stretch", "60 in", "--units", "field", code=1).out
-    assert "stretch: 5 ft by 40 klbf more than" in said
-    assert "no free point: a string that is stuck at its bit moves less, by a factor of 2.37" in said
 
 
 def test_quiet_prints_nothing(cli: Command, tmp_path: Path) -> None:

@@ -56,4 +56,4 @@ def test_warnings_of_several_cases_name_their_cases(case_file: Path, capsys: pyt
     made.warn()
     (density,) = [text for text in made.told if "3000" in text]
     assert density.endswith("(b and c)")
-    assert capsys.readouterr().err.count("a mud of 3000") == 1  # of one file
+    assert capsys.readouterr().err.count("mud of 3000") == 1  # of one file

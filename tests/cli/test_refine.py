@@ -60,7 +60,7 @@ def test_the_case_is_written_as_the_user_has_it(graded: bool, case_file: Path, t
     case = fctd.load_case(case_file, {"friction": 0.3, "string.components[0].bend": None})
     found = fctd.refine(case, 0.02, graded=graded)
     screen = printed.out
-    assert "bit at 850.0 m" in screen
+    assert "850.0 m" in screen
     cut = f"{found.segments} {found.layout} segments" if graded else f"{found.segments} segments"
     assert f"{cut}, from {found.shortest:.3g} m up" in screen
     assert found.layout == ("graded" if graded else "uniform")
@@ -102,7 +102,7 @@ def test_several_operations_and_field_units(case_file: Path, cli: Command) -> No
     screen = cli("refine", case_file, *kinds, "--bit-depth", "880 m", "--tolerance", "0.03", "--rpm", "80",
                "--units", "field", "--quiet").out  # fmt: skip
     assert "klbf" in screen
-    assert "bit at 2887.1 ft" in screen
+    assert "2887.1 ft" in screen
     assert screen.count("trip_in") == screen.count("rotate_off_bottom") > 3
 
 

