@@ -8,6 +8,7 @@ ROOMS = [path.name for path in sorted(ENGINE.iterdir()) if (path / "__init__.py"
 
 # Test files of a room that belong to no one module, and why.
 OF_THE_ROOM = {
+    "cli/test_golden.py": "the screens and refusals of every command",
     "cli/test_wrong_inputs.py": "the commands refuse or doubt them, whichever module finds them",
     "cli/test_text.py": "every command prints texts from outside as they stand",
     "cli/test_second_hour.py": "inputs of all commands, whichever module answers them",

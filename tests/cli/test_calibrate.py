@@ -79,10 +79,7 @@ def test_the_files_that_it_reads_are_not_replaced(files: tuple[Path, Path], tmp_
     for option, path in (("--table", files[1]), ("--out", setup)):
         before = path.read_bytes()
         options = ("--fit", "rig.block_weight", "--setup", setup, option, path)
-        assert (
-            f'{option} = "{path}": expected another file than {path}, which'
-            in cli("calibrate", *files, *options, code=2).err
-        )
+        assert f'{option} = "{path}"' in cli("calibrate", *files, *options, code=2).err
         assert path.read_bytes() == before
 
 

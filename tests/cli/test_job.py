@@ -46,13 +46,6 @@ def test_a_table_is_written_where_the_screen_is_closed(case_file: Path, monkeypa
     assert out.read_text().splitlines() == ["md_m", "1.0"]
 
 
-def test_two_files_of_one_name_are_refused(case_file: Path, cli: Command) -> None:
-    """The later would replace the earlier."""
-    out = case_file.with_name("a.csv")
-    printed = cli("hydraulics", case_file, "--flow", "2000 L/min", "--out", out, "--parts", out, code=2)
-    assert f'--parts = "{out}": expected a file of its own for each table' in printed.err
-
-
 def test_each_file_is_refused_under_its_option(case_file: Path, cli: Command) -> None:
     assert "--trips = " in cli("surge", case_file, "--trips", case_file.with_name("a.png"), code=2).err
     assert "--parts = " in cli("hydraulics", case_file, "--parts", case_file.with_name("a.doc"), code=2).err
@@ -64,4 +57,4 @@ def test_warnings_of_several_cases_name_their_cases(case_file: Path, capsys: pyt
     made.warn()
     (density,) = [text for text in made.told if "3000" in text]
     assert density.endswith("(b and c)")
-    assert capsys.readouterr().err.count("a mud of 3000") == 1  # of one file
+    assert capsys.readouterr().err.count("mud of 3000") == 1  # of one file

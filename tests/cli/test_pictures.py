@@ -31,7 +31,4 @@ def test_out_is_a_picture_where_its_suffix_says_so(case_file: Path, tmp_path: Pa
     picture = tmp_path / "profile.png"
     cli(*given, "--out", picture)
     assert picture.read_bytes().startswith(START[".png"])
-    assert (
-        "a table, .csv or .parquet or .xlsx, beside the picture of --plot"
-        in cli(*given, "--out", picture, "--plot", tmp_path / "other.png", code=2).err
-    )
+    cli(*given, "--out", picture, "--plot", tmp_path / "other.png", code=2)

@@ -35,8 +35,3 @@ def test_numbers_are_not_cut_on_a_usual_screen(cli: Command, monkeypatch: pytest
 )
 def test_words_find_pipe(words: list[str], names: set[str]) -> None:
     assert {pipe.name for pipe in found_by(words)} == names
-
-
-def test_words_without_pipe_are_refused(cli: Command) -> None:
-    said = cli("pipes", "9 1/8", code=2).err
-    assert 'WORD = "9 1/8": expected words of a pipe\'s name' in said

@@ -20,7 +20,7 @@ def test_rows_without_readings_have_bands_and_no_scores(tmp_path: Path, cli: Com
     cli("calibrate", case, rows, "--fit", "rig.block_weight", "--out", new, "--quiet")
     printed = cli("predict", new, plan, "--out", out, "--plot", plot).out
     assert "later" in printed
-    assert "inside the band" not in printed
+    assert "the band" not in printed
     table = pd.read_csv(out, keep_default_na=False)
     assert table["load"].tolist() == ["hookload", "torque"]
     assert table["inside95"].tolist() == ["", ""]
@@ -36,8 +36,5 @@ def test_the_files_that_it_reads_are_not_replaced(tmp_path: Path, cli: Command) 
     for path in (rows, kept):
         path.write_text(ROWS, encoding="utf-8")
     for option in ([rows], [kept, "--posterior", rows]):
-        assert (
-            f'--out = "{rows}": expected another file than {rows}'
-            in cli("predict", case, *option, "--out", rows, code=2).err
-        )
+        assert f'--out = "{rows}"' in cli("predict", case, *option, "--out", rows, code=2).err
     assert rows.read_text(encoding="utf-8") == ROWS
