@@ -160,11 +160,14 @@ def notes_of(found: Calibration) -> Iterator[tuple[str, str]]:
 
 def print_calibration(found: Calibration, units: System) -> None:
     """Print unknowns, strong correlations, residuals, rows left out, and predictions of deeper sections."""
-    unknowns: list[list[Any]] = []
-    for row in rows_of(found.table):
-        factor, label = shown_unit(str(row["unit"]), units)
-        numbers = [f"{row[key] * factor:.4g}" for key in ("value", "low", "high")]
-        unknowns.append([row["name"], label, *numbers, f"{row['how']}{', at a bound' if row['at_bound'] else ''}"])
+    unknowns = [
+        [
+            row["name"], label, *(f"{row[key] * factor:.4g}" for key in ("value", "low", "high")),
+            f"{row['how']}{', at a bound' if row['at_bound'] else ''}",
+        ]
+        for row in rows_of(found.table)
+        for factor, label in [shown_unit(str(row["unit"]), units)]
+    ]  # fmt: skip
     _print(["unknown", "", *right("value", "95 %", "interval"), "interval from"], unknowns)
     print_factors(found)
     names, matrix = found.forward.names, found.correlations.to_numpy(float)
