@@ -102,9 +102,11 @@ def _print(job: Job, refined: Refinement, graded: bool, *, lacking: bool) -> Non
                 _percent(np.maximum(row["hookload_change"], row["torque_change"])),
                 _percent(np.maximum(row["hookload_error"], row["torque_error"])),
             )
-            found = (None, None, "no answer", None) if np.isnan(row["hookload_N"]) else answer
-            kind = row["operation"] + (" (locked up)" if row["status"] == "locked_up" else "")
-            told.append([name, kind, *found, f"{1e3 * row['time_s']:.0f}"])
+            told.append([
+                name, row["operation"] + (" (locked up)" if row["status"] == "locked_up" else ""),
+                *((None, None, "no answer", None) if np.isnan(row["hookload_N"]) else answer),
+                f"{1e3 * row['time_s']:.0f}",
+            ])  # fmt: skip
             name = ""
     print_table(
         shown_table(["", "operation", *loads, *right("change\n%", "error\n%", "time\nms")], told),
