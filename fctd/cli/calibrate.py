@@ -160,11 +160,14 @@ def notes_of(found: Calibration) -> Iterator[tuple[str, str]]:
 
 def print_calibration(found: Calibration, units: System) -> None:
     """Print unknowns, strong correlations, residuals, rows left out, and predictions of deeper sections."""
-    unknowns: list[list[Any]] = []
-    for row in rows_of(found.table):
-        factor, label = shown_unit(str(row["unit"]), units)
-        numbers = [f"{row[key] * factor:.4g}" for key in ("value", "low", "high")]
-        unknowns.append([row["name"], label, *numbers, f"{row['how']}{', at a bound' if row['at_bound'] else ''}"])
+    unknowns = [
+        [
+            row["name"], label, *(f"{row[key] * factor:.4g}" for key in ("value", "low", "high")),
+            f"{row['how']}{', at a bound' if row['at_bound'] else ''}",
+        ]
+        for row in rows_of(found.table)
+        for factor, label in [shown_unit(str(row["unit"]), units)]
+    ]  # fmt: skip
     _print(["unknown", "", *right("value", "95 %", "interval"), "interval from"], unknowns)
     print_factors(found)
     names, matrix = found.forward.names, found.correlations.to_numpy(float)
@@ -178,11 +181,13 @@ def print_calibration(found: Calibration, units: System) -> None:
     for row in rows_of(found.residuals):
         factor, label = shown_unit(LOADS[str(row["load"])], units)
         key = str(row["id"]), str(row["load"])
-        numbers = [_span(row["low"] * factor, row["high"] * factor)]
-        numbers += [f"{row[name] * factor:z.1f}" for name in ("fitted", "residual")]
+        measured = _span(row["low"] * factor, row["high"] * factor)
         alone = f"{float(without[key]) * factor:z.1f}" if key in without else "–"
         name = f"{row['id']}{_pumps(row, units)}" if row["used"] else f"({row['id']}{_pumps(row, units)})"
-        rows.append([name, f"{row['load']}, {label}", *numbers, f"{row['in_noise']:z.1f}", alone])
+        rows.append([
+            name, f"{row['load']}, {label}", measured, f"{row['fitted'] * factor:z.1f}",
+            f"{row['residual'] * factor:z.1f}", f"{row['in_noise']:z.1f}", alone,
+        ])  # fmt: skip
     _print(["row", "load", *right("measured", "fitted", "off", "off/noise", "left out")], rows)
     left = "row" if found.scattered is None else "rows of its day"
     screen.print(f"off: beyond the recorded range; left out: predicted by a fit without the {left}", soft_wrap=True)
@@ -213,8 +218,10 @@ def print_factors(found: Calibration) -> None:
         listed = ", ".join(names[:_MOST_ROWS]) + (
             f" and {len(names) - _MOST_ROWS} more" if len(names) > _MOST_ROWS else ""
         )
-        numbers = [f"{row[key]:.3f}" for key in ("value", "low", "high")]
-        rows.append([row["hole"], row["motion"], *numbers, listed or "none shows it"])
+        rows.append([
+            row["hole"], row["motion"], *(f"{row[key]:.3f}" for key in ("value", "low", "high")),
+            listed or "none shows it",
+        ])  # fmt: skip
     _print(["hole", "motion", *right("friction factor", "95 %", "interval"), "from rows"], rows)
 
 
@@ -234,13 +241,14 @@ def print_prediction(table: pd.DataFrame, units: System) -> None:
         if row["reason"] != "none":
             rows.append([row["id"], f"{row['load']}, {label}", *["–"] * 4, ""])
             continue
-        numbers = [f"{row['predicted'] * factor:z.1f}"]
-        numbers += [_span(row[f"low{band}"] * factor, row[f"high{band}"] * factor) for band in (50, 95)]
+        bands = (_span(row[f"low{band}"] * factor, row[f"high{band}"] * factor) for band in (50, 95))
         inside, measured = "", "–"
         if row["inside95"] is not None:
             inside = "50 %" if row["inside50"] else "95 %" if row["inside95"] else "no"
             measured = _span(row["low"] * factor, row["high"] * factor)
-        rows.append([row["id"], f"{row['load']}, {label}", *numbers, measured, inside])
+        rows.append([
+            row["id"], f"{row['load']}, {label}", f"{row['predicted'] * factor:z.1f}", *bands, measured, inside
+        ])  # fmt: skip
     _print(["row", "load", *right("predicted", "50 %", "95 %", "measured"), "inside"], rows)
     for name, reason in (
         table[table["reason"] != "none"].drop_duplicates("id")[["id", "reason"]].itertuples(index=False)

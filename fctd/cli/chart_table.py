@@ -46,10 +46,11 @@ def print_chart(rows: list[Row], name: str, units: System, load: Load) -> None:
     each, shown_rows = max(SCREEN_ROWS // len(series), 1), list[list[Any]]()
     for (operation, friction), of in series.items():
         for k, row in enumerate(spread(of, each)):
-            values = (of_column(column.name, row[column.name], units) for column in columns)
-            where = [_buckled(row, units_of[DEPTH.name].factor)] * buckled
-            names = [""] * (1 + fan) if k else [operation, friction][: 1 + fan]
-            shown_rows.append([*names, *values, *where, row["status"].replace("_", " ")])
+            shown_rows.append([
+                *([""] * (1 + fan) if k else [operation, friction][: 1 + fan]),
+                *(of_column(column.name, row[column.name], units) for column in columns),
+                *([_buckled(row, units_of[DEPTH.name].factor)] * buckled), row["status"].replace("_", " "),
+            ])  # fmt: skip
     table = shown_table(["operation", *(["μ"] * fan), *heads, "status"], shown_rows)
     looks: Looks = {"operation": WHOLE, "status": {"min_width": len(SteadyStatus.CONVERGED)}}
     print_table(table, looks, words=FOLD, numbers=FOLD)

@@ -13,7 +13,7 @@ from fctd.case.message import frame_of
 from fctd.case.systems import ACROSS, DENSITY, FLOW
 from fctd.case.text import counted
 from fctd.case.units import MOST_FLOW
-from fctd.cli.job import FOLD, Depths, Job, headed, numbers, print_facts, print_table, right, rows_of
+from fctd.cli.job import FOLD, Depths, Job, headed, numbers, print_facts, print_table, rows_of
 from fctd.cli.options import CaseFile, Overrides, Quiet, Strict, Units, messages
 from fctd.cli.pictures import PICTURE_HELP, TABLES, draw_panels
 from fctd.cli.quantities import PENETRATION, TO_TOTAL_DEPTH, Given, QuantityOption, quantity, several
@@ -177,7 +177,10 @@ def _table(of: "pd.DataFrame", units: System) -> Table:
 
 def _parts(one: Circulation, units: System) -> Table:
     """A row for every part of the circuit."""
-    heads = (f"{words}\n{shown(name, units).label}" if words else "regime" for name, words in PARTS.items())
+    heads = (
+        Head(words, shown(name, units).label, numbers=True) if words else Head("regime", numbers=True)
+        for name, words in PARTS.items()
+    )
     rows = (
         [
             " ".join(filter(None, (row["part"], row["name"], row["interval"] and f"in {row['interval']}"))),
@@ -186,7 +189,7 @@ def _parts(one: Circulation, units: System) -> Table:
         ]
         for row in one.parts()
     )  # fmt: skip
-    return shown_table(["part", *right(*heads), Head("cuttings\nrise at", numbers=True)], rows)
+    return shown_table(["part", *heads, Head("cuttings\nrise at", numbers=True)], rows)
 
 
 def _bit(row: dict[str, Any], units: System) -> list[Fact]:

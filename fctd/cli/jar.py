@@ -80,9 +80,16 @@ def _print(job: Job, table: "pd.DataFrame") -> None:
         ]
         for row in rows
     )  # fmt: skip
-    heads = [Head(words, numbers=True) for words in SHOWN.values()]
     print_table(
-        shown_table(["\njar", *heads, *right("used\n%", "hoist\n%"), "first\nlimit"], found),
+        shown_table(
+            [
+                "\njar",
+                *(Head(words, numbers=True) for words in SHOWN.values()),
+                *right("used\n%", "hoist\n%"),
+                "first\nlimit",
+            ],
+            found,
+        ),
         {"\njar": WHOLE},
         numbers=WHOLE,
     )

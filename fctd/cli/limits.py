@@ -2,13 +2,13 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Final
+from typing import TYPE_CHECKING, Annotated, Final
 
 import numpy as np
 
 from fctd.case.systems import told
 from fctd.case.text import printable
-from fctd.cli.job import WHOLE, Depths, Job, print_table, rows_of
+from fctd.cli.job import WHOLE, Depths, Job, print_table, right, rows_of
 from fctd.cli.options import CaseFile, Friction, Overrides, Quiet, Strict, Units, screen
 from fctd.cli.quantities import TO_TOTAL_DEPTH
 from fctd.cli.steady import (
@@ -21,7 +21,7 @@ from fctd.cli.steady import (
     read_drive,
     read_kinds,
 )
-from fctd.results.shown_tables import Head, number, of_column, shown_table
+from fctd.results.shown_tables import number, of_column, shown_table
 from fctd.results.unit_systems import System, shown
 from fctd.steady.margin_table import AT_STUCK, USUAL, limits_of
 from fctd.steady.margins import FATIGUE, LACKING, MEANINGS, OVERPULL, SET_DOWN, SLIPS, TORQUE
@@ -117,24 +117,23 @@ def _print_margin(of: "pd.DataFrame", columns: Sequence[str], units: System) -> 
     depths = of["bit_depth_m"].unique()
     most = max(SCREEN_ROWS // of["limit"].nunique(), 1)
     picked = depths[np.unique(np.linspace(len(depths) - 1, 0, min(most, len(depths))).round().astype(int))]
-    limits = [row.replace("_", " ") for row in of["limit"]]
     below = "at stuck point" if "stuck_md_m" in of else "at bit"
     names = [f"bit, {metre.label}", "used, %", below, "at surface", "left"]
-    rows: list[list[Any]] = []
-    for row in rows_of(of[of["bit_depth_m"].isin(picked)]):
-        place = "" if np.isnan(row["md_m"]) else f"{row['md_m'] * metre.factor:.0f} {metre.label}"
-        part = "" if row["part"] == "none" else printable(row["part"])
-        cells = (of_column(name, row[name], units, int(name.endswith("_N_m"))) if name else None for name in columns)
-        rows.append([
+    rows = (
+        [
             row["limit"].replace("_", " "), of_column("bit_depth_m", row["bit_depth_m"], units, 0),
-            number(100 * row["share_used"], 0, ""), *cells,
-            ", ".join(text for text in (place, part) if text),
-        ])  # fmt: skip
-    looks = {"until": {**WHOLE, "min_width": max(map(len, limits))}}
-    looks |= {name: {**WHOLE, "min_width": len(name)} for name in names}
-    print_table(
-        shown_table(["until", *(Head(name, numbers=True) for name in names), "where"], rows), looks, words=WHOLE
-    )
+            number(100 * row["share_used"], 0, ""),
+            *(of_column(name, row[name], units, int(name.endswith("_N_m"))) if name else None for name in columns),
+            ", ".join([
+                *([] if np.isnan(row["md_m"]) else [f"{row['md_m'] * metre.factor:.0f} {metre.label}"]),
+                *([] if row["part"] == "none" else [row["part"]]),
+            ]),
+        ]
+        for row in rows_of(of[of["bit_depth_m"].isin(picked)])
+    )  # fmt: skip
+    looks = {name: {**WHOLE, "min_width": len(name)} for name in names}
+    looks["until"] = {**WHOLE, "min_width": max(map(len, of["limit"]))}
+    print_table(shown_table(["until", *right(*names), "where"], rows), looks, words=WHOLE)
 
 
 def _bending(job: Job, table: "pd.DataFrame") -> list[str]:

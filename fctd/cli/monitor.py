@@ -15,7 +15,7 @@ from fctd.case.systems import told
 from fctd.case.tables.headers import parse_choices
 from fctd.case.text import counted, printable
 from fctd.cli import quantities
-from fctd.cli.job import WHOLE, Job, print_table, right, rows_of
+from fctd.cli.job import WHOLE, Job, headed, print_table, right, rows_of
 from fctd.cli.options import (
     CaseFile,
     Overrides,
@@ -38,9 +38,9 @@ from fctd.monitoring.quantities import SERIES
 from fctd.monitoring.roadmap import FAN
 from fctd.monitoring.series import read_series
 from fctd.monitoring.text_series import Tail
-from fctd.results.shown_tables import number, shown_table
+from fctd.results.shown_tables import number, of_column, shown_table
 from fctd.results.table_files import write_table
-from fctd.results.unit_systems import System, shown
+from fctd.results.unit_systems import System
 from fctd.store.origin import versions
 
 SCREEN_ROWS = 30
@@ -207,19 +207,23 @@ def _print(job: Job, found: Monitored) -> None:
     inferred = stretches[stretches["friction"].notna()]
     title = f"{job.case.name}; friction factor of {found.chart.fit} hole"
     screen.print(printable(title), style="bold", soft_wrap=True)
-    depth, force, torque = (
-        shown(name, job.units) for name in ("bit_depth_m", "weight_indicator_N", "drive_torque_N_m")
+    bit, *loads = headed(
+        {"bit_depth_m": "bit", "weight_indicator_N": "weight ind.", "drive_torque_N_m": "torque"}, job.units
     )
-    numbers = f"bit\n{depth.label}", "rows", f"weight ind.\n{force.label}", f"torque\n{torque.label}", "μ", "95 % band"
     rows = (
         (
-            row["mode"], number(row["bit_depth_m"] * depth.factor, 0), number(row["samples"], 0),
-            number(row["weight_indicator_N"] * force.factor, 1), number(row["drive_torque_N_m"] * torque.factor, 2),
+            row["mode"], of_column("bit_depth_m", row["bit_depth_m"], job.units, 0), row["samples"],
+            of_column("weight_indicator_N", row["weight_indicator_N"], job.units, 1),
+            of_column("drive_torque_N_m", row["drive_torque_N_m"], job.units, 2),
             number(row["friction"], 2), f"{row['friction_low']:z.2f} to {row['friction_high']:z.2f}",
         )
         for row in rows_of(inferred, SCREEN_ROWS)
     )  # fmt: skip
-    print_table(shown_table(["stretch", *right(*numbers)], rows), words=WHOLE, collapse_padding=False)
+    print_table(
+        shown_table(["stretch", bit, *right("rows"), *loads, *right("μ", "95 % band")], rows),
+        words=WHOLE,
+        collapse_padding=False,
+    )
     left = stretches.loc[stretches["friction"].isna(), "left_out"].value_counts()
     reasons = "".join(f"; {count}: {why}" for why, count in left.items())
     alarms = counted(len(found.alarms), "alarm")

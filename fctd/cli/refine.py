@@ -7,7 +7,7 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 
-from fctd.cli.job import FOLD, WHOLE, Job, print_table, right, rows_of
+from fctd.cli.job import FOLD, WHOLE, Job, headed, print_table, right, rows_of
 from fctd.cli.options import (
     CaseFile,
     Friction,
@@ -22,7 +22,7 @@ from fctd.cli.options import (
 )
 from fctd.cli.quantities import BIT_DEPTH, Given, quantity
 from fctd.cli.steady import DEPTH_HELP, KIND_HELP, Flow, ResolveBuckling, Rpm, Speed, read_drive, read_kinds
-from fctd.results.shown_tables import shown_table
+from fctd.results.shown_tables import of_column, shown_table
 from fctd.results.unit_systems import shown
 from fctd.steady.refine import Refinement, refine
 from fctd.steady.refined_file import survey_from, write_refined
@@ -88,10 +88,8 @@ def _print(job: Job, refined: Refinement, graded: bool, *, lacking: bool) -> Non
 
     lacking : whether a file was asked for, and there is nothing to write.
     """
-    metre, load, torque, across = (
-        shown(name, job.units) for name in ("bit_depth_m", "hookload_N", "surface_torque_N_m", "clearance_m")
-    )
-    numbers = f"hook load\n{load.label}", f"torque\n{torque.label}", "change\n%", "error\n%", "time\nms"
+    units, metre, across = job.units, shown("bit_depth_m", job.units), shown("clearance_m", job.units)
+    loads = headed({"hookload_N": "hook load", "surface_torque_N_m": "torque"}, units)
     told: list[list[Any]] = []
     for (stage, layout, _), rows in refined.steps.groupby(["stage", "layout", "level"], sort=False):
         chord, segments = rows["chord_m"].iloc[0] * across.factor, rows["segments"].iloc[0]
@@ -99,17 +97,22 @@ def _print(job: Job, refined: Refinement, graded: bool, *, lacking: bool) -> Non
         name = f"chords {chord:.3g} {across.label}" if stage == "hole" else string
         for row in rows_of(rows):
             answer = (
-                f"{row['hookload_N'] * load.factor:z.2f}",
-                f"{row['surface_torque_N_m'] * torque.factor:z.3f}",
+                of_column("hookload_N", row["hookload_N"], units, 2),
+                of_column("surface_torque_N_m", row["surface_torque_N_m"], units, 3),
                 _percent(np.maximum(row["hookload_change"], row["torque_change"])),
                 _percent(np.maximum(row["hookload_error"], row["torque_error"])),
             )
-            nothing = ("–", "–", "no answer", "–")
-            loads = nothing if np.isnan(row["hookload_N"]) else answer
-            kind = row["operation"] + (" (locked up)" if row["status"] == "locked_up" else "")
-            told.append([name, kind, *loads, f"{1e3 * row['time_s']:.0f}"])
+            told.append([
+                name, row["operation"] + (" (locked up)" if row["status"] == "locked_up" else ""),
+                *((None, None, "no answer", None) if np.isnan(row["hookload_N"]) else answer),
+                f"{1e3 * row['time_s']:.0f}",
+            ])  # fmt: skip
             name = ""
-    print_table(shown_table(["", "operation", *right(*numbers)], told), words=WHOLE, numbers=FOLD)
+    print_table(
+        shown_table(["", "operation", *loads, *right("change\n%", "error\n%", "time\nms")], told),
+        words=WHOLE,
+        numbers=FOLD,
+    )
     if refined.status.acceptable:
         cut = f"{refined.layout} segments" if graded else "segments"
         job.say(

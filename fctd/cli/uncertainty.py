@@ -156,12 +156,15 @@ def _print(found: Uncertainty, units: System) -> None:
         return
     metre = shown("bit_depth_m", units)
     at = "" if np.isnan(found.bit_depth) else f" at {found.bit_depth * metre.factor:.5g} {metre.label}"
-    rows = []
-    for row in rows_of(found.indices[~found.indices["measure"].isin(IN_FILES)]):
-        factor, unit = shown_if_any(row["column"], units) if row["measure"] in WITH_UNIT else (1.0, "")
-        error = "" if np.isnan(row["error"]) else f"{row['error'] * factor:.2g}"
-        names = (row["operation"], row["column"], row["measure"], row["parameter"])
-        rows.append([*names, f"{row['value'] * factor:.3g} {unit}".rstrip(), error])
+    rows = [
+        [
+            row["operation"], row["column"], row["measure"], row["parameter"],
+            f"{row['value'] * factor:.3g} {unit}".rstrip(),
+            "" if np.isnan(row["error"]) else f"{row['error'] * factor:.2g}",
+        ]
+        for row in rows_of(found.indices[~found.indices["measure"].isin(IN_FILES)])
+        for factor, unit in [shown_if_any(row["column"], units) if row["measure"] in WITH_UNIT else (1.0, "")]
+    ]  # fmt: skip
     print_table(
         shown_table(["operation", "column", "measure", "parameter", *right("value", "±")], rows),
         OPERATION,
@@ -172,18 +175,20 @@ def _print(found: Uncertainty, units: System) -> None:
 
 
 def _print_percentiles(found: Uncertainty, units: System) -> None:
-    rows, of = [], found.percentiles
+    of = found.percentiles
     if "bit_depth_m" in of:
         of = of[of["bit_depth_m"] == of["bit_depth_m"].max()]
-    for row in rows_of(of):
-        if (row["operation"], row["column"]) in found.noise:
-            continue
-        factor, unit = shown_if_any(row["column"], units)
-        low, high = ("–" if np.isnan(row[end]) else f"{row[end] * factor:z.4g}" for end in ("low", "high"))
-        value = "–" if np.isnan(row["value"]) else f"{row['value'] * factor:z.4g} {unit}"
-        rows.append([
-            row["operation"], row["column"], f"{row['percentile']:g}", value, f"{low} to {high}", row["samples"]
-        ])  # fmt: skip
+    rows = [
+        [
+            row["operation"], row["column"], f"{row['percentile']:g}",
+            "–" if np.isnan(row["value"]) else f"{row['value'] * factor:z.4g} {unit}",
+            " to ".join("–" if np.isnan(row[end]) else f"{row[end] * factor:z.4g}" for end in ("low", "high")),
+            row["samples"],
+        ]
+        for row in rows_of(of)
+        if (row["operation"], row["column"]) not in found.noise
+        for factor, unit in [shown_if_any(row["column"], units)]
+    ]  # fmt: skip
     print_table(
         shown_table(["operation", "column", *right("%", "value", "95 %", "samples")], rows),
         OPERATION,

@@ -162,7 +162,7 @@ def _print(job: Job, table: "pd.DataFrame", lines: list[str]) -> None:
             [number(row[name] * unit[name][0], DIGITS[name][job.units == "field"]) for name in SHOWN]
             for row in rows_of(of, SCREEN_ROWS, [int(np.argmax(of["high_groove_m"].to_numpy()))])
         )
-        heads = [Head(words, unit[name][1], numbers=True) for name, words in SHOWN.items()]
+        heads = (Head(words, unit[name][1], numbers=True) for name, words in SHOWN.items())
         print_table(shown_table(heads, rows), numbers=WHOLE)
     job.say(
         *map(printable, lines),
