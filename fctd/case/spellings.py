@@ -69,6 +69,10 @@ _AMBIGUOUS: Final[Mapping[str, tuple[tuple[str, str, str], ...]]] = {
 }
 
 
+# Units that people write with prefixes beside kilo.
+_PREFIXED: Final = ("meter", "second", "gram", "newton", "pascal", "bar", "liter", "watt", "joule", "poise")
+
+
 class Written(NamedTuple):
     """A quantity as it is written: its number, and its unit as text."""
 
@@ -180,6 +184,8 @@ def _registry() -> UnitRegistry[Any]:
     registry.define("gpm = gallon / minute")
     registry.define("tonne_force = 1000 kilogram_force")
     registry.define("kilodecanewton = 10 kilonewton")
+    registry.define("usft = survey_foot")  # to pint a micro-foot
+    registry.define("mt = tonne")  # of the field; to pint a thousandth of it
     return registry
 
 
@@ -198,6 +204,10 @@ def conversion(unit: str, target: str) -> float:
 def by_registry(unit: str, target: str) -> float:
     """The same for any unit; takes half a second the first time."""
     registry = _registry()
+    for word in re.findall(r"[^\W\d_]+", unit):
+        for prefix, base, _ in registry.parse_unit_name(word)[:1]:
+            if prefix not in ("", "kilo") and base not in _PREFIXED:  # a milli-foot is a slip
+                raise ValueError(f"{word!r} is no unit")
     try:
         ratio = registry.Quantity(1.0, unit).to(target).magnitude
     except Exception as error:  # pint's parser also raises assertion and token errors

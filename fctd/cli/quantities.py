@@ -1,5 +1,6 @@
 """Options that take quantities: one reader for all commands."""
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Final
@@ -107,13 +108,17 @@ def several(given: Iterable[Given], units: System) -> list[float]:
 
 
 def _parts(given: Given) -> list[str]:
-    """The values of an option.  One unit after several numbers may also be one number with a comma: it is refused."""
+    """The values of an option.  What may also be one number with a comma is refused: "1,500", "1,5 m3/min"."""
+    name = given.option.name
+    if re.fullmatch(r"\s*[+-]?\d+(,\d+)+\s*", given.text):
+        expected = f"{given.option.kind.dimension.noun} without a comma, or several with a unit each"
+        raise InputError(expected, key=name, value=given.text)
     try:
         split(given.text)
     except InputError as error:
         more = "; of several values each has its unit" if "," in given.text else ""
         expected = f"{given.option.kind.dimension.noun}, written {error.expected}{more}"
-        raise InputError(expected, key=given.option.name, value=given.text) from None
+        raise InputError(expected, key=name, value=given.text) from None
     return [part.strip() for part in given.text.split(",")]
 
 

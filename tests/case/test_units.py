@@ -68,3 +68,13 @@ def test_no_quantity(value: object) -> None:
 def test_any_text_is_a_length_or_refused(text: str) -> None:
     with contextlib.suppress(InputError):
         assert math.isfinite(units.Quantity(dimension=units.LENGTH).parse(text))
+
+
+def test_units_of_the_field_have_no_prefix_but_kilo() -> None:
+    """To pint "usft" is a micro-foot, "mt" a thousandth of a ton: a depth of 5000 usft was one of half an inch."""
+    assert units.argument("5000 usft", units.LENGTH, "md") == pytest.approx(5000 * 1200 / 3937, rel=1e-12)
+    assert units.argument("40 mt", units.FORCE, "up") == pytest.approx(40e3 * 9.80665)
+    assert units.argument("5 kft", units.LENGTH, "md") == units.argument("5000 ft", units.LENGTH, "md")
+    for text, dimension in (("92 mft", units.LENGTH), ("92 uft", units.LENGTH), ("500 mgpm", units.FLOW)):
+        with pytest.raises(InputError, match=dimension.noun):
+            units.argument(text, dimension, "key")

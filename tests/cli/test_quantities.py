@@ -53,7 +53,8 @@ def spellings(option: QuantityOption) -> Iterator[tuple[str, System, str | None]
         unit = bare or option.kind.dimension.units[0]
         for text in (f"25 {unit}", f"25{unit}", f"+25 {unit}", f"2.5e1 {unit}", f" 25  {unit} "):
             yield text, units, f"25 {unit}"
-        for text in (f"2,5 {unit}", f"1,500 {unit}", f"1 500 {unit}", f"1'500 {unit}", f"-25 {unit}", "-25", "1.500,5"):
+        grouped = (f"2,5 {unit}", f"1,500 {unit}", f"1 500 {unit}", f"1'500 {unit}", "1,500", "2,5", "1.500,5")
+        for text in (*grouped, f"-25 {unit}", "-25"):
             yield text, units, None
         for text in ("", "nan", "inf", "25 apples", f"25 {unit} {unit} x", unit, "1e400", "2+3", "deep", "3 kg K"):
             yield text, units, None
