@@ -5,7 +5,7 @@ from fctd.answers.display import MAIN, Picture, answering, html_table, load_rows
 from fctd.case.text import counted
 from fctd.results import tables
 from fctd.results.shown_tables import facts
-from fctd.results.unit_systems import System
+from fctd.results.unit_systems import System, shown
 from fctd.simulation import simulate as in_time
 
 
@@ -27,7 +27,8 @@ class SimulationResult(tables.SimulationResult):
         if self.history.empty:
             return ""
         last = self.history.iloc[-1]
-        return f", {last['operation']} at {last['bit_depth_m']:.1f} m"
+        factor, metre = shown("bit_depth_m", self.case.system)
+        return f", {last['operation']} at {last['bit_depth_m'] * factor:.1f} {metre}"
 
 
 class Simulation(in_time.Simulation):

@@ -22,7 +22,7 @@ from fctd.results.attrs import attrs_of
 from fctd.results.columns import IN_CHART, Column
 from fctd.results.notes import RowNote
 from fctd.results.shown_tables import facts
-from fctd.results.unit_systems import System, in_field_units
+from fctd.results.unit_systems import System, in_field_units, shown
 from fctd.steady import refine as cut
 from fctd.steady import steady_string
 from fctd.steady.equilibrium import equilibrium as solve
@@ -166,10 +166,15 @@ def torque_drag(
 class Equilibrium(steady_string.Equilibrium):
     def __repr__(self) -> str:
         loads = ", ".join(f"{label} {value}" for label, value in self._load_rows(MAIN).items())
-        return f"Equilibrium({self.operation}, bit at {self.bit_depth:g} m: {self.status}, {loads})"
+        return f"Equilibrium({self.operation}, {self._place}: {self.status}, {loads})"
+
+    @property
+    def _place(self) -> str:
+        factor, metre = shown("bit_depth_m", self.case.system)
+        return f"bit at {self.bit_depth * factor:g} {metre}"
 
     def _repr_html_(self) -> str:
-        title = f"{self.case.name}: {self.operation}, bit at {self.bit_depth:g} m"
+        title = f"{self.case.name}: {self.operation}, {self._place}"
         return html_table(facts(title, [("status", self.status), *self._load_rows(IN_CHART).items()]))
 
     def plot(self, units: System | None = None) -> Picture:

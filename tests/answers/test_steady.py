@@ -65,6 +65,9 @@ def test_an_equilibrium() -> None:
     assert len(repr(point)) < 120
     assert "weight indicator" in point._repr_html_()
     assert "–" in repr(point.without_loads())
+    field = fctd.equilibrium(make_case(units="field"), "trip_out", 914.4)
+    assert repr(field).startswith("Equilibrium(trip_out, bit at 3000 ft: converged, hook load ")
+    assert "klbf" in repr(field)
 
 
 def test_an_equilibrium_draws_itself() -> None:
