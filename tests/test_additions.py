@@ -1,5 +1,5 @@
-"""In a copy of the package, one line adds a result column, a kind of quantity, or a limit with its note, and one file
-and one line a law."""
+"""In a copy of the package, one line adds a result column, an option, a kind of quantity, or a limit with its note,
+and one file and one line a law."""
 
 import json
 import os
@@ -120,6 +120,29 @@ print(*in_field_units(pd.DataFrame({"pit_m3": [0.028316846592]})).items(), *show
 print(digits_of("pit_m3", "field"), heading_of("pit_ft3"), heading_of("pit_m3"))
 print(QuantityOption("--pit", VOLUME).read("1", "field"), QuantityOption("--pit", VOLUME).read("1 m^3", "field"))
 """
+
+
+@pytest.mark.slow
+def test_an_option_of_a_chart_is_one_field(copy: Path) -> None:
+    """The command has it and its help; an unfinished chart keeps it, and goes on with no other."""
+    file = copy / "fctd" / "cli" / "chart.py"
+    add_line(
+        file, "    rpm: Rpm = None", '    shade: Annotated[str, typer.Option("--shade", help="How dark.")] = "none"'
+    )
+    (screen,) = fctd(copy, copy / "cache", ["chart", "--help"])
+    assert "How dark. [default: none]" in " ".join(screen.split())
+    script = """
+from fctd.case.errors import InputError
+from fctd.cli.chart import ChartOptions, beside, chart_command, to_keep
+from fctd.cli.keeping import SaveOptions
+begun, bare = ChartOptions(shade="dark", keeping=SaveOptions()), ChartOptions(keeping=SaveOptions())
+print(beside(bare, to_keep(begun, "si")).shade)
+try:
+    chart_command(**{**vars(begun), **vars(SaveOptions(resume="chart.csv"))})
+except InputError as error:
+    print(error.key)
+"""
+    assert lines_of(copy, script, "") == ["dark", "--shade"]
 
 
 def test_a_kind_of_quantity_is_one_line(copy: Path) -> None:
