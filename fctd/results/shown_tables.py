@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
 
+from fctd.case.message import SENTENCES
 from fctd.case.operations import KINDS
 from fctd.case.systems import Kind, told
 from fctd.case.text import printable
@@ -18,9 +19,8 @@ if TYPE_CHECKING:
     import pandas as pd
 
 NONE: Final = "–"  # of a cell without a value
-# Columns of words of the program, and of its sentences; other texts are the user's.
+# Columns of words of the program; those of its sentences are SENTENCES, other texts are the user's.
 _WORDS: Final = ("margin", "limit", "status", "buckling", "notes", "shape")
-_SENTENCES: Final = ("reason", "friction_label")
 
 
 class Cell(NamedTuple):
@@ -154,6 +154,6 @@ def _cell(column: str, value: Any, heading: Heading, units: System) -> Cell:
         return Cell(KINDS[value].label)
     if column in _WORDS:
         return Cell(NONE if value == "none" else value.replace("_", " "))
-    if column in _SENTENCES:
+    if column in SENTENCES:
         return Cell(NONE) if value == "none" else text(told(value, units))
     return Cell(NONE) if column == "part" and value == "none" else text(value)
