@@ -53,7 +53,11 @@ def source_of(files: Mapping[str, bytes], before: Source | None, pool: Pool, uni
         except UnicodeDecodeError:
             raise InputError("a case file in TOML, a text in UTF-8", key="upload", value=name) from None
         source = Source(text, survey_name, survey)
-    elif before is not None and not before.survey_name and _awaits(before.text, survey_name):
+    elif (
+        before is not None
+        and not before.survey_name
+        and any(f"{quote}{survey_name}{quote}" in before.text for quote in "\"'")  # its case names this survey
+    ):
         source = Source(before.text, survey_name, survey)
     else:
         name = PurePath(survey_name.replace("\\", "/")).name or "survey"
@@ -63,11 +67,6 @@ def source_of(files: Mapping[str, bytes], before: Source | None, pool: Pool, uni
         return Source(made["text"], name, survey), printable(note)
     pool.ask("open", source, units)  # a case that cannot be used does not take the place of the one before
     return source, ""
-
-
-def _awaits(text: str, survey_name: str) -> bool:
-    """Whether a case without its survey names this one."""
-    return f'"{survey_name}"' in text or f"'{survey_name}'" in text
 
 
 def added_operations(text: str) -> str:

@@ -93,7 +93,8 @@ def calibrate(
             constant = fitted([unknown for unknown in unknowns if not gradient_of(unknown.name)])
             assert constant.scattered is not None
             scores = {"linear in depth": found.scattered.score, "constant": constant.scattered.score}
-            found = replace(max(constant, found, key=_score), scores=scores)
+            is_constant = scores["constant"] >= scores["linear in depth"]
+            found = replace(constant if is_constant else found, scores=scores)
         if not deeper:
             return found
         return replace(found, predicted=predict_rows(found.posterior, [rows[k] for k in deeper], cases))
@@ -126,11 +127,6 @@ def _fit(
     if scatter:
         found, scattered = fit_scatter(forward, found)
     return Calibration(cases[""], forward, found, reasons, loss, tuple(loose), scattered=scattered, misread=doubtful)
-
-
-def _score(found: Calibration) -> float:
-    """The score of the days left out."""
-    return -np.inf if found.scattered is None else found.scattered.score
 
 
 def predict(

@@ -179,13 +179,6 @@ def predict_rows(
     return frame_of(table)
 
 
-def draw_rows(
-    posterior: Posterior, rows: Sequence[Row], strings: Mapping[str, Case], samples: int = SAMPLES, seed: int = 0
-) -> Array:
-    """The draws of ``predict_rows`` (n, samples) [SI], a row for each of its own: for differences and correlations."""
-    return draw_readings(posterior, Forward(rows, strings, posterior.unknowns, posterior.setup), samples, seed)
-
-
 def draw_readings(
     posterior: Posterior, forward: Forward, samples: int = SAMPLES, seed: int = 0, *, noise: bool = True
 ) -> Array:

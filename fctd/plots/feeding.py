@@ -79,7 +79,8 @@ def feeding_figure(point: Equilibrium, units: System = "si", *, warnings: Sequen
                     ax.axvline(touches * metre.factor, **ON_BOTTOM)
         else:
             _curve(arrives, point, path, "bit_moved_m", units)
-            arrives.axline((0.0, _lag(path) * metre.factor), slope=1.0, **WANTED)
+            behind = float(path["bit_moved_m"].iloc[-1] - path["feed_m"].iloc[-1])  # the block, at the end
+            arrives.axline((0.0, behind * metre.factor), slope=1.0, **WANTED)
             arrives.set_ylabel(f"way of the bit, {metre.label}")
             arrives.set_ylim(bottom=-0.04 * _span(path["bit_moved_m"]) * metre.factor)
         arrives.set_xlabel(f"feed of the block, {metre.label}")
@@ -153,11 +154,6 @@ def _is_near_spent(point: Equilibrium, path: pd.DataFrame) -> bool:
     load = path["hookload_N"].to_numpy(float)
     load = np.append(load, point.hookload) if point.answered else load
     return bool(load.min() + point.case.rig.push < NEAR * float(np.ptp(load)))
-
-
-def _lag(path: pd.DataFrame) -> float:
-    """How far the bit is behind the block at the end of the path, as a way of the bit [m]."""
-    return float(path["bit_moved_m"].iloc[-1] - path["feed_m"].iloc[-1])
 
 
 def _span(values: pd.Series[float]) -> float:

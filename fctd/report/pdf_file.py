@@ -81,7 +81,7 @@ def _paragraph(text: str, style: ParagraphStyle) -> Paragraph:
 
 def _story(report: Report, width: float, height: float) -> Iterator[Flowable]:
     """The flowables; a ``CondPageBreak`` begins each group of them that stays together."""
-    yield _paragraph(_shorten(report.title, LONGEST), COVER)
+    yield _paragraph(report.title if len(report.title) <= LONGEST else f"{report.title[: LONGEST - 1]}…", COVER)
     said = ["Torque and drag", report.company, f"by {report.by}" if report.by else "", report.date]
     yield _paragraph(", ".join(filter(None, said)), BODY)
     for section in report.sections:
@@ -202,11 +202,6 @@ def _frame_page(canvas: Canvas, report: Report, width: float, height: float) -> 
     canvas.line(MARGIN, height - 0.66 * INCH, width - MARGIN, height - 0.66 * INCH)
     canvas.setFont(FONT, SMALL)
     canvas.drawString(MARGIN, 0.6 * FOOT, _cut(f"FCTD, torque and drag, {report.date}", FONT, 0.6 * width))
-
-
-def _shorten(text: str, most: int) -> str:
-    """A text of at most so many characters, with an ellipsis where it was longer."""
-    return text if len(text) <= most else f"{text[: most - 1]}…"
 
 
 def _cut(text: str, font: str, room: float) -> str:

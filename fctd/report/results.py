@@ -123,12 +123,9 @@ def margins(found: Answers, units: System) -> Section:
     if len(reasons):
         parts.append(frame_table("What else is to be known", reasons, ("operation", "limit", "reason"), units))
     if found.lines is not None:
-        parts.append(frame_table("Limits over bit depth", _with_loads(found.lines), LINES, units, MARGIN_WORDS))
+        loaded = found.lines.dropna(how="all", subset=["hookload_N", "surface_torque_N_m"])
+        parts.append(frame_table("Limits over bit depth", loaded, LINES, units, MARGIN_WORDS))
     return Section("Margins", tuple(parts))
-
-
-def _with_loads(lines: pd.DataFrame) -> pd.DataFrame:
-    return lines[lines["hookload_N"].notna() | lines["surface_torque_N_m"].notna()]
 
 
 def profiles(found: Answers, units: System) -> Section:

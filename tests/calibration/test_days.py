@@ -9,7 +9,8 @@ import pytest
 
 from fctd.calibration.calibrate import calibrate, predict
 from fctd.calibration.days import HOW
-from fctd.calibration.predict import draw_rows, predict_rows, read_posterior
+from fctd.calibration.forward import Forward
+from fctd.calibration.predict import draw_readings, predict_rows, read_posterior
 from fctd.calibration.result import Calibration
 from fctd.calibration.rows import Row, days_of
 from fctd.calibration.setup import Setup
@@ -117,7 +118,10 @@ def test_a_day_not_seen_carries_the_scatter(found: Calibration, tmp_path: Path) 
 def test_rows_of_a_day_share_its_effects(found: Calibration) -> None:
     """The band of a difference is narrower than that of rows of two days."""
     up, down = (replace(r, day="Mon") for r in blank_rows(CASE)[:2])
-    together = draw_rows(found.posterior, [up, down], {"": CASE})
-    apart = draw_rows(found.posterior, [up, replace(down, day="Tue")], {"": CASE})
+    known = found.posterior
+    together, apart = (
+        draw_readings(known, Forward([up, other], {"": CASE}, known.unknowns, known.setup))
+        for other in (down, replace(down, day="Tue"))
+    )
     spreads = [float(np.std(drawn[0] - drawn[2])) for drawn in (together, apart)]
     assert spreads[0] < 0.7 * spreads[1]
