@@ -193,7 +193,7 @@ class Case(Table):
         written = look_up(self._written.raw, "wellbore", "intervals", -1, "to_md")
         deepest = self.deepest
         whole = deepest == self.wellbore.intervals[-1].to_md
-        return written if whole and isinstance(written, str) else quantity(deepest, "m", ".10g")
+        return written if whole and isinstance(written, str) else f"{deepest:.10g} m"
 
     @property
     def shoes(self) -> list[float]:

@@ -31,7 +31,7 @@ def _defaults(rate: str) -> str:
 
 
 KIND_HELP = f"Kind of operation: {', '.join(KINDS)}, also {', '.join(USUAL)}"
-DRIVE = SPEED_OPTION, RPM_OPTION, FLOW_OPTION = (
+SPEED_OPTION, RPM_OPTION, FLOW_OPTION = (
     QuantityOption("--speed", SPEED), QuantityOption("--rpm", ROTATION),
     QuantityOption("--flow", FLOW, at_most=MOST_FLOW),
 )  # fmt: skip

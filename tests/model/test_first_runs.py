@@ -12,7 +12,7 @@ from fctd.model.first_runs import to_paste
 from fctd.model.new_case import from_template
 from fctd.model.templates import TEMPLATES, TemplateName
 from fctd.simulation.simulate import simulate
-from tests.cases import make_case
+from tests.cases import make_case, pipe
 
 DRILLING = [name for name, template in TEMPLATES.items() if template.weight_on_bit]
 
@@ -58,3 +58,8 @@ def test_a_case_without_operations_is_given_one_that_runs() -> None:
     assert tuple(lines) == to_paste("1000 m")
     operations = tomllib.loads("\n".join(lines))["operations"]
     assert make_case(operations=operations).operations[0].at_md == 1000.0
+
+
+def test_the_depth_to_paste_has_its_unit_where_the_string_ends_above_the_hole() -> None:
+    assert make_case().end_as_written == "1000 m"
+    assert make_case(components=[pipe(400.0, 10)]).end_as_written == "400 m"
