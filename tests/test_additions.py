@@ -114,7 +114,7 @@ import pandas as pd
 from fctd.case.systems import VOLUME
 from fctd.cli.quantities import QuantityOption
 from fctd.results.unit_systems import digits_of, in_field_units, shown
-from fctd.results.workbook import heading_of
+from fctd.results.shown_tables import heading_of
 
 print(*in_field_units(pd.DataFrame({"pit_m3": [0.028316846592]})).items(), *shown("pit_m3", "field"))
 print(digits_of("pit_m3", "field"), heading_of("pit_ft3"), heading_of("pit_m3"))
@@ -160,8 +160,8 @@ def test_a_kind_of_quantity_is_one_line(copy: Path) -> None:
     table, headings, read = done.stdout.rsplit("\n", 4)[-4:-1]
     assert "pit_ft3" in done.stdout
     assert table.endswith("35.3146667214886 ft³")
-    assert headings.startswith("2 Heading(words='pit', unit='ft³', factor=1.0, format='0.00')")
-    assert headings.endswith("Heading(words='pit', unit='m³', factor=1.0, format='0.0')")
+    assert headings.startswith("2 Heading(head=Head(words='pit', unit='ft³', numbers=None), factor=1.0, digits=2)")
+    assert headings.endswith("Heading(head=Head(words='pit', unit='m³', numbers=None), factor=1.0, digits=1)")
     assert read == "0.028316846592 1.0"
 
 

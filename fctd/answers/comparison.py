@@ -67,7 +67,7 @@ class Comparison:
         return f"Comparison({', '.join(self.charts)}: {len(self.differences)} keys differ)"
 
     def _repr_html_(self) -> str:
-        return html_of("; ".join(self.sentences) or "no key differs", self.table)
+        return html_of("; ".join(self.sentences) or "no key differs", self.rows, self.units)
 
 
 def compare(charts: Iterable[Chart] | Mapping[str, Chart], units: System | None = None) -> Comparison:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, fields, replace
 from functools import wraps
 from html import escape
 from inspect import getdoc
@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 from fctd import plots
 from fctd.case.errors import InputError
 from fctd.results.columns import COLUMNS, LOADS
-from fctd.results.shown_tables import NONE, Table, of_column
+from fctd.results.shown_tables import NONE, Cell, Table, frame_table, of_column
 from fctd.results.unit_systems import System, shown
 
 if TYPE_CHECKING:
@@ -35,12 +35,23 @@ def html_table(table: Table) -> str:
     import pandas as pd
 
     shown = pd.DataFrame([[cell.text for cell in row] for row in table.rows], columns=[*map(str, table.heads)] or None)
-    return f"<p><b>{escape(table.title)}</b></p>{shown.to_html(header=bool(table.heads), index=False)}"
+    # Of a wide text all is shown.
+    with pd.option_context("display.max_colwidth", None):
+        return f"<p><b>{escape(table.title)}</b></p>{shown.to_html(header=bool(table.heads), index=False)}"
 
 
-def html_of(title: str, table: pd.DataFrame, most: int = 12) -> str:
-    """A table below a title, as HTML; of a long one the first and the last rows.  Texts are escaped."""
-    return f"<p><b>{escape(title)}</b></p>{table.to_html(max_rows=most, index=False, float_format='{:.5g}'.format)}"
+def html_of(title: str, rows: pd.DataFrame, units: System = "si", columns: Sequence[str] = (), most: int = 12) -> str:
+    """An SI table below a title, as HTML; of a long one the first and the last rows.
+
+    columns : that are shown, by default all.  units : of what is shown.
+    """
+    half, long = most // 2, len(rows) > most
+    shown = rows.iloc[[*range(half), *range(-half, 0)]] if long else rows
+    table = frame_table(title, shown, columns or list(map(str, rows)), units)
+    if long:
+        between = (Cell("…"),) * len(table.heads)
+        table = replace(table, rows=(*table.rows[:half], between, *table.rows[half:]))
+    return html_table(table)
 
 
 def load_rows(loads: Mapping[str, float], units: System) -> dict[str, str]:

@@ -25,7 +25,7 @@ class Monitored(monitoring.Monitored):
 
     def _repr_html_(self) -> str:
         told = "".join(f"<p>{escape(alarm.sentence)}</p>" for alarm in self.alarms)
-        return told + html_of(repr(self), self.stretches[list(_SHOWN)])
+        return told + html_of(repr(self), self.stretches, self.chart.case.system, _SHOWN)
 
 
 class Calibration(result.Calibration):

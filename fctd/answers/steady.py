@@ -91,8 +91,7 @@ class Chart:
         return f"Chart({self.case.name!r}, {counted(len(self.rows), 'row')}: {kinds})"
 
     def _repr_html_(self) -> str:
-        names = dict(zip(self.rows.columns, self.table.columns, strict=True))  # in SI units, and as they are shown
-        return html_of(repr(self), self.table[[names[name] for name in _SHOWN]])
+        return html_of(repr(self), self.rows, self.units, _SHOWN)
 
 
 def chart(
@@ -192,7 +191,7 @@ class Refinement(cut.Refinement):
         return f"Refinement({self.case.name!r}: {self.status}, {found})"
 
     def _repr_html_(self) -> str:
-        return html_of(repr(self), self.steps)
+        return html_of(repr(self), self.steps, self.case.system)
 
 
 equilibrium = answering(Equilibrium, solve)

@@ -6,14 +6,15 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from numbers import Integral, Real
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
 
+from fctd.case import operations
 from fctd.case.message import SENTENCES
-from fctd.case.operations import KINDS
-from fctd.case.systems import Kind, told
+from fctd.case.systems import KINDS, SHOWN_APART, Kind, ending, signed, told
 from fctd.case.text import printable
-from fctd.results.unit_systems import System, digits_of, in_field_units, shown
-from fctd.results.workbook import Heading, heading_of
+from fctd.results.columns import COLUMNS
+from fctd.results.unit_systems import System, digits_of, in_field_units, kind_of, shown
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -21,6 +22,13 @@ if TYPE_CHECKING:
 NONE: Final = "–"  # of a cell without a value
 # Columns of words of the program; those of its sentences are SENTENCES, other texts are the user's.
 _WORDS: Final = ("margin", "limit", "status", "buckling", "notes", "shape")
+# Units at the end of a name, the longer ones first, and the digits after the point of the first kind with each.
+_DIGITS: Final = {
+    unit: number for kind in reversed(KINDS) for unit, number in zip(kind.units, kind.digits, strict=True)
+}
+_UNITS: Final = sorted(
+    {*_DIGITS, *(kind.dimension.unit for kind in SHOWN_APART), "rad/s"}, key=lambda unit: (-len(unit), unit)
+)
 
 
 class Cell(NamedTuple):
@@ -129,6 +137,43 @@ def quantities(
     return shown_table(heads, made, title, notes)
 
 
+class Heading(NamedTuple):
+    """How people see a column: its head, the factor of its numbers, and their digits; None of plain numbers."""
+
+    head: Head
+    factor: float
+    digits: int | None
+
+    def cell(self, value: Any) -> Cell:
+        """A value of the column; texts, counts and answers of yes or no are as they are, NaN is empty."""
+        if isinstance(value, bool) or not isinstance(value, Real):
+            return Cell(str(value))
+        if isinstance(value, Integral) and not self.head.unit:
+            return Cell(str(value), int(value))
+        found = float(value) * self.factor
+        return short(found, none="") if self.digits is None else number(found, self.digits, none="")
+
+
+def heading_of(column: str) -> Heading:
+    """The heading of a column of a table, in SI or in field units: ``hookload_N`` is "hook load (kN)", in kN."""
+    unit = next((unit for unit in _UNITS if column.endswith(ending(unit))), "")
+    stem, kind = column.removesuffix(ending(unit)) if unit else column, kind_of(column)
+    known = COLUMNS.get(column) or next((of for of in COLUMNS.values() if unit and of.stem == stem), None)
+    label = stem.replace("hookload", "hook_load").replace("_", " ") if known is None else known.label
+    factor, digits = 1.0, _DIGITS.get(unit, 3 if unit else None)
+    if kind is not None and unit == kind.dimension.unit:
+        factor, unit, digits = kind.shown("si").factor, kind.unit("si"), kind.digits_in("si")
+    digits = digits if known is None or known.digits is None else known.digits
+    return Heading(Head(label, signed(unit).replace("deg", "°")), factor, digits)
+
+
+def written_table(frame: pd.DataFrame) -> Table:
+    """All of a table, in SI or in field units, as files for people have it: its codes and texts are as they are."""
+    headings = [heading_of(str(name)) for name in frame.columns]
+    cells = [map(heading.cell, frame.iloc[:, k]) for k, heading in enumerate(headings)]
+    return Table("", tuple(heading.head for heading in headings), tuple(zip(*cells, strict=True)))
+
+
 def frame_table(
     title: str, frame: pd.DataFrame, columns: Sequence[str], units: System, words: Mapping[str, str] | None = None,
     notes: Sequence[str] = (),
@@ -142,16 +187,17 @@ def frame_table(
     heads, cells = [], []
     for k, name in enumerate(map(str, kept)):
         heading = heading_of(str(read.columns[k]))
-        heads.append(Head((words or {}).get(name) or heading.words, heading.unit))
+        heads.append(Head((words or {}).get(name) or heading.head.words, heading.head.unit))
         cells.append([_cell(name, value, heading, units) for value in read.iloc[:, k]])
     return Table(title, tuple(heads), tuple(zip(*cells, strict=True)), tuple(map(printable, notes)))
 
 
 def _cell(column: str, value: Any, heading: Heading, units: System) -> Cell:
     if not isinstance(value, str):
-        return number(float(value) * heading.factor, len(heading.format.partition(".")[2]))
+        cell = heading.cell(value)
+        return cell if cell.text else Cell(NONE)
     if column == "operation":
-        return Cell(KINDS[value].label)
+        return Cell(operations.KINDS[value].label)
     if column in _WORDS:
         return Cell(NONE if value == "none" else value.replace("_", " "))
     if column in SENTENCES:

@@ -39,8 +39,8 @@ def test_it_is_shown_in_either_system_of_units(chart: fctd.Chart) -> None:
     field = chart.to_units("field")
     assert field.table.attrs == chart.table.attrs | {"units": "field"}
     np.testing.assert_allclose(field.table["bit_depth_ft"] * 0.3048, chart.table["bit_depth_m"])
-    assert "hookload_klbf" in field._repr_html_()
-    assert "hookload_klbf" not in field.to_units("si")._repr_html_()
+    assert "hook load (klbf)" in field._repr_html_()
+    assert "hook load (kN)" in field.to_units("si")._repr_html_()
     assert repr(field) == "Chart('my well', 16 rows: trip_in, trip_out)"
 
 
