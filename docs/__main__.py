@@ -1,15 +1,17 @@
-"""``python -m docs``: write the table of keys and the pictures of README and guides."""
+"""``python -m docs``: write the tables of keys and columns, and the pictures of README and guides."""
 
 from pathlib import Path
 
-from docs import keys, pictures, tutorial
+from docs import columns, keys, pictures, tutorial
 from fctd.view.still import browser_path
 
 FOLDER = Path(__file__).parent
 
 if __name__ == "__main__":
-    (FOLDER / "keys.md").write_text(keys.page(), encoding="utf-8")
-    print("docs/keys.md")
+    for made in keys, columns:
+        name = f"{made.__name__.rpartition('.')[2]}.md"
+        (FOLDER / name).write_text(made.page(), encoding="utf-8")
+        print(f"docs/{name}")
     for name in pictures.PICTURES:
         if name in pictures.FROM_STUDY and not pictures.STUDY.is_dir():
             print(f"left as it is: docs/pictures/{name}.png, drawn after python -m validation volve_f4")

@@ -19,7 +19,7 @@ from fctd.case.systems import SYSTEMS
 from fctd.case.text import counted
 from fctd.model.operations import SteadyRates, rates_of_all
 from fctd.results.attrs import attrs_of
-from fctd.results.columns import IN_CHART, Column
+from fctd.results.columns import IN_CHART, Column, listing
 from fctd.results.notes import RowNote
 from fctd.results.shown_tables import facts
 from fctd.results.unit_systems import System, in_field_units, shown
@@ -120,6 +120,7 @@ def chart(
     return Chart(case, table, tuple(notes), warnings, rates).to_units(units or case.system)
 
 
+@listing("chart")
 def torque_drag(
     case: Case,
     operation: str | Sequence[str],
@@ -139,18 +140,6 @@ def torque_drag(
     "open": 0.3}; a text "0.3/0.2" is a factor along the hole and one around it.  speed [m/s], rpm : see
     ``equilibrium``; only for kinds that have them.  flow [m³/s] : of the pumps, for all kinds.  threads : by
     default as many as processors; the rows do not depend on it.
-
-    Columns:
-
-    - operation, bit_depth_m; friction and rotational_friction (along and around the hole, NaN where intervals differ)
-      and friction_label ("0.25", "0.3/0.2", "cased 0.20, open 0.30", or the case's own factors with their depths);
-    - the loads of ``columns.IN_CHART``, hookload_N and so on;
-    - buckling (none, sinusoidal, helical, or unknown without loads), buckled_from_md_m and buckled_to_md_m (NaN where
-      the string is not buckled);
-    - of a resolved string shape (none, snaking or helix), hookload_low_N and hookload_high_N (of both shapes, NaN where
-      they do not differ), slack_off_spent_at and locked_up_at (shares of the friction, NaN where not found);
-    - status (of ``SteadyStatus``), iterations, notes (codes of ``notes.MEANINGS``, or none), and reason (of a status
-      other than converged, or none).
 
     A row without a balance has NaN in place of loads.  So has a row that is ``locked_up`` where no push suffices, and
     one that is ``unstable`` because no steady shape was found.  At a depth where string and hole do not fit the status

@@ -107,7 +107,7 @@ def _whirl_note(run: Run, spans: Sequence[Span], history: "pd.DataFrame") -> Not
         surface = radius * rad_per_s(operation.rpm)
         # A string that moves along the hole too spends part of its friction there.
         share = surface / np.hypot(surface, operation.speed)
-        sideways = float(np.sqrt((last["lateral_speed_m_per_s"] ** 2).mean()))
+        sideways = float(np.sqrt((last["lateral_speed_m_s"] ** 2).mean()))
         torque, full = float(last["sum_r_ft_N_m"].mean()), float(last["sum_r_mu_fn_N_m"].mean())
         found.append(run_notes.whirls(sideways, surface, torque, share * full))
     return max((note for note in found if note), key=lambda note: note.excess, default=None)

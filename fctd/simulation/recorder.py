@@ -105,7 +105,7 @@ class Recorder(Restorable):
                 "contact_count": int((penetration(self.run.S, self.run.segments) > 0).sum()),
                 **buckling.columns(),
                 **_of_steps(steps, hookload, torque, span),
-                "lateral_speed_m_per_s": float(np.sqrt((self._lateral_speeds() ** 2).mean())),
+                "lateral_speed_m_s": float(np.sqrt((self._lateral_speeds() ** 2).mean())),
                 **upper_end.columns(self.run),
                 **self._bit(),
             }

@@ -1,5 +1,6 @@
 """A chart: the rows of the table, notes with their place, both systems of units, its picture; an equilibrium."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -7,6 +8,7 @@ import pandas as pd
 import pytest
 
 import fctd
+from fctd.results.columns import TABLES
 from fctd.results.notes import codes_of
 from tests.cases import make_case
 
@@ -20,7 +22,11 @@ def chart() -> fctd.Chart:
     return fctd.chart(fctd.load_case(EXAMPLE, WEAK), ["trip_in", "trip_out"], "shoe:td:500", [0.1, 0.5])
 
 
-def test_its_table_is_that_of_torque_drag(chart: fctd.Chart) -> None:
+def test_its_table_is_that_of_torque_drag_whose_docstring_has_each_column(chart: fctd.Chart) -> None:
+    told = re.findall("^- ([a-zA-Z_]+): .", fctd.torque_drag.__doc__ or "", re.M)
+    assert told == list(chart.rows) == [column.name for column in TABLES["chart"]]
+    profile = list(fctd.equilibrium(chart.case, "trip_in", "td").profile)
+    assert profile == [column.name for column in TABLES["profile"] if column.name in profile]
     pd.testing.assert_frame_equal(
         chart.table, fctd.torque_drag(chart.case, ["trip_in", "trip_out"], [1500, "2000 m", 2500, "td"], [0.1, 0.5])
     )

@@ -1,15 +1,18 @@
-"""The table of case keys is that of the models."""
+"""The table of case keys is that of the models, that of columns the one of the results."""
 
 from pathlib import Path
 
-from docs import keys
+import pytest
+
+from docs import columns, keys
 from fctd.case.load import KINDS, Case
 
-PAGE = Path(__file__).parents[2] / "docs" / "keys.md"
+DOCS = Path(__file__).parents[2] / "docs"
 
 
-def test_the_page_is_up_to_date() -> None:
-    assert PAGE.read_text(encoding="utf-8") == keys.page(), "run: python -m docs"
+@pytest.mark.parametrize(("name", "page"), [("keys", keys.page()), ("columns", columns.page())])
+def test_a_page_that_is_made_is_up_to_date(name: str, page: str) -> None:
+    assert (DOCS / f"{name}.md").read_text(encoding="utf-8") == page, "run: python -m docs"
 
 
 def test_every_key_has_its_line() -> None:

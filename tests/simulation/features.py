@@ -177,7 +177,7 @@ CROSSED: dict[str, Crossed] = {
             mud={"lateral_damping": 3000.0 if on else 0.0},
             operations=[rotation(60, 4.0, rpm=240, ramp=1.0)],
         ),
-        "lateral_speed_m_per_s",
+        "lateral_speed_m_s",
     ),
     "mud_spin": Crossed(lambda on: case(mud={"rotational_damping": 1.0 if on else 0.0}), "surface_torque_N_m"),
     "joint_damping": Crossed(

@@ -11,6 +11,7 @@ from fctd.mechanics import state, topdrive
 from fctd.mechanics.topdrive import GRAVITY, Motion
 from fctd.model.section import section_of
 from fctd.results.buckling import NOT_BUCKLED
+from fctd.results.columns import TABLES
 from fctd.results.notes import MEANINGS
 from fctd.simulation.preparation import prepare
 from fctd.simulation.recorder import Recorder
@@ -83,8 +84,9 @@ def test_a_row_of_history_is_sums_over_its_span() -> None:
         unknown = ("top_rpm", "bit_rpm", "bit_still_s")
         assert np.isnan([row[name] for name in unknown]).all()
         extremes = {name for name in row if "_min_" in name or "_max_" in name}
-        others = {"operation", "lateral_speed_m_per_s", *NOT_BUCKLED.columns(), *unknown, *extremes}
+        others = {"operation", "lateral_speed_m_s", *NOT_BUCKLED.columns(), *unknown, *extremes}
         assert {name: row[name] for name in row if name not in others} == pytest.approx(expected)
+        assert list(row) == [column.name for column in TABLES["history"] if column.name in row]
 
 
 def test_points_in_the_wall_are_counted() -> None:

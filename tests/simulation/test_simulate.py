@@ -325,7 +325,7 @@ def test_a_whirling_string_says_so_and_the_mud_s_damping_holds_it() -> None:
     whirling, damped = results
     assert "whirl" in {note.code for note in whirling.notes}
     assert "mud.viscosity" in whirling.message
-    assert whirling.history["lateral_speed_m_per_s"].iloc[-1] > 0.5 * 0.17 * 4 * np.pi
+    assert whirling.history["lateral_speed_m_s"].iloc[-1] > 0.5 * 0.17 * 4 * np.pi
     assert "whirl" not in {note.code for note in damped.notes}
     still = fctd.equilibrium(damped.case, "rotate_off_bottom", 3000, rpm=120)
     (row,) = damped.operations.to_dict("records")

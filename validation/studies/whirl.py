@@ -214,7 +214,7 @@ def casing(mud: dict[str, Any]) -> dict[str, float]:
         "hook_load_kN": row["hookload_mean_N"] / 1e3,
         "hook_load_off_percent": 100 * (row["hookload_mean_N"] / still.hookload - 1),
         "torque_off_percent": 100 * (row["surface_torque_mean_N_m"] / still.surface_torque - 1),
-        "sideways_over_surface_speed": float(end["lateral_speed_m_per_s"] / (0.16985 * 4 * np.pi)),
+        "sideways_over_surface_speed": float(end["lateral_speed_m_s"] / (0.16985 * 4 * np.pi)),
         "sliding_fraction": float(end["sum_r_ft_N_m"] / end["sum_r_mu_fn_N_m"]),
         "notes": float("whirl" in {note.code for note in result.notes}),
     }
