@@ -1,5 +1,5 @@
-"""In a copy of the package, one line adds a result column, an option, a kind of quantity, or a limit with its note,
-and one file and one line a law."""
+"""In a copy of the package, one line adds a result column, an option, a kind of quantity, a message, or a limit with
+its note, and one file and one line a law."""
 
 import json
 import os
@@ -163,6 +163,34 @@ def test_a_kind_of_quantity_is_one_line(copy: Path) -> None:
     assert headings.startswith("2 Heading(head=Head(words='pit', unit='ft³', numbers=None), factor=1.0, digits=2)")
     assert headings.endswith("Heading(head=Head(words='pit', unit='m³', numbers=None), factor=1.0, digits=1)")
     assert read == "0.028316846592 1.0"
+
+
+DOUBT = (
+    """    yield InputWarning("hangs", "rig", f"{rig.drive}, 29 kg/m, hangs {quantity(30.48, 'm')} high", "lower it")"""
+)
+
+
+@pytest.mark.slow
+def test_a_message_is_one_statement(copy: Path) -> None:
+    """The screen tells its quantity in the reader's units, once, and what the user wrote as it is."""
+    file = copy / "fctd" / "case" / "doubts" / "rig.py"
+    code = file.read_text()
+    doubts = code[code.index("def sheaves_and_drive") :].splitlines()
+    add_line(file, doubts[1], DOUBT)
+    script = """
+from fctd.cli.main import main
+import sys
+sys.stderr = sys.stdout
+for units in "si", "field":
+    sys.argv = ["fctd", "check", "well.toml", "--units", units]
+    try:
+        main()
+    except SystemExit:
+        print()
+"""
+    screens = " ".join(lines_of(copy, "", script))
+    assert screens.count("rig: stiff, 29 kg/m, hangs 30.48 m high: lower it") == 1
+    assert screens.count("rig: stiff, 29 kg/m, hangs 100 ft high: lower it") == 1
 
 
 MAKE_UP = """
