@@ -50,44 +50,86 @@ FOOT = 0.3048
 # --- headers and units -----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("headers", "unit"),
-    [
-        ("md_m,inc_deg,azi_deg", 1),
-        ("MD_FT,Inc_Deg,AZI_deg", FOOT),
-        ("Measured Depth ( ft ),Inclination ( deg ),Azimuth Grid ( deg )", FOOT),
-        ("Measured Depth [m],Inclination [°],Azimuth [°]", 1),
-        ("MD (metres),Incl (degrees),Azim (degrees)", 1),
-        ("Depth feet,Hole Angle Inc,Hole Azimuth degrees", FOOT),
-        ("DEPT.M,DEVI.DEG,AZIM_TN.DEG", 1),
-        ("DEPT_M,DEV,HAZI", 1),
-        ("M.D. (m),Inc.,Azi.", 1),
-        ("MD mRKB,Drift Angle,AZ", 1),
-        ("Along Hole Depth (m),Deviation,Azimuth (True North)", 1),
-        ("MD (usft),Inc (°),Azi (azimuth) (°)", 1200 / 3937),
-        ("Depth (m RT),Inclin,AZI_GN", 1),
-        ("Depth ( ft ),I_deg,A_deg", FOOT),
-        ("Depth in feet,Drift,Direction", FOOT),
-        ("MDepth (ft),Drift,Direction", FOOT),
-        ("MDRKB ft,Inc,Azi", FOOT),
-        ("Measured Depth from RKB (feet),Inc,Azi", FOOT),
-        ("Depth m,Inc,Azi", 1),
-    ],
-)
-def test_headers_that_the_field_uses(headers: str, unit: float, tmp_path: Path) -> None:
-    is_the_survey(read(tmp_path, text(headers)), unit)
+_NUMBERED = [f"{k},{row}" for k, row in enumerate(ROWS)]
+_PAGE = ["MD,Inc,Azi", "ft,deg,deg"]
+# Contents that are the survey, and the unit of their depths [m].
+FILES = {
+    # Headers of the field.
+    **{
+        headers: (text(headers), unit)
+        for headers, unit in [
+            ("md_m,inc_deg,azi_deg", 1),
+            ("MD_FT,Inc_Deg,AZI_deg", FOOT),
+            ("Measured Depth ( ft ),Inclination ( deg ),Azimuth Grid ( deg )", FOOT),
+            ("Measured Depth [m],Inclination [°],Azimuth [°]", 1),
+            ("MD (metres),Incl (degrees),Azim (degrees)", 1),
+            ("Depth feet,Hole Angle Inc,Hole Azimuth degrees", FOOT),
+            ("DEPT.M,DEVI.DEG,AZIM_TN.DEG", 1),
+            ("DEPT_M,DEV,HAZI", 1),
+            ("M.D. (m),Inc.,Azi.", 1),
+            ("MD mRKB,Drift Angle,AZ", 1),
+            ("Along Hole Depth (m),Deviation,Azimuth (True North)", 1),
+            ("MD (usft),Inc (°),Azi (azimuth) (°)", 1200 / 3937),
+            ("Depth (m RT),Inclin,AZI_GN", 1),
+            ("Depth ( ft ),I_deg,A_deg", FOOT),
+            ("Depth in feet,Drift,Direction", FOOT),
+            ("MDepth (ft),Drift,Direction", FOOT),
+            ("MDRKB ft,Inc,Azi", FOOT),
+            ("Measured Depth from RKB (feet),Inc,Azi", FOOT),
+            ("Depth m,Inc,Azi", 1),
+        ]
+    },
+    # A row of units, also as a comment.
+    **{
+        f"units {units}": (text(f"MD,Inc,Azi\n{units}"), FOOT)
+        for units in (
+            "ft,deg,deg", "(ft),(deg),(deg)", "[feet],[°],[°]", "ft,,", "Feet,degrees,Degrees", "ftMD,deg,deg",
+            "# a gyro\n# ft,deg,deg",
+        )
+    },
+    "units in a comment": (text("Sta MD Inc Azi\n# (ft) (deg) (deg)", " ", _NUMBERED), FOOT),
+    "headers on each page": (text("Page 1\n" + "\n".join(_PAGE), rows=[*ROWS[:2], "", *_PAGE, *ROWS[2:]]), FOOT),
+    "other columns": (
+        text("No,MD (m),Inc,Azi,TVD (m),Tool,DLS (deg/30m)", rows=[f"{row},-9,x,0" for row in _NUMBERED]), 1,
+    ),
+    # Columns apart by something else, decimal commas, blanks that group digits.
+    **{
+        f"apart by {separator!r}": (text(separator.join(["MD(ft)", "Inc", "Azi"]), separator), FOOT)
+        for separator in (",", ";", "\t", "|", " ", "   ", ", ", " \t ")
+    },
+    **{
+        f"commas and {separator!r}": (
+            "\n".join(row.replace(",", separator).replace(".", ",") for row in ("MD(m),Inc,Azi", *ROWS)), 1,
+        )
+        for separator in (";", "\t", "|", " ")
+    },
+    "blanks in numbers": ("MD (m);Inc;Azi\n0;0;0\n500;0;90\n1\u202f000;30,5;90\n1 500;45;91\n2\u00a0000,0;60;92,25", 1),
+    **{
+        headers: (text(headers, "  "), 1)
+        for headers in (
+            "MD (m) Inc (deg) Azi (deg)",
+            "Measured Depth (m)   Inclination (deg)  Azimuth Grid (deg)",
+            "  MD     Inc    Azi\n  (m)   (deg)  (deg)",
+            "MD Inc Azi\nm deg deg",
+            "# md_m inc_deg azi_deg",
+            "#MD_m  Inc  Azi",
+        )
+    },
+    **{
+        encoding: (("Brønn A-1, Sørfeltet\n" + text("MD (ft);Inc (°);Azi (°)", ";")).encode(encoding), FOOT)
+        for encoding in ("utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "latin-1", "cp1252")
+    },
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("content", "unit"), FILES.values(), ids=FILES)
+def test_a_text_is_the_survey(content: str | bytes, unit: float, tmp_path: Path) -> None:
+    is_the_survey(read(tmp_path, content), unit)
 
 
 def test_radians(tmp_path: Path) -> None:
     survey = read(tmp_path, "AZI_RAD, Note ,Inc (radians),MD_FT\n0,a,0,0\n1,b,0.5,100\n")
     assert survey.stations[1] == pytest.approx([30.48, 0.5, 1], rel=1e-14)
-
-
-@pytest.mark.parametrize(
-    "units", ["ft,deg,deg", "(ft),(deg),(deg)", "[feet],[°],[°]", "ft,,", "Feet,degrees,Degrees", "ftMD,deg,deg"]
-)
-def test_a_row_of_units(units: str, tmp_path: Path) -> None:
-    is_the_survey(read(tmp_path, text(f"MD,Inc,Azi\n{units}")), FOOT)
 
 
 @pytest.mark.parametrize(
@@ -102,23 +144,6 @@ def test_the_row_below_the_headers_has_the_units(depth: str, first: str, tmp_pat
     is_the_survey(read(tmp_path, text(f"Sta.,{depth},Inclin,Azim. Grid\n{units}", rows=rows)), FOOT)
     for header in (f"{depth} (ft)", f"{depth}_ft"):
         is_the_survey(read(tmp_path, text(f"{header},Inc,Azi")), FOOT)
-
-
-def test_units_in_the_first_column_of_a_comment(tmp_path: Path) -> None:
-    is_the_survey(read(tmp_path, text("MD,Inc,Azi\n# a gyro\n# ft,deg,deg")), FOOT)
-    rows = [f"{k},{row}" for k, row in enumerate(ROWS)]
-    is_the_survey(read(tmp_path, text("Sta MD Inc Azi\n# (ft) (deg) (deg)", " ", rows)), FOOT)
-
-
-def test_headers_that_are_repeated_on_each_page(tmp_path: Path) -> None:
-    head = ["MD,Inc,Azi", "ft,deg,deg"]
-    is_the_survey(read(tmp_path, text("Page 1\n" + "\n".join(head), rows=[*ROWS[:2], "", *head, *ROWS[2:]])), FOOT)
-
-
-def test_other_columns_are_nothing(tmp_path: Path) -> None:
-    rows = [f"{k},{row},-9,x,{k}" for k, row in enumerate(ROWS)]
-    headers = "No,MD (m),Inc,Azi,TVD (m),Tool,DLS (deg/30m)"
-    is_the_survey(read(tmp_path, text(headers, rows=rows)))
 
 
 def test_a_letter_names_an_angle_where_no_word_does(tmp_path: Path) -> None:
@@ -161,37 +186,6 @@ def test_a_header_named_by_the_case_may_have_any_words(tmp_path: Path) -> None:
 # --- texts -----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("separator", [",", ";", "\t", "|", " ", "   ", ", ", " \t "])
-def test_separators(separator: str, tmp_path: Path) -> None:
-    is_the_survey(read(tmp_path, text(separator.join(["MD(ft)", "Inc", "Azi"]), separator)), FOOT)
-
-
-@pytest.mark.parametrize("separator", [";", "\t", "|", " "])
-def test_decimal_commas(separator: str, tmp_path: Path) -> None:
-    rows = [row.replace(",", separator).replace(".", ",") for row in ROWS]
-    is_the_survey(read(tmp_path, "\n".join([separator.join(["MD(m)", "Inc", "Azi"]), *rows])))
-
-
-def test_blanks_that_group_digits(tmp_path: Path) -> None:
-    rows = "\n0;0;0\n500;0;90\n1\u202f000;30,5;90\n1 500;45;91\n2\u00a0000,0;60;92,25"
-    is_the_survey(read(tmp_path, "MD (m);Inc;Azi" + rows))
-
-
-@pytest.mark.parametrize(
-    "headers",
-    [
-        "MD (m) Inc (deg) Azi (deg)",
-        "Measured Depth (m)   Inclination (deg)  Azimuth Grid (deg)",
-        "  MD     Inc    Azi\n  (m)   (deg)  (deg)",
-        "MD Inc Azi\nm deg deg",
-        "# md_m inc_deg azi_deg",
-        "#MD_m  Inc  Azi",
-    ],
-)
-def test_columns_apart_by_blanks(headers: str, tmp_path: Path) -> None:
-    is_the_survey(read(tmp_path, text(headers, "  ")))
-
-
 def test_titles_and_comments(tmp_path: Path) -> None:
     """Line numbers count every line of the file."""
     above = "Well: A-1, North Sea; final\n\n# MD, Inc, Azi of the gyro\nAzimuth: grid north\n"
@@ -208,12 +202,6 @@ def test_quotes_and_line_ends(tmp_path: Path) -> None:
     content = '\r\n"Measured\nDepth\n(m)","Inc, deg",Azi\r\n\r\n0,0,0\r\n,,\r\n"10",0,0\r\n\x1a'
     assert read(tmp_path, content).stations[:, 0].tolist() == [0, 10]
     assert read(tmp_path, TEXT.replace("\n", "\r")).stations[:, 0].tolist() == DEPTH
-
-
-@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "latin-1", "cp1252"])
-def test_encodings(encoding: str, tmp_path: Path) -> None:
-    content = "Brønn A-1, Sørfeltet\n" + text("MD (ft);Inc (°);Azi (°)", ";")
-    is_the_survey(read(tmp_path, content.encode(encoding)), FOOT)
 
 
 # --- workbooks -------------------------------------------------------------------------------------
