@@ -54,13 +54,31 @@ def test_setting_and_looking_up() -> None:
 # --- overrides -------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("key", ["operations[0].speed", "operations.0.speed"])
-def test_override_of_a_list_item(case_file: Path, key: str) -> None:
-    assert load_case(case_file, {key: "60 ft/min"}).operations[0].speed == pytest.approx(0.3048)
-
-
-def test_override_makes_an_optional_table(case_file: Path) -> None:
-    assert load_case(case_file, {"mud.density": "1.2 sg"}).mud.density == 1200.0
+@pytest.mark.parametrize(
+    ("overrides", "read", "value"),
+    [
+        ({"operations[0].speed": "60 ft/min"}, ["operations", 0, "speed"], 0.3048),
+        ({"operations.0.speed": "60 ft/min"}, ["operations", 0, "speed"], 0.3048),
+        # An optional table is made.
+        ({"mud.density": "1.2 sg"}, ["mud", "density"], 1200.0),
+        # None deletes, so that alternatives can be switched.
+        (
+            {"string.components[0].segments": None, "string.components[0].segment_length": "5 m"},
+            ["string", "components", 0, "segment_length"], 5.0,
+        ),
+        # The friction of every interval; numpy's numbers.
+        ({"friction": 0.17}, ["wellbore", "intervals", 0, "friction"], 0.17),
+        ({"friction": np.float64(0.25)}, ["wellbore", "intervals", 1, "friction"], 0.25),
+        ({"string.components[0].segments": np.int64(7)}, ["string", "components", 0, "segments"], 7),
+    ],
+)  # fmt: skip
+def test_an_override_is_a_value_of_the_case(
+    case_file: Path, overrides: dict[str, Any], read: list[str | int], value: float
+) -> None:
+    found: Any = load_case(case_file, overrides)
+    for part in read:
+        found = found[part] if isinstance(part, int) else getattr(found, part)
+    assert found == pytest.approx(value, rel=1e-14)
 
 
 def test_override_does_not_keep_the_callers_objects(case_file: Path) -> None:
@@ -69,19 +87,8 @@ def test_override_does_not_keep_the_callers_objects(case_file: Path) -> None:
     assert mud == {"density": 1000}
 
 
-def test_none_deletes_so_that_alternatives_can_be_switched(case_file: Path) -> None:
-    switched = {"string.components[0].segments": None, "string.components[0].segment_length": "5 m"}
-    collar = load_case(case_file, switched).string.components[0]
-    assert (collar.segments, collar.segment_length) == (None, 5.0)
-
-
 def test_none_removes_a_list_item(case_file: Path) -> None:
     assert len(load_case(case_file, {"operations[3]": None}).operations) == 3
-
-
-def test_friction_sets_every_interval(case_file: Path) -> None:
-    hole = load_case(case_file, {"friction": 0.17}).wellbore
-    assert [interval.friction for interval in hole.intervals] == [0.17, 0.17]
 
 
 def test_friction_by_kind_sets_the_intervals_of_that_kind(case_file: Path) -> None:
@@ -118,13 +125,6 @@ def test_a_pair_of_friction_factors(case_file: Path) -> None:
         assert refusal(case_file, {"friction": value}).key == "friction"
     error = refusal(case_file, {"rotational_friction": -0.1})
     assert (error.key, error.expected[:18]) == ("wellbore.intervals[0].rotational_friction", "a friction factor ")
-
-
-def test_numpy_numbers_may_override(case_file: Path) -> None:
-    overrides = {"friction": np.float64(0.25), "string.components[0].segments": np.int64(7)}
-    case = load_case(case_file, overrides)
-    assert case.wellbore.intervals[0].friction == 0.25
-    assert case.string.components[0].segments == 7
 
 
 @pytest.mark.parametrize(
