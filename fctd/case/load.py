@@ -235,6 +235,11 @@ class Case(Table):
         """The tables as the user wrote them, without stations; of a case from no file those that were given."""
         return self._written.raw or self.model_dump(exclude_unset=True, exclude={"file"})
 
+    def text_of(self, key: str) -> str | None:
+        """The text that the user wrote for a key, None for a bare number and for a key that he left out."""
+        written = look_up(self._written.raw, *split_key(key))
+        return written if isinstance(written, str) else None
+
     def quoting(self, error: InputError) -> InputError:
         """The error with the value as the user wrote it, where the error is about a key that he wrote."""
         others = (".contact_diameter", ".joint.tool_joint_diameter", ".pipe", ".outer_diameter")
