@@ -95,14 +95,10 @@ def _tell_swapped(table: "pd.DataFrame", direction: "pd.Series[int]", tell: Call
     weighed = weighed[weighed["operation"].isin(("trip_in", "trip_out", "rotate_off_bottom")) & weighed["low"].notna()]
     found: list[str] = []
     for _, rows in weighed.groupby("bit_depth_m", sort=False):
-        of_depth = rows.groupby("name").agg(low=("low", "min"), high=("high", "max"))
-        loads = {
-            name: Weight(0, Range(low, high), NOISE * high)
-            for name, low, high in of_depth.itertuples()
-        }  # fmt: skip
-        found += [sentence for _, sentence in out_of_order(loads, quantity(rows["bit_depth_m"].iloc[0], "m", ".6g"))][
-            :1
-        ]
+        of_name = rows.groupby("name").agg(low=("low", "min"), high=("high", "max")).itertuples()
+        loads = {name: Weight(0, Range(low, high), NOISE * high) for name, low, high in of_name}
+        at = quantity(rows["bit_depth_m"].iloc[0], "m", ".6g")
+        found += [sentence for _, sentence in out_of_order(loads, at)][:1]
     if found:
         more = f" (and at {counted(len(found) - 1, 'more depth')})" if len(found) > 1 else ""
         tell(Message(f"{within(found[0])}{more}"))
