@@ -99,7 +99,7 @@ def trips_at(
 
 def surge_pressures(
     case: Case,
-    speeds: Sequence[float | str],
+    speeds: float | str | Sequence[float | str],
     bit_depths: float | str | Sequence[float | str] = (),
     operation: str | Sequence[str] = TRIPS,
     end: str | Sequence[str] = (),
@@ -122,8 +122,9 @@ def surge_pressures(
         11.5
     """
     with naming_file(case):
-        rates = [argument(speed, SPEED, "speeds") for speed in speeds]
-        for speed, rate in zip(speeds, rates, strict=True):
+        given = [speeds] if isinstance(speeds, str | float | int) else list(speeds)
+        rates = [argument(speed, SPEED, "speeds") for speed in given]
+        for speed, rate in zip(given, rates, strict=True):
             if not 0 <= rate <= units.FASTEST:
                 hint = unit_hint(rate, _A_MINUTE)
                 raise InputError(f"a speed of 0 to {quantity(units.FASTEST, 'm/s')}{hint}", key="speeds", value=speed)
