@@ -115,8 +115,14 @@ def _of_intervals(raw: Mapping[str, Any], value: Any) -> Iterator[tuple[int, Any
     if not isinstance(value, Mapping):
         yield from enumerate([value] * count)
         return
-    picked = pick(value, [look_up(raw, "wellbore", "intervals", i, "kind") for i in range(count)])
+    picked = pick(value, [_kind_of(look_up(raw, "wellbore", "intervals", i)) for i in range(count)])
     yield from ((i, factor) for i, factor in enumerate(picked) if factor is not None)
+
+
+def _kind_of(interval: object) -> object:
+    """The kind of an unvalidated interval, MISSING without one; casing of the catalogue is cased."""
+    kind = look_up(interval, "kind")
+    return "cased" if kind is MISSING and look_up(interval, "casing") is not MISSING else kind
 
 
 def _set_friction(raw: dict[str, Any], i: int, factor: object) -> None:

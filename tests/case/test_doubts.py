@@ -339,6 +339,7 @@ def test_rates_and_friction_that_are_asked_for() -> None:
         ("rig.hoist_capacity", "10 kN", "a hoist capacity of 10 kN", "a hoist capacity of 10 kN: "),
         ("rig.hoist_capacity", 450, "a hoist capacity of 450 N (450 looks like '450 kN')", "101.2 lbf (450 looks"),
         ("mud.density", 10.4, "a mud of 10.4 kg/m^3 (10.4 looks like '10.4 ppg')", "0.08679 ppg (10.4 looks"),
+        ("wellbore.intervals[0].diameter", "63 in", "a hole of 63 in", "a hole of 63 in: write"),
         ("mud.density", "2.7 sg", "a mud of 2.7 sg", "a mud of 2.7 sg: check it; usual is 5.007"),
     ],
 )  # fmt: skip

@@ -29,7 +29,7 @@ DOUBTED: Final[list[tuple[str, Any, str]]] = [
         3.5,
         "a hole of 3.5 m (3.5 looks like '3.5 in'): write the diameter with its unit",
     ),
-    ("wellbore.intervals[1].diameter", "8.5 mm", "a hole of 0.0085 m: write the diameter with its unit"),
+    ("wellbore.intervals[1].diameter", "8.5 mm", "a hole of 8.5 mm: write the diameter with its unit"),
     (
         "wellbore.intervals[1].friction",
         0.9,

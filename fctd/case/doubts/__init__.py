@@ -48,7 +48,7 @@ def warnings_of(
     return (
         *case.wellbore.survey_warnings,
         *shoe_below_td(case.wellbore, float(stations[-1, 0])),
-        *hole_size(case.wellbore),
+        *hole_size(case),
         *wider_below(case.wellbore),
         *casing_bore(case.wellbore),
         *rough_wall(case.wellbore, frictions),

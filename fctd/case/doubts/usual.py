@@ -156,12 +156,19 @@ def unusual(case: Well) -> Doubts:
         for place, holder in holders:
             value = abs(getattr(holder, name, None) or 0.0)  # there may be no rock, damping or caliper
             if value != 0 and not usual.low <= value <= usual.high:
-                written = case.text_of(f"{place}.{name}")
-                as_si = written is None or written.startswith(f"{value:g}")  # its number is the one in SI
-                said = quantity(value, usual.unit) if written is None else written
-                said += unit_hint(value, usual.likely_units) if as_si else ""
-                remedy = f"{'check it' if written else 'write it with its unit'}; usual is {usual.words}"
-                yield InputWarning(usual.code, f"{place}.{name}", f"{usual.what} of {said}", remedy)
+                key = f"{place}.{name}"
+                said = as_given(case, key, value, usual.unit, usual.likely_units)
+                remedy = f"{'check it' if case.text_of(key) else 'write it with its unit'}; usual is {usual.words}"
+                yield InputWarning(usual.code, key, f"{usual.what} of {said}", remedy)
+
+
+def as_given(case: Well, key: str, value: float, unit: str, likely_units: Sequence[LikelyUnit]) -> str:
+    """A value [SI] as the user wrote it, for an f-string, with the units that its number may be in."""
+    written = case.text_of(key)
+    if written is None:
+        return quantity(value, unit) + unit_hint(value, likely_units)
+    of_si = written.startswith(f"{value:g}")  # its number is the one in SI
+    return written + (unit_hint(value, likely_units) if of_si else "")
 
 
 def bare_lengths(keys: Sequence[str]) -> Doubts:
