@@ -354,6 +354,15 @@ def test_a_value_out_of_its_range_is_told_as_it_was_written(
     assert ("looks like" in warning.text) == isinstance(value, int | float)
 
 
+def test_both_flows_of_a_motor_have_the_units_of_the_reader() -> None:
+    """2000 and 1500 L/min are 528.3 and 396.3 gpm (3.785411784 L to the gallon)."""
+    drilling = {"kind": "drill_sliding", "from_md": 900.0, "to_md": 950.0, "speed": 0.01, "flow": "2000 L/min"}
+    motor = {"flow": "1500 L/min", "revolutions_per_liter": 0.1}
+    case = case_of(operations=[drilling], bit={"weight_on_bit": 5e4, "motor": motor})
+    (warning,) = [warning for warning in case.warnings if warning.code == "motor_flow"]
+    assert "528.3 gpm, where bit.motor.flow turns the motor with 396.3 gpm" in warning.told("field")
+
+
 def test_a_usual_range_has_the_units_of_the_reader() -> None:
     (warning,) = case_of(mud={"density": 599.0}).warnings
     assert warning.remedy == "write it with its unit; usual is 600 to 2600 kg/m^3"
