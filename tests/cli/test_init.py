@@ -179,7 +179,7 @@ def test_files_are_refused(arguments: list[str], message: str, here: Path, cli: 
     [
         (["--out", "there.toml/my.toml"], '--out = "there.toml/my.toml": expected '),
         (["--template", "j-well"], "'j-well' is not one of 'build-hold', 'horizontal'"),
-        (["--units", "ft"], "'ft' is not si (or metric: m, kN, kN·m) or field (ft"),
+        (["--units", "ft"], '\'ft\': expected "si" or "metric" (m, kN'),
     ],
 )
 def test_refused(
