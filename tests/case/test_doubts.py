@@ -141,8 +141,8 @@ CASED = {"to_md": 1000, "casing": "9 5/8 in 47 N-80", "friction": 0.2}
         ),
         (
             "friction_pair",
-            {"wellbore": hole((1000, 0.3), friction=1e-3, around=1.0)},
-            {"wellbore": hole((1000, 0.3), friction=0.9e-3, around=1.0)},
+            {"wellbore": hole((1000, 0.3), friction=0.02, around=1.0)},
+            {"wellbore": hole((1000, 0.3), friction=0.019, around=1.0)},
         ),
         (
             "friction_pair",
