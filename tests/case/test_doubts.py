@@ -309,6 +309,8 @@ def test_a_bare_length_among_feet(length: str, told: bool, tmp_path: Path) -> No
     assert load_case(path, {"string.components[0].length": "930 ft"}).warnings == ()
     bare_stand = load_case(path, {"string.components[0].length": "930 ft", "rig.stand_length": 28}).warnings
     assert [warning.key for warning in bare_stand] == ["rig.stand_length"]
+    bare_stand = load_case(path, {"string.components[0].length": "930 ft", "rig.stand_length": 94}).warnings
+    assert [warning.code for warning in bare_stand] == ["rig_load"]  # which says the same
     path.write_text(FIELD.format(length="'930 ft'").replace('"9000 ft", 0', "9000, 0"))
     assert [warning.key for warning in load_case(path).warnings] == ["wellbore.stations"]
 

@@ -45,6 +45,8 @@ def warnings_of(
     raises InputError where it cannot be used.
     """
     stations = case.wellbore.trajectory
+    out_of_range = tuple(unusual(case))
+    doubted = {warning.key for warning in out_of_range}  # of which a bare number needs no second warning
     return (
         *case.wellbore.survey_warnings,
         *shoe_below_td(case.wellbore, float(stations[-1, 0])),
@@ -55,7 +57,7 @@ def warnings_of(
         *smooth_along(case.wellbore, frictions),
         *measured_size(case.wellbore, float(stations[-1, 0])),
         *no_mud(case.mud, float(stations[-1, 0])),
-        *unusual(case),
+        *out_of_range,
         *light_string(case.string, case.mud),
         *no_tool_joints(case.string),
         *unlike_pipe(case.string),
@@ -63,7 +65,7 @@ def warnings_of(
         *bit_size(case.string, case.wellbore, float(stations[-1, 0])),
         *bent_along_gauge(case.string, case.wellbore),
         *does_not_drift(case.string, case.wellbore, min(float(stations[-1, 0]), case.wellbore.intervals[-1].to_md)),
-        *bare_lengths(case.bare_lengths),
+        *bare_lengths([key for key in case.bare_lengths if key not in doubted]),
         *no_bit_load(case, {*kinds, *(operation.kind for operation in case.operations)}),
         *sheaves_and_drive(case.rig),
         *no_block(case.rig, indicator),

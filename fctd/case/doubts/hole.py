@@ -11,8 +11,8 @@ from fctd.case.message import quantity, span
 from fctd.case.pipes.filling import casing_named
 from fctd.case.units import LikelyUnit
 
-# Of the factor around the hole.  In a well of 3 km a string that slides at this share of it has 1 % of the torque of the
-# one that turns, at a thousandth 16 %, and at 0 no balance; the true torque is none.
+# Of the factor around the hole.  In a well of 3 km a string that slides has 1 % of the torque of one that turns at
+# this share of it, at a thousandth 16 %, and at 0 no balance; the true torque is none.
 SMOOTH: Final = 0.02
 ROUGH: Final = 0.6  # steel on rock without lubrication; casing has 0.15 to 0.3, open hole 0.2 to 0.5
 NARROWEST, WIDEST = 0.05, 1.5  # [m]: coiled tubing in slim hole, conductor pipe
