@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Final
 import numpy as np
 import typer
 
+from fctd.case import message
 from fctd.case.errors import InputError
 from fctd.case.load import Case, naming_file
 from fctd.case.message import frame_of
@@ -104,7 +105,7 @@ def hydraulics_command(
     if penetration is not None:
         cuttings = Cuttings(penetration.si(units), cuttings_size.si(units), cuttings_density.si(units))
         if cuttings.density <= case.mud.densest:
-            heavier = f"a density above the mud's, {case.mud.densest:g} kg/m^3"
+            heavier = f"a density above the mud's, {message.quantity(case.mud.densest, 'kg/m^3')}"
             raise InputError(heavier, key="--cuttings-density", value=cuttings_density.text)
     job.warn(flow=pumped[0])
     with naming_file(case), job.bar() as show:

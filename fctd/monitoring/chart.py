@@ -28,6 +28,7 @@ FACTORS: Final = np.array([0.0, 0.1, 0.2, 0.3, 0.45, 0.65])
 # [m] between bit depths: within half of it hook load changes by less than 100 N, a hundredth of its noise.  Linear
 # interpolation over a stand is worse: loads of a string in segments ripple with the place of its joints.
 NODES: Final = 0.5
+OF_BLOCK: Final = 0.1  # of the string's weight: a load that exceeds the block's by less is the block's
 COARSE: Final = 120.0  # [m] between bit depths of the loads that the rules of stretches need
 HELD: Final = 2  # place of the factor at which the derivative by the held one is taken
 CASED_STEP: Final = 0.05  # of the held factor, for the derivative by it
@@ -177,14 +178,15 @@ class Chart:
         more = self._solve(self._other, kind, self._near(depth))[1 if kind == "rotate_off_bottom" else 0]
         return float(np.nan_to_num((more - self.loads(kind, depth)[HELD]) / CASED_STEP))
 
-    def slips_below(self, depth: Array) -> Array:
-        """Weight indicator below which the string hangs in the slips: the block and half the string's weight [N]."""
+    def slips_below(self, depth: Array) -> tuple[Array, Array]:
+        """Weight indicator below which the load is that of the block, and below which a bit that stands still while
+        the block moves hangs in the slips [N]: with a tenth and with half of the string's weight."""
         depth = np.clip(depth, 0.0, self.deepest)
         low, high = float(np.floor(depth.min() / COARSE)), float(np.ceil(depth.max() / COARSE))
         at = np.arange(low, high + 1) * COARSE
-        weights = np.array([self._coarse_node(float(d))[0] for d in at])
-        limits: Array = self.case.rig.block_weight + 0.5 * np.interp(depth, at, weights)
-        return limits
+        string = np.interp(depth, at, [self._coarse_node(float(d))[0] for d in at])
+        block = self.case.rig.block_weight
+        return block + OF_BLOCK * string, block + 0.5 * string
 
     def reversal(self, depth: float) -> float:
         """Stretch at reversal: difference of hook loads up and down, which falls to 0 at the bit, over EA [m]."""

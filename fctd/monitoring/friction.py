@@ -6,6 +6,7 @@ from typing import Final
 import numpy as np
 
 from fctd.case.errors import InputError, nearest
+from fctd.case.message import quantity
 from fctd.case.units import FORCE, FRICTION, TORQUE, Dimension, Quantity
 from fctd.monitoring.chart import Chart
 from fctd.monitoring.stretches import ROTATING, Stretch
@@ -62,7 +63,8 @@ def parse_uncertainty(texts: list[str], key: str) -> Uncertainty:
                 "a number or a percentage" if dimension is None else f"{dimension.noun} such as {dimension.example}"
             )
             if name in LEAST:
-                expected += f", at least {LEAST[name]:g}{' N' if name in _DIMENSIONS else ''}: every reading has noise"
+                least = quantity(LEAST[name], "N") if name in _DIMENSIONS else f"{LEAST[name]:g}"
+                expected += f", at least {least}: every reading has noise"
             raise InputError(expected, key=f"{key} {name}", value=value) from None
     return Uncertainty(**found)
 

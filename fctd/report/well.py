@@ -9,6 +9,7 @@ from typing import Any
 
 from fctd.calibration.predict import posterior_file, read_posterior
 from fctd.calibration.unknowns import held
+from fctd.case import message
 from fctd.case.friction import FrictionSet
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
@@ -28,6 +29,7 @@ from fctd.case.systems import (
     Kind,
     System,
     signed,
+    told,
 )
 from fctd.model.capacity import Body
 from fctd.model.operations import SteadyRates, rad_per_s
@@ -260,14 +262,19 @@ def assumptions(
     """
     hole_of, contact = case.wellbore, case.contact
     stiffness = (
-        f"{hole_of.stiffness:.3g} N/m at a contact" if hole_of.stiffness is not None
-        else f"{hole_of.stiffness_per_length:.3g} N/m for each metre"
+        f"{message.quantity(hole_of.stiffness, 'N/m', '.3g')} at a contact" if hole_of.stiffness is not None
+        else message.quantity(hole_of.stiffness_per_length or 0.0, "N/m/m", ".3g")
     )  # fmt: skip
     lies = "0, concentric" if case.mud.eccentricity == 0 else str(case.mud.eccentricity)
     chosen: list[tuple[str, str, Any, str]] = [
         ("friction law", contact.friction_law, contact, "friction_law"),
         ("shape of the hole", hole_of.geometry, hole_of, "geometry"),
-        ("stiffness of the wall", stiffness, hole_of, "stiffness" if hole_of.stiffness else "stiffness_per_length"),
+        (
+            "stiffness of the wall",
+            told(message.Message(stiffness), units),
+            hole_of,
+            "stiffness" if hole_of.stiffness else "stiffness_per_length",
+        ),
         ("where the string buckles", case.solver.buckling, case.solver, "buckling"),
         ("eccentricity of the pipe in the annulus", lies, case.mud, "eccentricity"),
     ]

@@ -56,6 +56,10 @@ def test_it_draws_itself(chart: fctd.Chart, tmp_path: Path) -> None:
     assert "bit depth, ft" in texts
     assert picture._repr_png_().startswith(b"\x89PNG")
     assert picture.save(tmp_path / "chart.svg") == [tmp_path / "chart.svg"]
+    for name in ("chart.html", "chart"):
+        with pytest.raises(fctd.InputError, match=r"expected a file name that ends in \.png, \.svg or \.pdf"):
+            picture.save(tmp_path / name)
+    assert [path.name for path in tmp_path.iterdir()] == ["chart.svg"]
 
 
 def test_units_and_loads_that_nobody_knows_are_refused(chart: fctd.Chart) -> None:

@@ -3,6 +3,7 @@
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from fctd.case.errors import InputError
@@ -111,3 +112,9 @@ def test_what_cannot_be_tripped_is_told_in_a_sentence(case: dict[str, Any], aske
 def test_a_window_is_asked_for() -> None:
     with pytest.raises(InputError, match=r"wellbore.window is missing: expected rows of tvd, pore and fracture"):
         fastest_trips(well(wellbore={}))
+
+
+def test_one_speed_as_a_text_is_one_speed() -> None:
+    """Its letters were speeds: "expected a speed ... speeds = '.'"."""
+    for one in ("0.5 m/s", 0.5):
+        pd.testing.assert_frame_equal(surge_pressures(well(), one), surge_pressures(well(), [0.5]))
