@@ -148,5 +148,5 @@ def _column(
 
 
 def depth_at(hole: Wellbore, md: Array) -> Array:
-    """True vertical depth [m] at measured depths [m]; 0 above the rotary table."""
-    return np.maximum(np.interp(md, hole.md, hole.points[:, 2]), 0.0)
+    """True vertical depth (n,) [m] of the hole's axis at measured depths (n,) [m]; 0 above the rotary table."""
+    return np.maximum(hole.at(md)[0][:, 2], 0.0)
