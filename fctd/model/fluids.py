@@ -96,10 +96,15 @@ class Fluids:
         """Mean densities (n,) inside and outside [kg/m³] between distances from the bit (n,) [m]."""
         return self.inside.mean_density(top, bottom), self.outside.mean_density(top, bottom)
 
-    def check_end(self, hole: Wellbore, bit_depth: float) -> None:
-        """Raise InputError for an open end through which fluid would flow."""
+    def at_end(self, hole: Wellbore, bit_depth: float) -> tuple[float, float]:
+        """Pressures inside and outside [Pa] at the lower end."""
         depth = depth_at(hole, np.array([bit_depth]))
         inside, outside = (float(side[0]) for side in self.pressures(np.zeros(1), depth, hole, bit_depth))
+        return inside, outside
+
+    def check_end(self, hole: Wellbore, bit_depth: float) -> None:
+        """Raise InputError for an open end through which fluid would flow."""
+        inside, outside = self.at_end(hole, bit_depth)
         if self.open_end and abs(inside - outside) > EQUAL:
             flows = "fluid would flow out" if inside > outside else "fluid would flow in"
             level = GRAVITY * self.inside.density[0]

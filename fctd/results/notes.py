@@ -17,6 +17,7 @@ from fctd.case.systems import told
 from fctd.mechanics.query import Walls
 from fctd.model.capacity import Body
 from fctd.model.drillstring import String
+from fctd.model.fluids import BAR, EQUAL
 from fctd.model.section import Section
 from fctd.results.buckling import Buckling
 from fctd.results.limits import LIMITS, Place, place_of
@@ -60,6 +61,11 @@ MEANINGS: Final = {
     "flow_law": Meaning(
         "the pull of the mud along the string is uncertain, since most of the stress at its walls is yield stress",
         "check the readings at 6 and 3 rev/min (mud.fann), or move or pump faster",
+    ),
+    "falling": Meaning(
+        "the fluid inside the string falls freely, since it is heavier than that outside and the end lets it out",
+        "pump faster than it falls, give the fluids as they are after the fall, or close the end with a plug "
+        "(mud.inside.plug)",
     ),
     "flow_lie": Meaning(
         "where the string lies in the mud that flows past it is not known: the annulus is taken as concentric",
@@ -165,6 +171,24 @@ def flow_law(off: float, weight: float) -> Note | None:
     """The note on a lift that may be too large by so much, beside a string of a weight [N]."""
     text = f"the pull of the mud along the string may be {quantity(off / 1e3, 'kN', '.0f')} too large"
     return note_beyond("flow_law", text, off, HARDLY * weight)
+
+
+def falling(rate: float | None, flow: float, overweight: float) -> Note | None:
+    """The note on fluid inside that falls freely at a rate; None without one.
+
+    flow : of the pumps [m³/s]; overweight : pressure inside less that outside at the end, of fluids at rest [Pa].
+    """
+    if rate is None:
+        return None
+    at = "as nothing that the case gives holds it"
+    if math.isfinite(rate):
+        at = f"at {quantity(6e4 * rate, 'L/min', '.0f')}"
+    pumped = f", where the pumps give {quantity(6e4 * flow, 'L/min', '.0f')}" if flow else ""
+    text = (
+        f"the fluid inside presses on the end with {quantity(overweight / BAR, 'bar', '.0f')} more than that "
+        f"outside, and falls freely {at}{pumped}"
+    )
+    return note_of("falling", text, max(overweight / EQUAL, 1.0))
 
 
 def flow_lie() -> Note:
