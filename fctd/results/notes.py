@@ -15,10 +15,9 @@ from fctd.case.message import Message, kept, quantity, restored, span, within
 from fctd.case.rig import RigSpec
 from fctd.case.systems import told
 from fctd.mechanics.query import Walls
-from fctd.model.capacity import Body
 from fctd.model.drillstring import String
 from fctd.model.fluids import BAR, EQUAL
-from fctd.model.section import Section
+from fctd.model.section import Section, bearing
 from fctd.results.buckling import Buckling
 from fctd.results.limits import LIMITS, Place, place_of
 from fctd.results.unit_systems import System
@@ -296,7 +295,7 @@ def rig_notes(
 
 def crushed_at(top: Section, slip_length: float) -> float:
     """Weight at which slips of a length [m] crush the uppermost pipe [N]."""
-    return Body(2 * top.outer, 2 * top.inner, top.yield_strength).tension_in_slips(slip_length)
+    return bearing(top).tension_in_slips(slip_length)
 
 
 def homogenised(buckling: Buckling) -> Note:
