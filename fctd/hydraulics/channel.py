@@ -43,8 +43,8 @@ class Channel:
     of pipe and hole [m], eccentricity, yield stress, consistency, index and density of the mud; bore : rows of radius,
     yield stress, consistency, index and density; tools : pressure drop over the square of the flow [Pa s²/m⁶];
     nozzles : their area, infinite where the case gives none [m²], and what their drop is over that of an ideal flow;
-    end : of the string, "open", "closed" or "float", which lets mud out alone, or "plugged"; heavier : by how much the
-    pressure outside is larger at the end, of mud at rest, surface : the pressure inside at the surface then [Pa].
+    end : of the string, "open", "closed" or "float", which lets mud out alone, or "plugged"; of mud at rest heavier :
+    by how much the pressure outside is larger at the end, surface : the pressure inside at the surface [Pa].
     """
 
     above: Array

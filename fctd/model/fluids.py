@@ -102,6 +102,11 @@ class Fluids:
         inside, outside = (float(side[0]) for side in self.pressures(np.zeros(1), depth, hole, bit_depth))
         return inside, outside
 
+    def overweight(self, hole: Wellbore, bit_depth: float) -> float:
+        """By how much the fluids inside press more on the lower end than those outside, no pressure at surface [Pa]."""
+        inside, outside = self.at_end(hole, bit_depth)
+        return inside - self.inside.surface - outside
+
     def check_end(self, hole: Wellbore, bit_depth: float) -> None:
         """Raise InputError for an open end through which fluid would flow."""
         inside, outside = self.at_end(hole, bit_depth)

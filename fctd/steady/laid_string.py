@@ -70,7 +70,8 @@ class LaidString:
     @property
     def falling(self) -> Note | None:
         """The note on fluid inside that falls freely; None where the pumps hold it, or the end does."""
-        if self.string.fluids is None:
+        fluids = self.string.fluids
+        if fluids is None or fluids.overweight(self.hole, self.string.bit_depth) <= 0:
             return None
         return falling(self._channel.free_fall(self.flow), self.flow, self._channel.overweight)
 
