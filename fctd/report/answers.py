@@ -121,5 +121,8 @@ def _pumped(
         check_flows(case)
     except InputError as error:
         return (), f"{error.key} is missing: {error.expected}"
-    found = circulations(case, [flow], depths, beside, progress=progress)
+    try:
+        found = circulations(case, [flow], depths, beside, progress=progress)
+    except InputError as error:  # as of a column that falls freely
+        return (), error.message
     return tuple(one for one in found if isinstance(one, Circulation)), ""

@@ -31,9 +31,8 @@ from fctd.case.systems import (
     signed,
     told,
 )
-from fctd.model.capacity import Body
 from fctd.model.operations import SteadyRates, rad_per_s
-from fctd.model.section import section_of
+from fctd.model.section import bearing, section_of
 from fctd.model.summary import Summary
 from fctd.report.parts import Section, Text
 from fctd.results.case_facts import (
@@ -128,7 +127,7 @@ def string(summary: Summary, units: System) -> Section:
     capacities = []
     for of in case.string.components[: len(summary.parts)][::-1]:
         section = section_of(of, case.mud.density)
-        body = Body(2 * section.outer, 2 * section.inner, section.yield_strength)
+        body = bearing(section)
         most = body.tension, body.torsion, section.make_up, section.burst, section.collapse
         capacities.append((of.name, of.pipe, section.yield_strength, *most))
     note = "Of the body at yield, each load by itself; make-up torque is the largest that is recommended, where known."

@@ -15,9 +15,9 @@ from fctd.case.message import Message, kept, quantity, restored, span, within
 from fctd.case.rig import RigSpec
 from fctd.case.systems import told
 from fctd.mechanics.query import Walls
-from fctd.model.capacity import Body
 from fctd.model.drillstring import String
-from fctd.model.section import Section
+from fctd.model.fluids import BAR, EQUAL
+from fctd.model.section import Section, bearing
 from fctd.results.buckling import Buckling
 from fctd.results.limits import LIMITS, Place, place_of
 from fctd.results.unit_systems import System
@@ -60,6 +60,11 @@ MEANINGS: Final = {
     "flow_law": Meaning(
         "the pull of the mud along the string is uncertain, since most of the stress at its walls is yield stress",
         "check the readings at 6 and 3 rev/min (mud.fann), or move or pump faster",
+    ),
+    "falling": Meaning(
+        "the fluid inside the string falls freely, since it is heavier than that outside and the end lets it out",
+        "pump faster than it falls, give the fluids as they are after the fall, or close the end with a plug "
+        "(mud.inside.plug)",
     ),
     "flow_lie": Meaning(
         "where the string lies in the mud that flows past it is not known: the annulus is taken as concentric",
@@ -167,6 +172,24 @@ def flow_law(off: float, weight: float) -> Note | None:
     return note_beyond("flow_law", text, off, HARDLY * weight)
 
 
+def falling(rate: float | None, flow: float, overweight: float) -> Note | None:
+    """The note on fluid inside that falls freely at a rate; None without one.
+
+    flow : of the pumps [m³/s]; overweight : pressure inside less that outside at the end, of fluids at rest [Pa].
+    """
+    if rate is None:
+        return None
+    at = "as nothing that the case gives holds it"
+    if math.isfinite(rate):
+        at = f"at {quantity(6e4 * rate, 'L/min', '.0f')}"
+    pumped = f", where the pumps give {quantity(6e4 * flow, 'L/min', '.0f')}" if flow else ""
+    text = (
+        f"the fluid inside presses on the end with {quantity(overweight / BAR, 'bar', '.0f')} more than that "
+        f"outside, and falls freely {at}{pumped}"
+    )
+    return note_of("falling", text, max(overweight / EQUAL, 1.0))
+
+
 def flow_lie() -> Note:
     """The note on a string of which no steady lie was found."""
     return note_of("flow_lie", MEANINGS["flow_lie"].headline, 1.0)
@@ -272,7 +295,7 @@ def rig_notes(
 
 def crushed_at(top: Section, slip_length: float) -> float:
     """Weight at which slips of a length [m] crush the uppermost pipe [N]."""
-    return Body(2 * top.outer, 2 * top.inner, top.yield_strength).tension_in_slips(slip_length)
+    return bearing(top).tension_in_slips(slip_length)
 
 
 def homogenised(buckling: Buckling) -> Note:

@@ -19,7 +19,7 @@ from fctd.case.operations import KINDS
 from fctd.case.string import ComponentSpec
 from fctd.model.fatigue import dogleg_of, endless_amplitude
 from fctd.model.operations import BitLoads, SteadyRates, bit_loads
-from fctd.model.section import Section
+from fctd.model.section import Section, bearing
 from fctd.results.buckling import HELICAL, MODES, NEITHER, SINUSOIDAL
 from fctd.results.limits import LIMITS, ROW, SHARE, place_of
 from fctd.results.notes import crushed_at
@@ -310,8 +310,8 @@ def _at_weight(loaded: Loaded, code: str, weight: float, **contact: Any) -> Marg
 def _bent_to_and_fro(point: Equilibrium, spin: float) -> Margin:
     """The largest amplitude of the bending stress of a string that turns, and how often the steel is bent so."""
     string, profile = point._shape.laid.string, point.profile
-    outer, inner = (np.append(string.of(name)[0], string.of(name)) for name in ("outer", "inner"))
-    stress = profile["bending_moment_N_m"].to_numpy() * outer / (np.pi / 4 * (outer**4 - inner**4))
+    modulus = np.array([bearing(of).section_modulus for of in string.sections])[string.component]
+    stress = profile["bending_moment_N_m"].to_numpy() / np.append(modulus[0], modulus)
     row = int(np.argmax(stress))
     k = int(string.component[max(row - 1, 0)])
     tension = float(profile["effective_tension_N"].iloc[row])
@@ -324,11 +324,14 @@ def _bent_to_and_fro(point: Equilibrium, spin: float) -> Margin:
 
 def _endless(part: ComponentSpec, section: Section, tension: float) -> str:
     """What RP 7G has of drill pipe that is bent to and fro under a tension [N], and the dog-leg that does so."""
-    steel = np.pi * (section.outer**2 - section.inner**2)
-    stress = endless_amplitude(section.yield_strength, max(tension, 0.0) / steel)
+    body = bearing(section)
+    stress = endless_amplitude(section.yield_strength, max(tension, 0.0) / body.area)
     if part.joint is None or stress is None:
         return "none"
-    bend = dogleg_of(stress, tension, 2 * section.outer, section.wave_stiffness, part.youngs_modulus, part.joint.length)
+    # Of the pipe as it bends, whose stress where the wall is least is larger.
+    whole = replace(body, wall_share=1.0)
+    nominal = stress * body.section_modulus / whole.section_modulus
+    bend = dogleg_of(nominal, tension, whole.outer, section.wave_stiffness, part.youngs_modulus, part.joint.length)
     return Message(
         f"RP 7G bears ±{quantity(stress / 1e6, 'MPa', '.0f')} without end in air under that tension, a dog-leg of "
         f"{quantity(np.degrees(30 * bend), '°/30 m', '.3g')}"
@@ -349,11 +352,8 @@ def _in_slips(point: Equilibrium, length: float, design_factor: float) -> Margin
 
 def weakest(laid: LaidString, load: str) -> float:
     """The least capacity of the string's sections, of tension [N] or torsion [N m]."""
-    found = []
-    for of in laid.string.sections:
-        steel, polar = np.pi * (of.outer**2 - of.inner**2), np.pi / 2 * (of.outer**4 - of.inner**4)
-        found.append(of.yield_strength * (steel if load == "tension" else polar / of.outer / np.sqrt(3.0)))
-    return float(min(found))
+    bodies = map(bearing, laid.string.sections)
+    return min(body.tension if load == "tension" else body.torsion for body in bodies)
 
 
 def _why(used: First) -> str:

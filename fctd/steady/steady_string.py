@@ -166,6 +166,8 @@ class Equilibrium:
             law = flow_law(circuit.doubted, weight)
             lies = flow_lie() if shape.laid.eccentricity is None else None
             found = (*found, *(note for note in (law, lies) if note is not None))
+        if (falls := shape.laid.falling) is not None:
+            found = (*found, falls)
         if self.method != HOMOGENISED:
             return found
         # How deep its long segments lie in the wall says nothing of the string's waves.
