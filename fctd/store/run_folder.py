@@ -54,13 +54,16 @@ class RunFolder:
     def take(cls, target: Path, key: str = "") -> Self:
         """Lock the folder for the result ``target``, and make it where there is none.
 
-        Raises InputError, which names ``key`` and the target, while another process writes there or where the system
-        refuses.
+        Raises InputError, which names ``key`` and the target, while another process writes there, where the folder
+        holds files of others, or where the system refuses.
         """
         path = run_path(target)
         try:
             while True:
                 path.mkdir(parents=True, exist_ok=True)
+                if (names := os.listdir(path)) and not {LOCK, ABOUT} & set(names):
+                    expected = f"another place (its runs are kept in {path}, and that folder holds files of others)"
+                    raise InputError(expected, key=key, value=target)
                 with suppress(FileNotFoundError):  # another process has just removed the folder
                     return cls(target, FolderLock.take(path))
         except HeldError as held:
