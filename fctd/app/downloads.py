@@ -19,6 +19,7 @@ from fctd.plots.loads import ChartLook
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import in_field_units, shown
 from fctd.store.origin import versions
+from fctd.store.tables import to_csv
 
 # What a name of a file is for.
 FILES: Final = {
@@ -71,7 +72,7 @@ def _write(
         path.write_text(text(well, values)["text"], encoding="utf-8")
     elif name == "profile.csv":
         profile = well.profile_at(values, operation, depth)
-        (in_field_units(profile) if units == "field" else profile).to_csv(path, index=False)
+        to_csv(in_field_units(profile) if units == "field" else profile, path)
     elif name == "view.html":
         from fctd.view.page import save_view
 

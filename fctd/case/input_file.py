@@ -11,7 +11,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, Final
 
-from fctd.case.errors import InputError
+from fctd.case.errors import MISSING, InputError
 
 LARGEST_FILE: Final = 4  # MiB of TOML: 100,000 stations written out; the reader takes some seconds for them
 _BINARY: Final = re.compile(r"[\x00-\x08\x0e-\x1f\x7f]")
@@ -101,10 +101,14 @@ def read_bytes(path: Path, largest: int, what: str) -> bytes:
     return content
 
 
-def check_regular(path: Path) -> None:
-    """Raise InputError for a pipe or a device, OSError for a folder or a missing file."""
+def check_regular(path: Path, key: str = "") -> None:
+    """Raise InputError for a pipe or a device, OSError for a folder or a missing file.
+
+    key : of an option, which the error then names with the path.
+    """
     mode = path.stat().st_mode
     if stat.S_ISDIR(mode):
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
     if not stat.S_ISREG(mode):
-        raise InputError("a regular file (this is a pipe or a device: write its content into a file first)")
+        expected = "a regular file (this is a pipe or a device: write its content into a file first)"
+        raise InputError(expected, key=key, value=path if key else MISSING)

@@ -70,6 +70,8 @@ class RunFolder:
             here = f"no other run writes to (process {held.holder.process} does, since {clock(held.holder.since)})"
             raise InputError(f"a place that {here}: wait for it, or name another", key=key, value=target) from None
         except OSError as error:
+            with suppress(OSError):
+                path.rmdir()  # where this has made it
             expected = f"a place beside which the run can be kept ({error.strerror or error})"
             raise InputError(expected, key=key, value=target) from error
 

@@ -38,10 +38,17 @@ def replaced(path: Path, *, lasting: bool = False, mode: int = 0o666) -> Iterato
 @contextmanager
 def whole_file(path: Path, *, lasting: bool = False) -> Iterator[Path]:
     """The same; missing folders are made, and InputError, which names ``path``, says that it cannot be written."""
-    try:
+    with writing(path):
         Path(os.path.realpath(path)).parent.mkdir(parents=True, exist_ok=True)
         with replaced(path, lasting=lasting) as scratch:
             yield scratch
+
+
+@contextmanager
+def writing(path: Path) -> Iterator[None]:
+    """Inside, an OSError becomes an InputError, which names ``path``."""
+    try:
+        yield
     except OSError as error:
         raise InputError(f"a file that can be written ({error.strerror or error})", value=path) from error
 

@@ -16,7 +16,8 @@ pytest.importorskip("fcntl")
 ROOT = Path(__file__).parents[2]
 WRITING = (
     "import sys, time; from pathlib import Path; from fctd.store.whole_file import whole_file\n"
-    "with whole_file(Path(sys.argv[1])) as scratch: print(scratch.name, flush=True); input(); scratch.write_text('other')\n"
+    "with whole_file(Path(sys.argv[1])) as scratch:\n"
+    "    print(scratch.name, flush=True); input(); scratch.write_text('other')\n"
 )
 
 
