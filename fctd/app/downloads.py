@@ -12,6 +12,7 @@ import numpy as np
 
 from fctd.app.well import LIMITS, USUAL, Well, load_of
 from fctd.case.errors import InputError
+from fctd.case.input_file import tables_of
 from fctd.case.message import frame_of
 from fctd.case.operations import KINDS
 from fctd.case.text import file_name
@@ -30,11 +31,22 @@ FILES: Final = {
 VIEWED: Final = 25  # strings of a view
 
 
-def text(well: Well, values: Mapping[str, object], survey: str | None = None) -> dict[str, str]:
-    """The case with the sliders at values, as text; survey : another name for its survey, where it has one."""
+def text(well: Well, values: Mapping[str, object], survey: str | None = None, more: str = "") -> dict[str, str]:
+    """The case with the sliders at values, as text.
+
+    survey : another name for its survey, where it has one.  more : operations to add, as lines of a case file.  Raises
+    InputError for other tables in them, which might name files of this machine.
+    """
     well.moved(values)
-    more = {"wellbore.survey": survey} if survey and well.read.source.survey_name else {}
-    return {"text": well.read.text(well.overrides(values) | more)}
+    own = {"wellbore.survey": survey} if survey and well.read.source.survey_name else {}
+    found = well.read.text(well.overrides(values) | own)
+    if not more.strip():
+        return {"text": found}
+    tables = tables_of(more, "operations")
+    if [*tables] != ["operations"]:
+        other = next((name for name in tables if name != "operations"), "")
+        raise InputError("operations alone, each below a line [[operations]]", key="operations to add", value=other)
+    return {"text": f"{found.rstrip()}\n\n{more.strip()}\n"}
 
 
 def file(

@@ -14,6 +14,12 @@ from typing import Any, Final
 from fctd.case.errors import MISSING, InputError
 
 LARGEST_FILE: Final = 4  # MiB of TOML: 100,000 stations written out; the reader takes some seconds for them
+# Parts of a dotted key, of which the reader keeps every beginning, and keys and tables of a text.
+MOST_PARTS: Final = 16
+MOST_KEYS: Final = 50_000
+_PART: Final = r"""(?:(?<![\w-])[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*"""
+_LONG_KEY: Final = re.compile(rf"(?:{_PART}\.[ \t]*){{{MOST_PARTS}}}")
+_TABLE: Final = re.compile(r"^[ \t]*\[[^\],\n]*\]", re.MULTILINE)
 _BINARY: Final = re.compile(r"[\x00-\x08\x0e-\x1f\x7f]")
 
 
@@ -58,6 +64,11 @@ def read_toml(path: Path, what: str) -> dict[str, Any]:
 
 def tables_of(text: str, what: str) -> dict[str, Any]:
     """The tables of a text in TOML; raises InputError as `read_toml` does."""
+    if long := _LONG_KEY.search(text):
+        row = text.count("\n", 0, long.start()) + 1
+        raise InputError(f"{what} in TOML (line {row} has a key of more than {MOST_PARTS} parts)")
+    if text.count("=") + sum(1 for _ in _TABLE.finditer(text)) > MOST_KEYS:
+        raise InputError(f"{what} in TOML with at most {MOST_KEYS:,} keys")
     try:
         return tomllib.loads(text)
     except RecursionError:
