@@ -39,10 +39,10 @@ _PLACE: Final = ("share_used", "bit_depth_m", "md_m", "part")
 _PUSHED: Final = ("operation", "limit", "force_at_bit_N", "hookload_N", "hookload_left_N", *_PLACE)
 MARGINS: Final = {
     OVERPULL: ("Pull on a stuck bit", _PUSHED),
-    SET_DOWN: ("More weight on the bit", _PUSHED),
+    SET_DOWN: ("Weight on the bit", _PUSHED),
     SLIPS: ("Weight in the slips", _PUSHED),
     TORQUE: (
-        "More torque at the bit",
+        "Torque at the bit",
         ("operation", "limit", "torque_at_bit_N_m", "surface_torque_N_m", "surface_torque_left_N_m", *_PLACE),
     ),
     FATIGUE: (
