@@ -109,4 +109,5 @@ def _rpm(rates: SteadyRates) -> float:
 def _in(value: float, kind: Kind, units: System, digits: int = 3) -> str:
     """An SI value with its unit."""
     factor, label = kind.shown(units)
-    return f"{value * factor:.{digits}g} {label}"
+    number = value * factor
+    return f"{number:.0f} {label}" if abs(number) >= 1000 else f"{number:.{digits}g} {label}"

@@ -285,7 +285,7 @@ def test_the_rates_of_a_call_are_those_of_the_loads() -> None:
     ("call", "expected"),
     [
         ({"operation": "trip_up"}, 'operation = "trip_up": expected the kind trip_'),
-        ({"operation": "dance"}, "expected one of the kinds trip_in, trip_out, rotate_off_bottom, back_ream, drill"),
+        ({"operation": "dance"}, "expected one of the kinds trip_in, trip_out, rotate_off_bottom, back_ream, ream_in, drill"),
         ({"bit_depth": 1301.0}, 'bit_depth = "1301 m": expected a depth below string.top_md, 0 m, within survey'),
         ({"bit_depth": 0.0}, 'bit_depth = "0 m": expected a depth below'),
         ({"bit_depth": math.nan}, "expected a depth below"),
