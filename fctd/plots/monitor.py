@@ -84,13 +84,14 @@ def _at_rest(found: Monitored, known: pd.DataFrame) -> pd.DataFrame:
     """Stretches with their readings as in the mud at rest of the curves."""
     known = known.copy()
     for end in ("", "_p25", "_p75"):
-        pair = [f"weight_indicator{end}_N", f"drive_torque{end}_N_m"]
-        known[pair] = [
+        gauge, torque = f"weight_indicator{end}_N", f"drive_torque{end}_N_m"
+        pairs = [
             found.chart.at_rest(
-                row["mode"], row["bit_depth_m"], row["flow_m3_s"], row["rpm"], gauge=row[pair[0]], torque=row[pair[1]]
+                row["mode"], row["bit_depth_m"], row["flow_m3_s"], row["rpm"], gauge=row[gauge], torque=row[torque]
             )
             for row in known.to_dict("records")
         ]
+        known[[gauge, torque]] = np.array(pairs, float).reshape(len(pairs), 2)
     return known
 
 
