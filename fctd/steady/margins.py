@@ -139,6 +139,10 @@ class Loaded:
         """The string with a weight on its bit [N] in place of the case's; contact : other keys of contact."""
         return self.pressed(weight - self.own.weight, 0.0, **contact)
 
+    def as_it_is(self, **contact: Any) -> Equilibrium:
+        """The string without loads that are added, which a limit's own are compared with; contact : of that limit."""
+        return self.free if self.stuck or not contact else self.pressed(0.0, 0.0, **contact)
+
     def _solve(self, operation: str, bit: dict[str, float], contact: dict[str, Any]) -> Equilibrium:
         case = self.solver.case
         changed: dict[str, Any] = {
@@ -289,7 +293,8 @@ def _set_down(loaded: Loaded, beyond_buckling: bool) -> Iterator[Margin]:
         yield _at_weight(loaded, first_limit(pushed(bears)).code, bears, helical_force="analytic")
     at_slack_off = _at_weight(loaded, SLACK_OFF, spent, helical_force="analytic")
     if spent > 0:  # the hook load falls steeply with the weight there
-        at_slack_off = at_slack_off._replace(hookload=-push, hookload_left=loaded.free.hookload + push)
+        left = loaded.as_it_is(helical_force="analytic").hookload + push
+        at_slack_off = at_slack_off._replace(hookload=-push, hookload_left=left)
     elif np.isfinite(locks):
         at_slack_off = at_slack_off._replace(reason="the string locks up before")
     yield at_slack_off
@@ -311,8 +316,8 @@ def _at_weight(loaded: Loaded, code: str, weight: float, **contact: Any) -> Marg
     elif weight == 0:
         reason = f"already so without weight {loaded.at}"
     return Margin(
-        SET_DOWN, code, part, md, force=weight, hookload=hookload, hookload_left=loaded.free.hookload - hookload,
-        reason=reason,
+        SET_DOWN, code, part, md, force=weight, hookload=hookload,
+        hookload_left=loaded.as_it_is(**contact).hookload - hookload, reason=reason,
     )  # fmt: skip
 
 
