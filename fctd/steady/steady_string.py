@@ -46,10 +46,10 @@ AT_FULL = "solved at its full friction alone, from which share of it on is not k
 class Equilibrium:
     """A steady string with the bit at one depth.
 
-    status : loads are valid where ``status.has_loads``, also for ``locked_up``, ``under_resolved`` and ``unstable``;
-    message : details.  method : the rung of the ladder (ladder.py) that found the string.  roll_rate : of a string that
-    rolls round the hole [rad/s], against a clockwise rotation below 0, else NaN.  lost_torque : of wall, mud and bit
-    [N m], where a bent housing turns, else NaN.
+    rates : of the operation.  status : loads are valid where ``status.has_loads``, also for ``locked_up``,
+    ``under_resolved`` and ``unstable``; message : details.  method : the rung of the ladder (ladder.py) that found the
+    string.  roll_rate : of a string that rolls round the hole [rad/s], against a clockwise rotation below 0, else NaN.
+    lost_torque : of wall, mud and bit [N m], where a bent housing turns, else NaN.
     shape : of a buckled string whose segments follow it, snaking or helix, else none; hookload_low, hookload_high
     [N] : of both shapes where they differ, else NaN; slack_off_spent_at, locked_up_at : shares of the friction (of the
     weight on bit where the message says so) at which the hook load is −block weight and at which no push suffices;
@@ -62,6 +62,7 @@ class Equilibrium:
 
     case: Case
     operation: str
+    rates: SteadyRates
     bit_depth: float
     status: SteadyStatus
     message: str
@@ -209,7 +210,7 @@ def steady_string(
     drive = drive_torque(case.rig, rates.spin, torque)
     normal, r_ft, r_mu_n = shape.numbers[SUM_NORMAL : SUM_R_MU_FN + 1].tolist()
     return Equilibrium(
-        case, operation, laid.string.bit_depth, status, message, int(iterations), hookload, torque,
+        case, operation, rates, laid.string.bit_depth, status, message, int(iterations), hookload, torque,
         indicator, drive, normal, r_ft, r_mu_n, imbalance, shape, method,
         lost_torque=_lost_torque(case, hole, laid, rates, r_ft + at_bit.torque),
     )  # fmt: skip
