@@ -102,8 +102,8 @@ class ComponentSpec(Table):
     than the sleeves beside it. Without `contact` a component is a point up to a length of 12 contact diameters. Its
     segments, and those of its neighbours, do not matter.
 
-    `pipe` is a pipe of the catalogue, which `fctd pipes` lists: it gives the keys that you leave out. `yield_strength`
-    may be a grade, "S-135".
+    `pipe` is a pipe of the catalogue, which `fctd pipes` lists: it gives the keys that you leave out. Its class
+    lowers the strength alone. `yield_strength` may be a grade, "S-135".
 
     With `joint` the largest bending moment of the pipe, at its tool joints or between them, is computed from the
     string's curvature, and mass and stiffnesses that are not given are those of body and tool joints together. With

@@ -21,6 +21,7 @@ from fctd.cli.quantities import PENETRATION, TO_TOTAL_DEPTH, Given, QuantityOpti
 from fctd.cli.steady import file_option
 from fctd.hydraulics.cuttings import Cuttings
 from fctd.hydraulics.pressures import SHARE, Circulation, Eccentricity, circulations
+from fctd.model.operations import flow_of
 from fctd.results.case_facts import flow_curves
 from fctd.results.shown_tables import Fact, Head, Table, facts, short, shown_table
 from fctd.results.unit_systems import System, in_words, shown
@@ -139,7 +140,7 @@ def read_eccentricity(text: str | None, case: Case) -> Eccentricity:
 def _flows(given: Sequence[Given], case: Case, units: System) -> list[float]:
     """The flows of ``--flow`` [m³/s]; else the largest of the operations."""
     found = several(given, units)
-    largest = max((operation.flow for operation in case.operations), default=0.0)
+    largest = flow_of(case)
     if not found and not largest:
         raise InputError("a flow such as '2000 L/min', as no operation of the case has one", key="--flow")
     return found or [largest]

@@ -7,7 +7,6 @@ import typer
 
 from fctd.case.errors import InputError
 from fctd.case.pipes.catalogue import Pipe, catalogue, of_grade, sources
-from fctd.case.pipes.filling import mass_of
 from fctd.case.pipes.grades import drill_pipe_grade_of
 from fctd.case.pipes.names import DRILL_PIPE, class_of
 from fctd.case.systems import ACROSS, FORCE, LINEAR_MASS, STRENGTH, SYSTEMS, TORQUE, Kind, System
@@ -98,4 +97,4 @@ def _values(pipe: Pipe) -> list[float | None]:
     body, joint = body_of(pipe), pipe.joint
     touching = pipe.coupling if joint is None else joint.outer
     strengths = [None] * 4 if body is None else [body.tension, body.torsion, body.burst, body.collapse]
-    return [pipe.inner, touching, mass_of(pipe), *strengths, make_up_torque(pipe)]
+    return [pipe.inner, touching, pipe.linear_mass, *strengths, make_up_torque(pipe)]

@@ -1,8 +1,9 @@
 """What the mud of a laid-out string flows through, and its losses there at a flow out of the bit.
 
-Tool joints that are not laid out as segments of their own do not narrow the annulus.
+Tool joints that are not laid out as segments of their own narrow neither annulus nor bore.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
@@ -15,9 +16,10 @@ from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.rheology import FlowSpec, Rheology
+from fctd.case.units import MOST_FLOW
 from fctd.hydraulics.closed_forms import Loss, annulus, bore
 from fctd.model.drillstring import String
-from fctd.model.fluids import Column, depth_at
+from fctd.model.fluids import EQUAL, Column
 from fctd.model.mud import hole_radius
 from fctd.model.wellbore import Wellbore
 
@@ -41,8 +43,8 @@ class Channel:
     of pipe and hole [m], eccentricity, yield stress, consistency, index and density of the mud; bore : rows of radius,
     yield stress, consistency, index and density; tools : pressure drop over the square of the flow [Pa s²/m⁶];
     nozzles : their area, infinite where the case gives none [m²], and what their drop is over that of an ideal flow;
-    end : of the string, "open", "closed" or "float", which lets mud out alone, or "plugged"; heavier : by how much the
-    pressure outside is larger at the end, of mud at rest [Pa].
+    end : of the string, "open", "closed" or "float", which lets mud out alone, or "plugged"; of mud at rest heavier :
+    by how much the pressure outside is larger at the end, surface : the pressure inside at the surface [Pa].
     """
 
     above: Array
@@ -54,6 +56,12 @@ class Channel:
     nozzles: tuple[float, float]
     end: str
     heavier: float = 0.0
+    surface: float = 0.0
+
+    @property
+    def overweight(self) -> float:
+        """By how much the fluids inside alone press more on the end than those outside, at rest [Pa]."""
+        return -(self.heavier + self.surface)
 
     @cached_property
     def _annulus(self) -> tuple[bytes, NDArray[np.int64]]:
@@ -97,6 +105,27 @@ class Channel:
     def held(self, end: str) -> float:
         """Pressure that a float bears at rest [Pa], which a swab must overcome before it opens; else 0."""
         return max(self.heavier, 0.0) if end == "float" else 0.0
+
+    def free_fall(self, flow: float) -> float | None:
+        """Flow at which the fluid inside falls freely through the end [m³/s]; None where pumps, at a flow, hold it.
+
+        The weight of a column that is heavier than that outside drives the flow, and friction, tools and nozzles hold
+        it back.  It is infinite where they do not hold it at ``MOST_FLOW``, as without a flow curve.
+        """
+        if self.end in ("closed", "plugged") or self.overweight <= (0.0 if flow > 0 else EQUAL):
+            return None
+        if self._of_pumps(flow) >= 0:
+            return None
+        from scipy.optimize import brentq  # slow to import, and columns of equal weight need none
+
+        if self._of_pumps(MOST_FLOW) < 0:
+            return math.inf
+        return float(brentq(self._of_pumps, flow, MOST_FLOW, rtol=SHARED))
+
+    def _of_pumps(self, flow: float) -> float:
+        """Pressure at the top of the bore that a flow out of the bit needs [Pa]; that at rest is left out."""
+        lost = self.inside(flow).sum() + self.outside(flow, 0.0).gradient @ self.wet + self.bit_drop(flow)
+        return float(lost) - self.overweight
 
     def _shared(self, speed: float, held: float) -> float:
         """Flow out of an open bit [m³/s] with which the pressures there are equal, while the string displaces mud.
@@ -163,15 +192,16 @@ def channel_of(case: Case, string: String, hole: Wellbore, eccentricity: float |
     n, length, wide = string.segments, string.length, hole_radius(hole, string.top_md, string.length)
     inside, outside = flow_curves(case, string)
     densities = string.densities or (case.mud.density, case.mud.density)
-    bottom, outer = string.top_md + np.cumsum(length), string.of("outer")
-    bladed = (string.of("point") != 0) & (outer > BLADED * wide)
+    bottom, (outer, inner) = string.top_md + np.cumsum(length), string.channel_radii
+    bladed = (string.of("point") != 0) & (string.of("tool_joint") == 0) & (outer > BLADED * wide)
     wet = np.where(bladed, 0.0, np.clip(bottom, 0.0, length))
     around = (np.minimum(outer, FULLEST * wide), wide, eccentricity, *outside, densities[1])
-    within = (string.of("inner"), *inside, densities[0])
+    within = (inner, *inside, densities[0])
     return Channel(
         string.above_bit, length, wet, _table(n, around), _table(n, within),
         _tools(string, densities[0]), (case.bit.nozzle_area or np.inf, case.bit.discharge**-2),
         "plugged" if any(row.plug for row in case.mud.inside) else case.end, _heavier(string, hole),
+        0.0 if string.fluids is None else string.fluids.inside.surface,
     )  # fmt: skip
 
 
@@ -179,9 +209,8 @@ def _heavier(string: String, hole: Wellbore) -> float:
     """Pressure outside less that inside at the end of a string, of mud at rest [Pa]."""
     if string.fluids is None:
         return 0.0
-    depth = depth_at(hole, np.array([string.bit_depth]))
-    inside, outside = string.fluids.pressures(np.zeros(1), depth, hole, string.bit_depth)
-    return float(outside[0] - inside[0])
+    inside, outside = string.fluids.at_end(hole, string.bit_depth)
+    return outside - inside
 
 
 def _tools(string: String, density: Array | float) -> Array:

@@ -20,10 +20,10 @@ class Circuit:
     """Steady flow along a string, segments (n,) from the top down.
 
     above : distances from the bit (n + 1,) [m] of the string's top and of the lower ends of its segments; inside,
-    outside : what friction adds to the pressures there [Pa], with no friction at the flow line; annulus : its losses;
-    bore_flow : downwards, relative to the pipe [m³/s]; bit_drop : pressure from the bore to the annulus [Pa]; given :
-    load on each segment along it, towards the bit (n,) [N]: the pull of the annulus, and the thrust of mud that speeds
-    up in narrower bores and in the nozzles.
+    outside : what flow adds to the pressures there [Pa], with no friction at the flow line, and inside also what brings
+    unlike columns into balance at the bit; annulus : its losses; bore_flow : downwards, relative to the pipe [m³/s];
+    bit_drop : pressure from the bore to the annulus [Pa]; given : load on each segment along it, towards the bit (n,)
+    [N]: the pull of the annulus, and the thrust of mud that speeds up in narrower bores and in the nozzles.
     """
 
     above: Array
@@ -51,7 +51,7 @@ class Circuit:
         return -float(self.given.sum())
 
     def pressures(self, above: Array) -> tuple[Array, Array]:
-        """What friction adds to the pressures inside and outside (k,) [Pa] at distances from the bit [m]."""
+        """What flow adds to the pressures inside and outside (k,) [Pa] at distances from the bit [m]."""
         inside, outside = (np.interp(-above, -self.above, side) for side in (self.inside, self.outside))
         return inside, outside
 
@@ -67,14 +67,17 @@ def circulate(channel: Channel, flow: float, speed: float = 0.0, end: str | None
     drop = channel.bit_drop(through)
     around, below = np.zeros((2, len(inside) + 1))
     np.cumsum(outside.gradient * channel.wet, out=around[1:])
+    # The pressures on both sides of the bit differ by its drop, whatever the columns weigh.
+    met = channel.heavier if flow > 0 else 0.0
     if flow == 0 and through != 0:
+        met = channel.held(end)
         # Mud at rest in a bore bears what is less than its yield stress; its column begins without friction.
-        inside *= -(around[-1] + drop + channel.held(end)) / inside.sum()
+        inside *= -(around[-1] + drop + met) / inside.sum()
     below[:-1] = np.cumsum(inside[::-1])[::-1]
     given = -outside.lift * channel.wet
     if flow > 0:
         given -= channel.thrust(through)
-    return Circuit(channel.above, around[-1] + drop + below, around, outside, through, drop, given)
+    return Circuit(channel.above, around[-1] + drop + met + below, around, outside, through, drop, given)
 
 
 def flows(case: Case, flow: float, speed: float) -> bool:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fctd.arrays import Array
-from fctd.case.errors import InputError
+from fctd.case.errors import Computed, InputError
 from fctd.case.load import Case, check_bit_depth, naming_file
 from fctd.case.message import Message, frame_of, quantity, within
 from fctd.case.rheology import Rheology
@@ -80,13 +80,6 @@ class Laid:
             return self.case.mud.density * GRAVITY * depth
         return fluids.outside.pressure(self.string.bit_depth - md, depth, self.hole, self.string.bit_depth)
 
-    def unlike(self) -> float:
-        """Pressure that the pumps need since the mud outside is denser than that inside [Pa]."""
-        if (fluids := self.string.fluids) is None:
-            return 0.0
-        bit = np.zeros(1), self.depth[-1:], self.hole, self.string.bit_depth
-        return float(fluids.outside.pressure(*bit)[0] - fluids.inside.pressure(*bit)[0] + fluids.inside.surface)
-
 
 def lay(case: Case, bit_depth: float, eccentricity: Eccentricity = None) -> Laid:
     """A case's string with the bit at a depth [m]; eccentricity : offset of the pipe over its clearance, 0 to 1.
@@ -146,7 +139,7 @@ class Circulation:
     @property
     def standpipe(self) -> float:
         """Pressure of the pumps [Pa]: all that is lost, and what columns of unlike muds add or take."""
-        return self.surface + float(self.circuit.inside[0]) + self.laid.unlike()
+        return self.surface + float(self.circuit.inside[0]) + self.laid.channel.surface
 
     @cached_property
     def speeds(self) -> Array:
@@ -240,12 +233,19 @@ def _runs(values: Array | NDArray[np.int64]) -> list[tuple[int, int]]:
 def circulation(
     case: Case, flow: float, bit_depth: float, eccentricity: Eccentricity = None, cuttings: Cuttings | None = None
 ) -> Circulation:
-    """Mud that is pumped [m³/s] with the bit at a depth [m].  Raises InputError where string and hole do not fit."""
+    """Mud that is pumped [m³/s] with the bit at a depth [m].
+
+    Raises InputError where string and hole do not fit, and for a flow at which the mud inside falls freely.
+    """
     laid = lay(case, bit_depth, eccentricity)
     solid = np.flatnonzero(laid.channel.bore[:, 0] <= 0)
     if flow > 0 and len(solid):
         key = f"{laid.string.key_of(int(solid[0]))}.inner_diameter"
         raise InputError("a bore above 0 with a flow through it", key=key, value=0.0)
+    if (falling := laid.channel.free_fall(flow)) is not None:
+        rate = quantity(6e4 * min(falling, MOST_FLOW), "L/min", ".0f")
+        expected = f"more than {rate}, at which the denser fluid inside falls freely"
+        raise InputError(expected, key="flow", value=Computed(quantity(6e4 * flow, "L/min", ".4g")))
     return Circulation(laid, flow, circulate(laid.channel, flow), cuttings)
 
 

@@ -16,7 +16,7 @@ from fctd.case.load import Case, check_bit_depth, naming_file
 from fctd.case.message import Message, frame_of, quantity, within
 from fctd.case.operation_names import kinds_of
 from fctd.case.operations import KINDS
-from fctd.case.units import SPEED, LikelyUnit, argument, unit_hint
+from fctd.case.units import MOST_FLOW, SPEED, LikelyUnit, argument, unit_hint
 from fctd.hydraulics.circuit import Circuit, circulate
 from fctd.hydraulics.closed_forms import REGIMES
 from fctd.hydraulics.pressures import Eccentricity, Laid, Progress, Row, check_flows, lay
@@ -91,9 +91,16 @@ class Trip:
 def trips_at(
     case: Case, bit_depth: float, operation: Sequence[str], end: Sequence[str], eccentricity: Eccentricity
 ) -> list[Trip]:
-    """The trips of kinds and ends with the bit at a depth [m]."""
+    """The trips of kinds and ends with the bit at a depth [m].
+
+    Raises InputError where string and hole do not fit, and for fluid that falls freely through an end.
+    """
     laid = lay(case, bit_depth, eccentricity)
     check_end(laid.string, laid.hole)
+    unheld = next((one for one in end if one != "closed"), None)
+    if unheld is not None and (rate := laid.channel.free_fall(0.0)) is not None:
+        falls = quantity(6e4 * min(rate, MOST_FLOW), "L/min", ".0f")
+        raise InputError(f'"closed", as the denser fluid inside falls freely at {falls}', key="end", value=unheld)
     return [Trip(laid, KINDS[kind].direction, one) for kind in operation for one in end]
 
 

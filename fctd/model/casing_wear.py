@@ -10,7 +10,7 @@ from typing import Final
 
 from scipy.optimize import brentq
 
-from fctd.model.capacity import PSI, THINNEST
+from fctd.model.capacity import PSI
 
 WEAR_UNIT: Final = 1e-10 / PSI  # [1/Pa]: wear factors are given in 1e-10 1/psi
 SMALL: Final = 0.1  # [rad], below which a segment's area is its series
@@ -38,14 +38,6 @@ def groove_depth(area: float, joint_radius: float, bore_radius: float, wall: flo
         return wall
     found = brentq(lambda h: groove_area(h, joint_radius, bore_radius) - area, 0.0, wall, xtol=1e-18, maxiter=500)
     return float(found)
-
-
-def worn_burst(yield_strength: float, outer: float, wall: float, depth: float) -> float:
-    """Pressure inside at which casing yields (Barlow) [Pa], with the wall that a groove leaves; lengths in [m].
-
-    As API has it of new casing, an eighth of the wall that is left is taken to be missing: 0.875·2 Y (t - h)/D.
-    """
-    return 2 * THINNEST * yield_strength * max(wall - depth, 0.0) / outer
 
 
 def _segment(short: float) -> float:

@@ -96,10 +96,20 @@ class Fluids:
         """Mean densities (n,) inside and outside [kg/m³] between distances from the bit (n,) [m]."""
         return self.inside.mean_density(top, bottom), self.outside.mean_density(top, bottom)
 
-    def check_end(self, hole: Wellbore, bit_depth: float) -> None:
-        """Raise InputError for an open end through which fluid would flow."""
+    def at_end(self, hole: Wellbore, bit_depth: float) -> tuple[float, float]:
+        """Pressures inside and outside [Pa] at the lower end."""
         depth = depth_at(hole, np.array([bit_depth]))
         inside, outside = (float(side[0]) for side in self.pressures(np.zeros(1), depth, hole, bit_depth))
+        return inside, outside
+
+    def overweight(self, hole: Wellbore, bit_depth: float) -> float:
+        """By how much the fluids inside press more on the lower end than those outside, no pressure at surface [Pa]."""
+        inside, outside = self.at_end(hole, bit_depth)
+        return inside - self.inside.surface - outside
+
+    def check_end(self, hole: Wellbore, bit_depth: float) -> None:
+        """Raise InputError for an open end through which fluid would flow."""
+        inside, outside = self.at_end(hole, bit_depth)
         if self.open_end and abs(inside - outside) > EQUAL:
             flows = "fluid would flow out" if inside > outside else "fluid would flow in"
             level = GRAVITY * self.inside.density[0]
@@ -148,5 +158,5 @@ def _column(
 
 
 def depth_at(hole: Wellbore, md: Array) -> Array:
-    """True vertical depth [m] at measured depths [m]; 0 above the rotary table."""
-    return np.maximum(np.interp(md, hole.md, hole.points[:, 2]), 0.0)
+    """True vertical depth (n,) [m] of the hole's axis at measured depths (n,) [m]; 0 above the rotary table."""
+    return np.maximum(hole.at(md)[0][:, 2], 0.0)

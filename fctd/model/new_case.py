@@ -121,6 +121,7 @@ class Plan:
             *textwrap.wrap(title, WIDEST, initial_indent="# ", subsequent_indent="# "),
             '# A quantity is a text with its unit ("8.5 in", "1250 kg/m^3"), or a bare number in SI.',
             "# A pipe is one of the catalogue, which `fctd pipes` lists: sizes, mass, joints and limits come with it.",
+            '# It is new; a class, "…, premium" or "…, class 2", lowers its strength alone, and its weight stays.',
             f"name = {json.dumps(self.name, ensure_ascii=False)}",
             *([aligned('units = "field"', "in which results are shown")] if self.units == "field" else []),
         )

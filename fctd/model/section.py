@@ -8,6 +8,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from fctd.case.pipes.catalogue import pipe_named
+from fctd.case.pipes.names import CASING, TUBING
 from fctd.case.string import ComponentSpec, JointSpec
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.capacity import Body
@@ -26,7 +27,9 @@ class Section(NamedTuple):
     burst, collapse : pressures that its body bears, beyond that on its other side [Pa]; wave_weight [N/m], wave_mass
     [kg/m], wave_stiffness [N m^2], wave_radius [m] : with which pipe buckles as a whole; own_friction : factor of its
     contact, 0 where it is that of the hole; bow_stiffness [N/m], starting_force [N] : of bow springs, 0 without them;
-    swivel : 1 where its upper end turns freely.
+    swivel : 1 where its upper end turns freely; worn_outer : outer radius with the wall that its class leaves to its
+    strength [m]; yields_earlier : 1 where tension lowers the yield strength in its collapse (API TR 5C3), 0 where it
+    lowers its collapse pressure (API RP 7G).
 
     A resolved tool joint has a ``tool_joint`` and no ``joint``, and a body neither: what they do to the bending of the
     pipe is computed.  Outer and inner radius of the tool joint are those of its body, whose end is stressed most.
@@ -64,6 +67,8 @@ class Section(NamedTuple):
     bow_stiffness: float = 0.0
     starting_force: float = 0.0
     swivel: float = 0.0
+    worn_outer: float = 0.0
+    yields_earlier: float = 0.0
 
 
 # In place of an own friction factor of 0, which would stand for that of the hole.
@@ -154,7 +159,15 @@ def section_of(component: ComponentSpec, outside: float, inside: float | None = 
         wave_weight=buoyed(mass, component.density, a, outside, inside),
         wave_mass=mass,
         wave_stiffness=given(component.bending_stiffness, modulus * second),
+        worn_outer=0.5 * body.worn_outer,
+        yields_earlier=float(body.is_steel and _is_casing(component)),
     )
+
+
+def bearing(section: Section) -> Body:
+    """The body of a section with the wall that its class leaves to its strength."""
+    left = (section.worn_outer - section.inner) / (section.outer - section.inner)
+    return Body(2 * section.outer, 2 * section.inner, section.yield_strength, left)
 
 
 def fitting_of(component: ComponentSpec, outside: float) -> Section:
@@ -204,7 +217,7 @@ def tool_joint_of(component: ComponentSpec, outside: float) -> Section:
         _of_tool_joints(component),
     )
     assert component.joint is not None  # the caller has one
-    (d, c), poisson = _radii(component.joint, whole.inner), component.poisson_ratio
+    (d, c), poisson = tool_joint_radii(component.joint, whole.inner), component.poisson_ratio
     mass = (whole.mass - (1 - share) * body.mass) / share
     wider = shear_coefficient(d, c, poisson) / shear_coefficient(whole.outer, whole.inner, poisson)
     return body._replace(
@@ -215,7 +228,7 @@ def tool_joint_of(component: ComponentSpec, outside: float) -> Section:
     )  # fmt: skip
 
 
-def _radii(joint: JointSpec, bore: float) -> tuple[float, float]:
+def tool_joint_radii(joint: JointSpec, bore: float) -> tuple[float, float]:
     """Outer and inner radius of a tool joint [m]; bore : inner radius of the body."""
     inner = bore if joint.tool_joint_inner is None else 0.5 * joint.tool_joint_inner
     return 0.5 * joint.tool_joint_diameter, inner
@@ -230,7 +243,7 @@ def _of_tool_joints(component: ComponentSpec) -> tuple[float, float, float]:
     if joint is None:
         return 0.0, 1.0, 1.0
     b, a = 0.5 * component.outer_diameter, 0.5 * component.inner_diameter
-    d, c = _radii(joint, a)
+    d, c = tool_joint_radii(joint, a)
     share = joint.tool_joint_length / joint.length
     return share, (d * d - c * c) / (b * b - a * a), (d**4 - c**4) / (b**4 - a**4)
 
@@ -240,8 +253,16 @@ def _make_up(component: ComponentSpec) -> float:
     return math.inf if torque is None else torque
 
 
+def _is_casing(component: ComponentSpec) -> bool:
+    """Whether its pipe is casing or tubing of the catalogue."""
+    return component.pipe is not None and pipe_named(component.pipe).kind in (CASING, TUBING)
+
+
 def _body(component: ComponentSpec) -> Body:
-    """The body that bears pressure; wear takes steel from its outside, ``Body`` has the nominal diameter."""
-    left = 1.0 if component.pipe is None else pipe_named(component.pipe).wall_share
-    nominal = component.inner_diameter + (component.outer_diameter - component.inner_diameter) / left
-    return Body(nominal, component.inner_diameter, component.yield_strength, left)
+    """The body that bears the loads: its class leaves a share of the nominal wall, or a measured diameter less."""
+    outer, inner, share = component.outer_diameter, component.inner_diameter, 1.0
+    if component.pipe is not None and (pipe := pipe_named(component.pipe)).wall_share < 1:
+        wall, measured = pipe.outer - pipe.inner, outer - inner  # on both sides
+        outer = inner + max(wall, measured)
+        share = min(pipe.wall_share * wall, measured) / (outer - inner)
+    return Body(outer, inner, component.yield_strength, share, component.youngs_modulus, component.poisson_ratio)

@@ -65,8 +65,8 @@ STATION: Final = 150.0
 TemplateName = Literal["build-hold", "horizontal", "s-well", "extended-reach", "casing-run"]
 
 CASING_9_5_8, HOLE_8_1_2 = "9 5/8 in casing, 47 lb/ft", "8 1/2 in hole"
-PIPE_5 = Part("5 in drill pipe, 19.5 lb/ft", {"pipe": "5 in 19.5 S-135 NC50, premium"})
-PIPE_5_1_2 = Part("5 1/2 in drill pipe, 21.9 lb/ft", {"pipe": "5 1/2 in 21.9 S-135 HT55 7 1/8 x 3 7/8, premium"})
+PIPE_5 = Part("5 in drill pipe, 19.5 lb/ft", {"pipe": "5 in 19.5 S-135 NC50"})
+PIPE_5_1_2 = Part("5 1/2 in drill pipe, 21.9 lb/ft", {"pipe": "5 1/2 in 21.9 S-135 HT55 7 1/8 x 3 7/8"})
 # The catalogue has no heavy-weight pipe: no page was found that prints its geometry.
 HEAVY = Part(
     "5 in heavy-weight pipe, 49.3 lb/ft",
@@ -97,7 +97,7 @@ TEMPLATES: Final[dict[TemplateName, Template]] = {
         (
             COLLARS._replace(length=30.0),
             PIPE_5._replace(length=0.0),
-            HEAVY._replace(length=600.0),
+            HEAVY._replace(length=750.0),
             PIPE_5,
         ),
         weight_on_bit=60.0,

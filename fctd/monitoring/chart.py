@@ -13,7 +13,7 @@ from fctd.case.friction import FrictionSet, Pair, changed, table_of
 from fctd.case.load import Case
 from fctd.case.operations import KINDS as OPERATIONS
 from fctd.hydraulics.channel import has_flow_curve
-from fctd.model.operations import drive_torque, rad_per_s, rates_of_all, weight_indicator
+from fctd.model.operations import drive_torque, rad_per_s, rates_of_all, string_load, weight_indicator
 from fctd.model.section import section_of
 from fctd.model.wellbore import build_wellbore
 from fctd.monitoring.stretches import OF_KIND, Mode
@@ -49,6 +49,9 @@ class Relief(NamedTuple):
 
     lift: float
     torque_share: float
+
+
+NOTHING: Final = Relief(0.0, 1.0)
 
 
 def fit_of(case: Case, fit: Fit | None) -> Fit:
@@ -114,8 +117,8 @@ class Chart:
     def relief(self, mode: Mode, depth: float, flow: float) -> Relief:
         """What mud that is pumped [m³/s] takes off, at the case's own friction; nothing where the case does not say
         how its mud flows, and without a flow.  NaN without a balance."""
-        if not flow > 0 or not has_flow_curve(self.case):
-            return Relief(0.0, 1.0)
+        if not self.relieves(flow):
+            return NOTHING
         key = KIND_OF[mode], self._near(depth), round(flow, 4)
         if key not in self._reliefs:
             rest = self._solve(self._own, *key[:2])
@@ -123,6 +126,22 @@ class Chart:
             share = pumped[1] / rest[1] if rest[1] else 1.0
             self._reliefs[key] = Relief(rest[0] - pumped[0], share)
         return self._reliefs[key]
+
+    def relieves(self, flow: float) -> bool:
+        """Whether a flow [m³/s] changes loads, as far as the case says."""
+        return flow > 0 and has_flow_curve(self.case)
+
+    def at_rest(
+        self, mode: Mode, depth: float, flow: float, rpm: float, *, gauge: float, torque: float
+    ) -> tuple[float, float]:
+        """Readings of weight indicator [N] and drive [N m] with a flow [m³/s], brought to the mud at rest of the
+        curves: as they are without ``relief``, NaN without a balance."""
+        relief = self.relief(mode, depth, flow)
+        if relief == NOTHING:
+            return gauge, torque
+        rig, direction = self.case.rig, OPERATIONS[KIND_OF[mode]].direction
+        raised = weight_indicator(rig, direction, string_load(rig, direction, gauge) + relief.lift)
+        return float(raised), torque + self.turning(torque, rpm) * (1 / relief.torque_share - 1)
 
     def _near(self, depth: float) -> float:
         return float(np.clip(round(depth / NODES) * NODES, NODES, self.deepest))

@@ -107,10 +107,10 @@ def apparent(stretch: Stretch, chart: Chart, uncertainty: Uncertainty) -> Appare
     relief = chart.relief(mode, depth, stretch.flow)
     if not np.isfinite(relief).all():
         return none("no steady string at this depth with this flow")
-    at_rest = reading.median + relief.lift
-    if rotating:
-        at_rest = reading.median + chart.turning(reading.median, stretch.rpm) * (1 / relief.torque_share - 1)
-    found = chart.invert(mode, depth, at_rest, stretch.rpm)
+    gauge, torque = chart.at_rest(
+        mode, depth, stretch.flow, stretch.rpm, gauge=stretch.hook_load.median, torque=stretch.torque.median
+    )
+    found = chart.invert(mode, depth, torque if rotating else gauge, stretch.rpm)
     if found is None:
         return none("no steady string at this depth")
     if rotating:

@@ -31,9 +31,8 @@ from fctd.case.systems import (
     signed,
     told,
 )
-from fctd.model.capacity import Body
-from fctd.model.operations import SteadyRates, rad_per_s
-from fctd.model.section import section_of
+from fctd.model.operations import SteadyRates
+from fctd.model.section import bearing, section_of
 from fctd.model.summary import Summary
 from fctd.report.parts import Section, Text
 from fctd.results.case_facts import (
@@ -45,6 +44,7 @@ from fctd.results.case_facts import (
     path_facts,
     string_table,
 )
+from fctd.results.doing import does, unlike
 from fctd.results.shown_tables import (
     NONE,
     Cell,
@@ -128,7 +128,7 @@ def string(summary: Summary, units: System) -> Section:
     capacities = []
     for of in case.string.components[: len(summary.parts)][::-1]:
         section = section_of(of, case.mud.density)
-        body = Body(2 * section.outer, 2 * section.inner, section.yield_strength)
+        body = bearing(section)
         most = body.tension, body.torsion, section.make_up, section.burst, section.collapse
         capacities.append((of.name, of.pipe, section.yield_strength, *most))
     note = "Of the body at yield, each load by itself; make-up torque is the largest that is recommended, where known."
@@ -302,15 +302,24 @@ def _cut(case: Case) -> str:
 
 
 def _rates(case: Case, rates: Mapping[str, SteadyRates], drive: Mapping[str, Any], units: System) -> Table:
-    """Speed, rotation and flow of each operation, and where they are from."""
+    """What the string does in each operation, where that is from, and what they differ in."""
     own = {operation.kind for operation in case.operations}
-    given = any(value is not None for value in drive.values())
+    given = "options, else " * any(value is not None for value in drive.values())
+
+    def source(kind: str) -> str:
+        lent = rates[kind].flow and drive.get("flow") is None
+        return given + ("case" if kind in own else "default, flow of the case" if lent else "default")
+
+    acts = {kind: does(case, kind, rate) for kind, rate in rates.items()}
     rows = (
         (
-            KINDS[kind].label, abs(rate.speed), number(rate.spin / rad_per_s(1.0), 1), rate.flow,
-            "options, else " * given + ("case" if kind in own else "default"),
+            KINDS[kind].label, of["speed_m_s"], number(of["rpm"], 1), of["flow_m3_s"], of["weight_on_bit_N"],
+            source(kind),
         )
-        for kind, rate in rates.items()
+        for kind, of in acts.items()
     )  # fmt: skip
-    heads = ("operation", None), ("speed", SPEED), ("rotation", ROTATION), ("flow", FLOW), ("from", None)
-    return quantities("Rates", heads, rows, units)
+    heads = (
+        ("operation", None), ("speed", SPEED), ("rotation", ROTATION), ("flow", FLOW), ("weight on bit", FORCE),
+        ("from", None),
+    )  # fmt: skip
+    return quantities("Rates", heads, rows, units, tuple(unlike(case, rates, units)))

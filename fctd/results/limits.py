@@ -16,6 +16,8 @@ from fctd.arrays import Array
 from fctd.case.limits import LimitsSpec
 from fctd.case.message import quantity
 from fctd.mechanics.jit import entry, inlined, kernel
+from fctd.model import capacity
+from fctd.model.capacity import PSI
 from fctd.model.drillstring import String
 from fctd.model.section import Section
 from fctd.results.hanging_body import ASSUMED, MOMENT, TAKEN, USUAL, beside
@@ -74,15 +76,15 @@ class Limit(NamedTuple):
         return 1 / limits.torque_share if self.asked == "torque_share" else 1.0
 
 
-unpressed, pressed = inlined(von_mises), inlined(von_mises_pressed)
+unpressed, pressed, of_steel = inlined(von_mises), inlined(von_mises_pressed), inlined(capacity.collapse_of)
 
 
 @inlined
 def stress_of(at, bending, section):
     """Von Mises stress in a place with a bending moment there [Pa]."""
     if at.excess == 0:
-        return unpressed(at.tension, at.torque, bending, section.outer, section.inner)
-    return pressed(at.tension, at.torque, bending, section.outer, section.inner, at.excess)
+        return unpressed(at.tension, at.torque, bending, section.worn_outer, section.inner)
+    return pressed(at.tension, at.torque, bending, section.worn_outer, section.inner, at.excess)
 
 
 # Share of the collapse pressure that is left at the yield strength, in place of none.
@@ -91,17 +93,23 @@ LEAST_LEFT: Final = 1e-9
 
 @inlined
 def collapse_of(at, section):
-    """Pressure that the pipe bears from outside under its tension [Pa], which lowers it along an ellipse (API 5C3).
+    """Pressure beyond that inside which the pipe bears from outside under its tension [Pa].
 
-    The stress along it counts from the pressure inside: (T + (p_i - p_o) A_o)/A_s with the effective tension T.
+    The stress along it counts from the pressure inside: (T + (p_i - p_o) A_o)/A_s with the effective tension T.  An
+    ellipse says what it leaves: of casing's yield strength, with which the regimes of TR 5C3 have another collapse
+    pressure (2008, Eq. 42), and of the collapse pressure of other pipe, as RP 7G has it.
     """
     if at.excess >= 0:
         return section.collapse
-    outer = section.outer * section.outer
+    outer = section.worn_outer * section.worn_outer
     steel = math.pi * (outer - section.inner * section.inner)
     share = (at.tension + math.pi * outer * at.excess) / steel / section.yield_strength
     share = min(max(share, 0.0), 1.0)
-    return section.collapse * max(math.sqrt(1 - 0.75 * share * share) - 0.5 * share, LEAST_LEFT)
+    left = max(math.sqrt(1 - 0.75 * share * share) - 0.5 * share, LEAST_LEFT)
+    if section.yields_earlier == 0:
+        return section.collapse * left
+    ratio = 2 * section.worn_outer / (section.worn_outer - section.inner)
+    return PSI * of_steel(left * section.yield_strength / PSI, ratio)
 
 
 LIMITS: Final[tuple[Limit, ...]] = (
@@ -176,7 +184,7 @@ LIMITS: Final[tuple[Limit, ...]] = (
         "check friction factor, bends and yield_strength", "N",
         # Where pressures differ, the stress says how much of the strength is used.
         lambda at, section: at.hookload if at.excess == 0 else 0.0,
-        lambda at, section: section.yield_strength * np.pi * (section.outer**2 - section.inner**2),
+        lambda at, section: section.yield_strength * np.pi * (section.worn_outer**2 - section.inner**2),
         lambda share, at, section, where: (
             f"the hook load is {quantity(at.hookload / 1e3, 'kN', '.0f')}, the uppermost pipe yields at "
             f"{quantity(at.hookload / share / 1e3, 'kN', '.0f')}"
@@ -262,6 +270,7 @@ def _section(table, k):
         table[k, 8], table[k, 9], table[k, 10], table[k, 11], table[k, 12], table[k, 13], table[k, 14], table[k, 15],
         table[k, 16], table[k, 17], table[k, 18], table[k, 19], table[k, 20], table[k, 21], table[k, 22], table[k, 23],
         table[k, 24], table[k, 25], table[k, 26], table[k, 27], table[k, 28], table[k, 29], table[k, 30], table[k, 31],
+        table[k, 32], table[k, 33],
     )  # fmt: skip
 
 

@@ -15,9 +15,9 @@ from fctd.case.message import Message, kept, quantity, restored, span, within
 from fctd.case.rig import RigSpec
 from fctd.case.systems import told
 from fctd.mechanics.query import Walls
-from fctd.model.capacity import Body
 from fctd.model.drillstring import String
-from fctd.model.section import Section
+from fctd.model.fluids import BAR, EQUAL
+from fctd.model.section import Section, bearing
 from fctd.results.buckling import Buckling
 from fctd.results.limits import LIMITS, Place, place_of
 from fctd.results.unit_systems import System
@@ -61,9 +61,18 @@ MEANINGS: Final = {
         "the pull of the mud along the string is uncertain, since most of the stress at its walls is yield stress",
         "check the readings at 6 and 3 rev/min (mud.fann), or move or pump faster",
     ),
+    "falling": Meaning(
+        "the fluid inside the string falls freely, since it is heavier than that outside and the end lets it out",
+        "pump faster than it falls, give the fluids as they are after the fall, or close the end with a plug "
+        "(mud.inside.plug)",
+    ),
     "flow_lie": Meaning(
         "where the string lies in the mud that flows past it is not known: the annulus is taken as concentric",
         "give mud.eccentricity a number",
+    ),
+    "bent": Meaning(
+        "the surface torque of a bent housing that turns is that of one toolface",
+        "take the torque of wall, mud and bit, or the mean of several rows with other values of toolface",
     ),
     "tortuosity": Meaning("the segments are too long to follow the hole's tortuosity", "use shorter segments"),
     "wall": Meaning(
@@ -165,6 +174,24 @@ def flow_law(off: float, weight: float) -> Note | None:
     """The note on a lift that may be too large by so much, beside a string of a weight [N]."""
     text = f"the pull of the mud along the string may be {quantity(off / 1e3, 'kN', '.0f')} too large"
     return note_beyond("flow_law", text, off, HARDLY * weight)
+
+
+def falling(rate: float | None, flow: float, overweight: float) -> Note | None:
+    """The note on fluid inside that falls freely at a rate; None without one.
+
+    flow : of the pumps [m³/s]; overweight : pressure inside less that outside at the end, of fluids at rest [Pa].
+    """
+    if rate is None:
+        return None
+    at = "as nothing that the case gives holds it"
+    if math.isfinite(rate):
+        at = f"at {quantity(6e4 * rate, 'L/min', '.0f')}"
+    pumped = f", where the pumps give {quantity(6e4 * flow, 'L/min', '.0f')}" if flow else ""
+    text = (
+        f"the fluid inside presses on the end with {quantity(overweight / BAR, 'bar', '.0f')} more than that "
+        f"outside, and falls freely {at}{pumped}"
+    )
+    return note_of("falling", text, max(overweight / EQUAL, 1.0))
 
 
 def flow_lie() -> Note:
@@ -272,7 +299,7 @@ def rig_notes(
 
 def crushed_at(top: Section, slip_length: float) -> float:
     """Weight at which slips of a length [m] crush the uppermost pipe [N]."""
-    return Body(2 * top.outer, 2 * top.inner, top.yield_strength).tension_in_slips(slip_length)
+    return bearing(top).tension_in_slips(slip_length)
 
 
 def homogenised(buckling: Buckling) -> Note:
@@ -283,6 +310,18 @@ def homogenised(buckling: Buckling) -> Note:
         "may have, or finds no shape that slides"
     )
     return note_of("homogenised", text, 1.0, buckling.from_md)
+
+
+def bent(torque: float, lost: float) -> Note | None:
+    """The note on a surface torque at one toolface; None where it hardly differs from its mean over a turn [N m].
+
+    lost : torque of wall, mud and bit [N m].  The rest holds the bend in its toolface, and does no work in a turn.
+    """
+    text = (
+        f"the surface torque is that of one toolface: wall, mud and bit take {quantity(lost / 1e3, 'kN·m', '.3g')}, "
+        f"and {quantity((torque - lost) / 1e3, 'kN·m', '.3g')} hold the bend and are nearly 0 on the mean of a turn"
+    )
+    return note_beyond("bent", text, abs(torque - lost), HARDLY * abs(lost))
 
 
 def several_balances(hookload: float, drawn: Sequence[float], weight: float) -> Note | None:

@@ -114,7 +114,7 @@ def von_mises_pressed(tension: Load, torque: Load, bending: Load, outer: Load, i
 
 def stress_along(string: String, tension: Array, torque: Array, bending: Array, excess: Array) -> Array:
     """Von Mises stress (n + 1,) [Pa] at the top and at the contact points, of loads and pressures there."""
-    outer, inner = (np.append(values[0], values) for values in (string.of("outer"), string.of("inner")))
+    outer, inner = (np.append(values[0], values) for values in (string.of("worn_outer"), string.of("inner")))
     stress = von_mises(tension, torque, bending, outer, inner)
     if not excess.any():
         return np.asarray(stress)

@@ -5,13 +5,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fctd.hydraulics.channel import channel_of
 from fctd.mechanics import topdrive
 from fctd.mechanics.rock import DRAG_BIT
 from fctd.model.operations import Phase, rad_per_s
 from fctd.model.torsion import axial_period_of, period_of
 from fctd.model.tortuosity import resolving, shortfall
 from fctd.results import run_notes
-from fctd.results.notes import Note
+from fctd.results.notes import Note, falling
 from fctd.results.swings import Span, swing_of
 from fctd.results.tables import SimulationResult
 from fctd.simulation.ringing import expected_ringing
@@ -42,6 +43,7 @@ def end_notes(
         hookload_note(run, spans[-1], history, start_time),
         _whirl_note(run, spans, history),
         _drilling_note(run, history),
+        _falling_note(run),
         *_limit_notes(run),
     )
     return ledger, [note for note in found if note is not None]
@@ -120,6 +122,15 @@ def _drilling_note(run: Run, history: "pd.DataFrame") -> Note | None:
         return None
     made, weight = float(history["hole_made_m"].iloc[-1]), float(history["weight_on_bit_N"].max())
     return run_notes.drilled_nothing(made, weight, rock.worn)
+
+
+def _falling_note(run: Run) -> Note | None:
+    """The note on fluid inside that falls freely while an operation pumps less than it falls."""
+    if run.string.fluids is None:
+        return None
+    channel = channel_of(run.case, run.laid_out, run.hole)
+    flow = min(operation.flow for operation in run.case.operations)
+    return falling(channel.free_fall(flow), flow, channel.overweight)
 
 
 def _limit_notes(run: Run) -> tuple[Note | None, ...]:

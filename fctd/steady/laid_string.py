@@ -16,6 +16,7 @@ from fctd.model.operations import BitLoads, SteadyRates, bit_loads
 from fctd.model.string_in_hole import excess_pressure, fill, squeeze_by, squeeze_of
 from fctd.model.wellbore import Wellbore
 from fctd.results.buckling import Pipe, pipe_of
+from fctd.results.notes import Note, falling
 
 
 @dataclass(frozen=True)
@@ -23,7 +24,7 @@ class LaidString:
     """A string in its hole, whose friction factors do not matter.
 
     lie : finds where it lies across its hole, for the mud that flows past it; circuit : of that mud, None where none
-    flows; rests : whether mud is taken to be at rest.
+    flows; rests : whether mud is taken to be at rest; flow : of the pumps [m³/s].
     """
 
     case: Case
@@ -32,6 +33,7 @@ class LaidString:
     lie: Callable[["LaidString"], Array | None] | None = None
     circuit: Circuit | None = None
     rests: bool = False
+    flow: float = 0.0
 
     def in_flow(self, rates: SteadyRates) -> "LaidString":
         """The string in the mud that an operation pumps and displaces; itself where mud rests or has no viscosity."""
@@ -40,7 +42,7 @@ class LaidString:
         # A damping along the string that the case gives replaces the drag of the mud that the string displaces.
         at = rates.flow, rates.speed if self.case.mud.axial_damping is None else 0.0
         if at not in self._in_flow:
-            self._in_flow[at] = replace(self, circuit=circulate(self._channel, *at))
+            self._in_flow[at] = replace(self, circuit=circulate(self._channel, *at), flow=rates.flow)
         return self._in_flow[at]
 
     @cached_property
@@ -64,6 +66,14 @@ class LaidString:
     def _channel(self) -> Channel:
         beside = 0.0 if self.eccentricity is None else self.eccentricity
         return channel_of(self.case, self.string, self.hole, beside)
+
+    @property
+    def falling(self) -> Note | None:
+        """The note on fluid inside that falls freely; None where the pumps hold it, or the end does."""
+        fluids = self.string.fluids
+        if fluids is None or fluids.overweight(self.hole, self.string.bit_depth) <= 0:
+            return None
+        return falling(self._channel.free_fall(self.flow), self.flow, self._channel.overweight)
 
     def put(self, S: Array) -> PerMetre:
         """Write the string into a buffer of the engine; returns the pipe at the top."""

@@ -21,9 +21,10 @@ from fctd.case.message import Message, frame_of, quantity, within
 from fctd.case.operations import KINDS
 from fctd.case.units import FASTEST, LENGTH, SPEED, TIME, LikelyUnit, argument, bare, unit_hint
 from fctd.case.wall import IntervalSpec
-from fctd.model.casing_wear import WEAR_UNIT, groove_area, groove_depth, worn_burst
+from fctd.model.capacity import THINNEST, burst_of
+from fctd.model.casing_wear import WEAR_UNIT, groove_area, groove_depth
 from fctd.model.depths import depths_of
-from fctd.model.operations import SteadyRates, steady_rates
+from fctd.model.operations import SteadyRates, rates_of_all
 from fctd.results.attrs import attrs_of
 from fctd.results.profile import JOINT, edges_of
 from fctd.steady.equilibrium import Solver
@@ -118,7 +119,7 @@ def casing_wear(
             raise InputError(" or ".join(TURNING), key="operation", value=operation)
         casings = casings_of(case)
         depths = depths_of(bit_depths, case, "bit_depths")
-        rates = steady_rates(case, operation, rpm=rpm)
+        rates = rates_of_all(case, [operation], rpm=rpm)[operation]
         time = _times(depths, duration, penetration)
         every = argument(step, LENGTH, "step")
         if not case.wellbore.intervals[-1].to_md / MOST_ROWS < every < np.inf:
@@ -219,8 +220,8 @@ def _rows(case: Case, of: IntervalSpec, worn: Worn, turns: float, low: float, hi
             row |= {f"{side}_area_m2": min(area, groove_area(of.wall, joint, bore)) if area else 0.0}
         row |= {f"{side}_groove_m": depth for side, depth in grooves.items()}
         row |= {f"{side}_worn": depth / of.wall for side, depth in grooves.items()}
-        row["burst_Pa"] = worn_burst(of.yield_strength, of.outer_diameter, of.wall, 0.0)
-        row["low_burst_Pa"] = worn_burst(of.yield_strength, of.outer_diameter, of.wall, grooves["high"])
-        row["high_burst_Pa"] = worn_burst(of.yield_strength, of.outer_diameter, of.wall, grooves["low"])
+        # As API has it of new casing, an eighth of the wall that is left is taken to be missing.
+        for column, depth in (("burst", 0.0), ("low_burst", grooves["high"]), ("high_burst", grooves["low"])):
+            row[f"{column}_Pa"] = burst_of(of.yield_strength, of.outer_diameter, THINNEST * (of.wall - depth))
         rows.append(row)
     return rows

@@ -23,7 +23,7 @@ def chart() -> fctd.Chart:
 
 
 def test_its_table_is_that_of_torque_drag_whose_docstring_has_each_column(chart: fctd.Chart) -> None:
-    told = re.findall("^- ([a-zA-Z_]+): .", fctd.torque_drag.__doc__ or "", re.M)
+    told = re.findall(r"^- (\w+): .", fctd.torque_drag.__doc__ or "", re.M)
     assert told == list(chart.rows) == [column.name for column in TABLES["chart"]]
     profile = list(fctd.equilibrium(chart.case, "trip_in", "td").profile)
     assert profile == [column.name for column in TABLES["profile"] if column.name in profile]

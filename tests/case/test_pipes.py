@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from fctd.case.errors import InputError
 from fctd.case.pipes import catalogue as tables
 from fctd.case.pipes.catalogue import INCH, Pipe, catalogue, pipe_named, sources
-from fctd.case.pipes.filling import filled, mass_of
+from fctd.case.pipes.filling import filled
 from fctd.case.pipes.grades import GRADES, grade_of, strength_of
 from fctd.case.pipes.names import COLLAR, DRILL_PIPE, PipeName, in_inches, parse
 from fctd.case.raw_case import checked
@@ -155,15 +155,23 @@ def test_other_tool_joints_touch_and_weigh_as_they_are() -> None:
     assert component(pipe=NC50, joint={"length": "45 ft"}, linear_mass=30.0).linear_mass == 30.0
 
 
-def test_wear_takes_the_steel_from_outside() -> None:
-    new, worn = component(pipe=NC50), component(pipe=f"{NC50}, premium")
-    assert worn.outer_diameter == pytest.approx(4.8552 * INCH)
-    assert worn.inner_diameter == new.inner_diameter
-    assert new.linear_mass is not None
-    assert worn.linear_mass is not None
-    lost = 7850 * math.pi / 4 * (0.127**2 - worn.outer_diameter**2)
-    assert new.linear_mass - worn.linear_mass == pytest.approx(lost * (1 - 21 / 12 / 31.7))
-    assert mass_of(pipe_named("4 1/2 16.6 G")) is None
+@pytest.mark.parametrize("used", ["premium", "class 2", "15 % worn"])
+def test_a_class_lowers_strength_alone(used: str) -> None:
+    """Mass, diameters, stiffness and what hangs in mud are those of new pipe."""
+    new, worn = (section_of(component(pipe=name), 1200.0) for name in (NC50, f"{NC50}, {used}"))
+    changed = {key for key in new._fields if getattr(new, key) != getattr(worn, key)}
+    assert changed == {"worn_outer", "burst", "collapse"}
+
+
+@pytest.mark.parametrize(("measured", "wall"), [(4.95, 0.8), (4.8, 0.262 / 0.362)])
+def test_a_measured_diameter_is_that_of_the_pipe_and_its_wall_at_most_what_bears(measured: float, wall: float) -> None:
+    """Of 5 in by 4.276 in: the class leaves 80 % of 0.362 in, 4.8 in outside leave 72.4 %."""
+    part = component(pipe=f"{NC50}, premium", outer_diameter=f"{measured} in", linear_mass="22 lb/ft")
+    of = section_of(part, 1200.0)
+    assert (of.outer, of.mass) == pytest.approx((0.5 * measured * INCH, 22 * 0.45359237 / 0.3048))
+    assert of.worn_outer - of.inner == pytest.approx(wall * 0.362 * INCH)
+    bears = 2 * 135 * 6.894757e6 * wall * 0.362 / 5.0  # Barlow, with the nominal diameter
+    assert of.burst == pytest.approx(bears, rel=1e-6)
 
 
 def test_a_stored_component_is_read_as_it_was() -> None:

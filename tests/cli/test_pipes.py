@@ -12,7 +12,7 @@ def test_the_table_has_name_numbers_and_page(cli: Command, monkeypatch: pytest.M
     said = cli("pipes", "nc50", "premium", "--units", "field").out
     row = next(line.split() for line in said.splitlines() if "premium" in line)
     assert row[:6] == ["5", "in", "19.5", "S-135", "NC50,", "premium"]
-    assert row[6:14] == ["4.276", "6.625", "19.92", "560.8", "58.11", "15638", "10029", "30.73"]
+    assert row[6:14] == ["4.276", "6.625", "23.52", "560.8", "58.11", "15638", "10029", "30.73"]
     assert "scribd.com/document/552214615, opened 2026-11-26" in said
 
 

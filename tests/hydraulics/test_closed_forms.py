@@ -95,6 +95,21 @@ def test_turbulent_newtonian_flow_in_a_bore_is_blasiuss() -> None:
     assert found.gradient == pytest.approx(2 * friction * density * speed**2 / 0.1, rel=0.01)
 
 
+@pytest.mark.parametrize(("reynolds", "smooth", "rough"), [(1e5, 2, 12), (3e5, 7, 24), (6.4e5, 12, 34), (1e6, 15, 40)])
+def test_water_in_a_bore_loses_less_than_in_pipe_by_what_the_guide_says(
+    reynolds: float, smooth: int, rough: int
+) -> None:
+    """Per cent below Colebrook (1939), 5 in pipe smooth and with 0.046 mm, as docs/hydraulics.md has them."""
+    wide = 4.276 * INCH
+    speed = reynolds * 1e-3 / (1000.0 * wide)
+    found = float(bore(0.5 * wide, Rheology.newtonian(1e-3), 1000.0, np.pi / 4 * wide**2 * speed).gradient)
+    for roughness, below in ((0.0, smooth), (0.046e-3, rough)):
+        root = 0.1  # of Darcy's friction factor
+        for _ in range(50):
+            root = 1 / (-2 * np.log10(roughness / wide / 3.7 + 2.51 / (reynolds * root)))
+        assert round(100 * (1 - found / (root**2 * 500.0 * speed**2 / wide))) == below
+
+
 @pytest.mark.parametrize("index", [0.4, 0.7, 1.0, 1 / 3])
 @pytest.mark.parametrize("ratio", [0.3, 0.6, 0.9])
 def test_clinging_constant_of_a_power_law(ratio: float, index: float) -> None:

@@ -58,6 +58,25 @@ def test_each_part_loses_what_its_closed_form_says() -> None:
     assert np.isnan(summary["jet_speed_m_s"])
 
 
+def test_tool_joints_that_are_laid_out_narrow_annulus_and_bore_as_components_of_their_size_do() -> None:
+    """Forty joints of 12 m, the tool joint of each below its body; coarse pipe has none."""
+    joint = {"length": 12.0, "tool_joint_diameter": 0.168, "tool_joint_inner": 0.05, "tool_joint_length": 0.6}
+    laid = pipe(None, None, joint=joint, joint_segments=2)
+    written = [
+        pipe(length, None, outer=outer, inner=inner, segment_length=length, contact="sleeve")
+        for _ in range(40)
+        for length, outer, inner in ((0.6, 0.168, 0.05), (11.4, 0.127, 0.07))
+    ]
+    fine, coarse, same = (
+        circulation(well(components=of), FLOW, 480.0)
+        for of in ([laid], [pipe(None, None, joint=joint, segment_length=6.0)], written)
+    )
+    assert fine.summary()["annulus_drop_Pa"] == pytest.approx(same.summary()["annulus_drop_Pa"], rel=1e-9)
+    assert fine.bores.sum() == pytest.approx(same.bores.sum(), rel=1e-9)
+    assert fine.standpipe == pytest.approx(same.standpipe, rel=1e-9)
+    assert fine.standpipe > 1.02 * coarse.standpipe
+
+
 def test_a_published_bit() -> None:
     """Three nozzles of 12/32 in at 400 gpm of 12 ppg: 156.5 Q² W/(ΣN²)², 1610 psi; jets of Q/A, force ρ Q v."""
     bit = {"nozzles": [12 / 32 * INCH] * 3}
@@ -126,3 +145,33 @@ def test_a_laid_string_keeps_its_length_and_finds_the_shoe(bit_depth: float) -> 
     assert (laid.shoe is None) == (bit_depth < 333.0 - 1e-6)
     if laid.shoe is not None:
         assert laid.ends[laid.shoe] == pytest.approx(333.0, abs=1e-6)
+
+
+HEAVIER = {"density": 1200.0, "viscosity": 1.0, "inside": [{"density": 1500.0}], "float": True}
+
+
+def free_fall() -> float:
+    """Flow at which 300 kg/m³ × g × 1000 m drive Newtonian mud down the bore and up both annuli (exact) [m³/s]."""
+    lost = 8 / np.pi * 1000 / 0.035**4
+    for outer, hole, length in ((0.0635, 0.15, 333.0), (0.0635, 0.10795, 567.0), (0.085, 0.10795, 100.0)):
+        ring = hole**4 - outer**4 - (hole**2 - outer**2) ** 2 / np.log(hole / outer)
+        lost += 8 / np.pi * length / ring
+    return float(300 * G * 1000 / lost)
+
+
+def test_a_column_that_falls_freely_is_refused_with_its_rate() -> None:
+    """Pumps below the rate of free fall would need a pressure below 0; above it they have one above 0."""
+    rate, case = free_fall(), well(mud=HEAVIER)
+    with pytest.raises(InputError, match=r"flow = 60 L/min: expected more than (\d+) L/min, at which the") as caught:
+        hydraulics_of(case, 1e-3)
+    assert float(str(caught.value).split("more than ")[1].split()[0]) == pytest.approx(6e4 * rate, rel=0.01)
+    table = hydraulics_of(case, [0.98 * rate, 1.02 * rate])
+    assert table["reason"].str.startswith("not_possible: ").tolist() == [True, False]
+    of = circulation(case, 1.02 * rate, 1000.0)
+    assert 0 < of.standpipe - of.surface < 0.05 * 300 * G * 1000
+    # A plug holds the column, and so does a lighter fluid above it.
+    plugged = HEAVIER | {"inside": [{"to_md": 1000.0, "density": 1500.0, "plug": True}]}
+    with pytest.raises(InputError, match=r"mud\.inside\.plug"):
+        hydraulics_of(well(mud=plugged), 1e-3)
+    mixed = HEAVIER | {"inside": [{"to_md": 600.0, "density": 900.0}, {"density": 1500.0}]}
+    assert hydraulics_of(well(mud=mixed), 1e-3)["standpipe_Pa"][0] > 0

@@ -13,6 +13,7 @@ from fctd.hydraulics.surge import ENDS, Trip, fastest_trips, surge_pressures
 from tests.cases import make_case, pipe
 
 G, FT, INCH, PSI, PPG = 9.80665, 0.3048, 0.0254, 6894.757, 119.8264
+HEAVIER = {"density": 1200.0, "viscosity": 0.03, "float": True, "inside": [{"density": 1500.0}]}
 WINDOW = [{"tvd": 0, "pore": 1100.0, "fracture": 1300.0}]
 
 
@@ -102,11 +103,18 @@ def test_what_is_left_of_the_window_counts_below_the_bit_too() -> None:
         ({}, {"end": "shut"}, 'end = "shut": expected "open" or "closed" or "float"'),
         ({"mud": {"density": 1200.0}}, {}, "mud.fann is missing"),
         ({}, {"bit_depths": [2000.0]}, "bit_depths"),
+        ({"mud": HEAVIER}, {"end": ["closed", "float"]}, 'end = "float": expected "closed", as .* falls freely at'),
     ],
 )
 def test_what_cannot_be_tripped_is_told_in_a_sentence(case: dict[str, Any], asked: dict[str, Any], told: str) -> None:
     with pytest.raises(InputError, match=told):
         surge_pressures(well(**case), [0.5], **asked)
+
+
+def test_a_heavier_column_above_a_closed_end_is_tripped() -> None:
+    found = surge_pressures(well(mud=HEAVIER), [0.5], end="closed")
+    alone = surge_pressures(well(mud={"density": 1200.0, "viscosity": 0.03}), [0.5], end="closed")
+    assert found["surge_Pa"].tolist() == alone["surge_Pa"].tolist()
 
 
 def test_a_window_is_asked_for() -> None:

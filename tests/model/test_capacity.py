@@ -90,6 +90,25 @@ def test_collapse_is_continuous_and_falls_with_the_wall() -> None:
             assert 0.97 * before < after < before
 
 
+def test_collapse_rises_with_the_strength_of_the_steel_and_has_no_jump() -> None:
+    """Also below the strengths of grades, as tension leaves them, down to none: the least yields or buckles."""
+    for ratio in (8.0, 15.0, 22.0, 29.0, 45.0, 60.0):
+        pressures = [Body(1.0, 1 - 2 / ratio, 0.1 * ksi * KSI).collapse for ksi in range(1, 2500)]
+        for k, (before, after) in enumerate(pairwise(pressures), start=2):
+            assert 0.9995 * before <= after <= before * k / (k - 1) * 1.001
+            assert after <= 1.001 * PSI * min(200 * k * (ratio - 1) / ratio**2, 46.95e6 / (ratio * (ratio - 1) ** 2))
+
+
+@pytest.mark.parametrize(("modulus", "poisson"), [(71e9, 0.33), (114e9, 0.34)])
+def test_pipe_that_is_not_steel_collapses_by_its_own_modulus(modulus: float, poisson: float) -> None:
+    """Aluminium, titanium: thin pipe buckles in proportion to E/(1 − ν²), thick pipe yields, and nothing is fitted."""
+    for ratio, strength in ((40.0, 480e6), (8.0, 300e6)):
+        body = Body(1.0, 1 - 2 / ratio, strength, modulus=modulus, poisson=poisson)
+        steel = 46.95e6 * PSI / (ratio * (ratio - 1) ** 2)  # 0.712 of 2E/(1 − ν²), for 30e6 psi and 0.3
+        elastic = steel * (modulus / (1 - poisson**2)) / (206.8e9 / 0.91)
+        assert body.collapse == pytest.approx(min(elastic, 2 * strength * (ratio - 1) / ratio**2), rel=1e-9)
+
+
 def test_torque_and_tension_together() -> None:
     """RP 7G A.9.2: at 250,000 lbf 31,904 ft lbf of grade E bring 5 in 19.50 to its yield strength (within 0.15 %)."""
     body = Body(5 * INCH, 4.276 * INCH, 75 * KSI)

@@ -7,8 +7,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from fctd.model.capacity import PSI
-from fctd.model.casing_wear import WEAR_UNIT, groove_area, groove_depth, worn_burst
+from fctd.model.casing_wear import WEAR_UNIT, groove_area, groove_depth
 
 INCH, FOOT, POUND = 0.0254, 0.3048, 4.4482216152605
 JOINT, BORE, WALL = 3.25 * INCH, 0.5 * 8.681 * INCH, 0.472 * INCH  # 6 1/2 in tool joint, 9 5/8 in 47 lb/ft casing
@@ -48,11 +47,3 @@ def test_the_area_is_what_the_tool_joint_has_beyond_the_bore(depth: float, joint
 def test_the_wall_is_the_deepest_groove() -> None:
     assert groove_depth(1.0, JOINT, BORE, WALL) == WALL
     assert groove_depth(0.0, JOINT, BORE, WALL) == groove_area(0.0, JOINT, BORE) == 0.0
-
-
-def test_burst_is_that_of_the_table_and_falls_with_the_wall() -> None:
-    """9 5/8 in 47 lb/ft N-80: 6,870 psi (API Bulletin 5C2)."""
-    new = worn_burst(80e3 * PSI, 9.625 * INCH, WALL, 0.0)
-    assert new / PSI == pytest.approx(6870, abs=10)
-    assert worn_burst(80e3 * PSI, 9.625 * INCH, WALL, 0.1 * WALL) == pytest.approx(0.9 * new)
-    assert worn_burst(80e3 * PSI, 9.625 * INCH, WALL, WALL) == 0.0

@@ -54,4 +54,4 @@ def test_numbers_are_rounded_up_to_1_2_or_5(number: float, rounded: float) -> No
 
 def test_the_string_of_a_template_reaches_the_surface() -> None:
     lengths = [length for _, length in laid(TEMPLATES["horizontal"], 2400.0, 3600.0)]
-    assert lengths == [30.0, 1200.0, 600.0, 1770.0]
+    assert lengths == [30.0, 1200.0, 750.0, 1620.0]

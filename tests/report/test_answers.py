@@ -65,6 +65,14 @@ def test_mud_without_rheology_is_no_error() -> None:
     assert found.dry.startswith("mud.fann is missing: readings of a viscometer")
 
 
+def test_a_column_that_falls_freely_is_no_error() -> None:
+    heavier = {"mud.inside": [{"density": "2 sg"}], "mud.float": True}
+    found = answer(load_case(WELL, heavier), Asked(["rotate_off_bottom"], [900.0], drive={"flow": 0.01}, limits=False))
+    assert found.circulations == ()
+    assert "at which the denser fluid inside falls freely" in found.dry
+    assert [note.code for note in found.points[0].notes] == ["falling"]
+
+
 def test_the_first_of_several_factors_are_those_of_all_but_the_chart(well: Case) -> None:
     sets = [FrictionSet(every=0.1), FrictionSet(every=0.4)]
     seen: list[tuple[str, int, int]] = []

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from fctd import simulate
+from fctd import equilibrium, simulate
 from fctd.model.torsion import period_of
 from fctd.results.notes import Note
 from fctd.simulation.ending import spans_of, torque_note
@@ -53,3 +53,14 @@ def test_spans_are_those_of_the_schedule() -> None:
     (span,) = spans_of(run, phases)
     assert (span.start, span.steady_from, span.steady_to, span.end) == (0.0, 1.0, 60.0, 60.0)
     assert span.rpm == 60.0
+
+
+@pytest.mark.parametrize("inside", [1100.0, 1900.0])
+def test_a_fluid_that_falls_freely_has_a_note(inside: float) -> None:
+    """The heavier one, at the rate that the steady string tells."""
+    turning = {"kind": "rotate_off_bottom", "at_md": 500, "duration": 2, "rpm": 10, "ramp_time": 1}
+    mud = {"density": 1200.0, "viscosity": 0.03, "float": True, "inside": [{"density": inside}]}
+    case = make_case([[0.0, 0, 0], [600, 0, 0]], [pipe(None, 10)], operations=[turning], mud=mud)
+    found = [note.text for note in simulate(case).notes if note.code == "falling"]
+    assert found == [note.text for note in equilibrium(case, "rotate_off_bottom", 500.0).notes]
+    assert len(found) == (inside > 1200)

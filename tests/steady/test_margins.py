@@ -10,9 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fctd.case.load import Case
+from fctd.case.pipes.catalogue import pipe_named
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.operations import steady_rates
 from fctd.model.section import section_of
+from fctd.results.limits import LIMITS, SHARE
 from fctd.steady.equilibrium import Solver, equilibrium
 from fctd.steady.margins import (
     FATIGUE,
@@ -176,13 +178,51 @@ def test_a_turning_string_is_bent_to_and_fro_by_the_curvature_of_its_hole() -> N
     assert 90 <= margin.md <= 470
 
 
+PREMIUM = {"pipe": "5 in 19.5 S-135 NC50, premium", "segment_length": 100.0}
+NEW_MASS = 23.52  # [lb/ft], of new pipe with tool joints
+
+
 def test_slips_bear_the_string_and_no_more() -> None:
     """5 in S-135 premium: 403,000 lbf in slips of 16½ in (Reinhold & Spiri)."""
-    weak = pipe(None, None, segment_length=100.0, outer=4.8552 * 0.0254, inner=4.276 * 0.0254, yield_strength=930.8e6)
-    margin = found(make_case(components=[weak], rig={"slip_length": "16.5 in"}), "rotate_off_bottom", 900.0)["slips"]
+    case = make_case(components=[PREMIUM], rig={"slip_length": "16.5 in"})
+    margin = found(case, "rotate_off_bottom", 900.0)["slips"]
     assert margin.hookload == pytest.approx(403e3 * 4.4482216, rel=5e-3)
-    weight = 900 * GRAVITY * 7850 * np.pi / 4 * ((4.8552 * 0.0254) ** 2 - (4.276 * 0.0254) ** 2)
-    assert margin.hookload_left == pytest.approx(margin.hookload - weight, rel=1e-6)
+    weight = 900 * GRAVITY * NEW_MASS * 0.45359237 / 0.3048
+    assert margin.hookload_left == pytest.approx(margin.hookload - weight, rel=1e-4)
+
+
+def test_premium_pipe_weighs_what_new_pipe_does_and_yields_earlier() -> None:
+    """560,800 lbf of S-135 premium (the maker's sheet), at the top of a straight string."""
+    margin = found(make_case(components=[PREMIUM]), "trip_out", 900.0)["yield"]
+    assert margin.hookload == pytest.approx(560.8e3 * 4.4482216, rel=1e-3)
+    assert margin.force == pytest.approx(margin.hookload - 900 * GRAVITY * NEW_MASS * 0.45359237 / 0.3048, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("named", "collapses"),
+    [
+        # Elastic for 55 ksi and for what half of it leaves, 35.8 ksi: 515 psi whatever its strength.
+        ("20 in 94 K-55 casing", 515.0),
+        # 52.1 ksi are left of 80: A 2.982, B 0.0526, C 1119 psi of the plastic regime, 20.39 of diameter to wall.
+        ("9 5/8 in 47 N-80 casing", 52.11e3 * (2.9825 / 20.392 - 0.052606) - 1119.3),
+    ],
+)
+def test_tension_lowers_the_yield_strength_of_casing_in_the_formula_of_its_regime(named: str, collapses: float) -> None:
+    """API TR 5C3 (2008): at half of the strength, counted from the pressure inside, √(1 − 3/16) − 1/4 = 0.651 are left.
+
+    An ellipse of the collapse pressure would leave 0.651 of it.
+    """
+    of = pipe_named(named)
+    assert of.yield_strength is not None
+    outside, pressure = np.pi / 4 * of.outer**2, 20e5 + 1200 * GRAVITY * 100
+    pull = 0.5 * of.yield_strength * (outside - np.pi / 4 * of.inner**2) + pressure * outside
+    mud = {"density": 1200.0, "inside": [{"density": 0.0}], "outside_pressure": 20e5, "float": True}
+    hole = {"intervals": [{"to_md": 100.0, "diameter": 0.7, "friction": 0.0}]}
+    part = {"pipe": named, "segment_length": 10.0}
+    case = make_case([[0, 0, 0], [100, 0, 0]], [part], wellbore=hole, mud=mud, bit={"overpull": pull})
+    shares = equilibrium(case, "trip_out", 100.0).shares
+    share = shares[[limit.code for limit in LIMITS].index("collapse"), SHARE]
+    assert pressure / share == pytest.approx(collapses * 6894.757, rel=2e-3)
 
 
 @pytest.mark.parametrize(
@@ -278,7 +318,7 @@ def test_the_upper_end_of_a_weaker_lower_section_is_where_it_gives_way(segment: 
 
 
 def test_tension_lowers_the_collapse_pressure_along_an_ellipse() -> None:
-    """Of empty pipe in mud: from Y the share r = (T - p A_o)/A_s Y leaves √(1 - 3/4 r²) - r/2 (API 5C3)."""
+    """Of empty drill pipe in mud: from Y the share r = (T - p A_o)/A_s Y leaves √(1 - 3/4 r²) - r/2 (API RP 7G)."""
     parts = [pipe(None, None, segment_length=50.0, outer=0.127, inner=0.112, yield_strength=517e6)]
     mud = {"density": 1900.0, "inside": [{"density": 0.0}], "float": True}
     margin = found(make_case(components=parts, mud=mud), "trip_out", 900.0)
@@ -298,3 +338,21 @@ def test_connections_that_are_not_known_are_said_and_used_is_of_the_limit_that_i
     alone = torques(make_case(components=[named], mud=MUD))["make_up"]
     assert alone.reason == "none"
     assert alone.share == pytest.approx(0.0, abs=1e-6)  # it hangs straight, and no torque is used
+
+
+@pytest.mark.parametrize("own", [0.0, 15e3, 60e3])
+def test_weight_and_torque_at_a_limit_are_those_of_the_bit_in_all(own: float) -> None:
+    """A level string without friction snakes and yields at the same loads whatever the case has on its bit."""
+    level = make_case(
+        [[0, 90, 0], [600, 90, 0]], [pipe(None, None, segment_length=10.0)], mud=MUD,
+        wellbore={"intervals": [{"to_md": 600, "diameter": 0.2159, "friction": 0.0}]},
+        rig={"block_weight": 1e6, "largest_torque": 20e3}, bit={"weight_on_bit": own, "torque": own / 10},
+    )  # fmt: skip
+    section = section_of(level.string.components[0], 1200.0)
+    onset = 2 * np.sqrt(section.EI * section.weight / (0.5 * (0.2159 - 0.127)))
+    margin = found(level, "drill_rotating", 500.0)
+    assert margin[SNAKING].force == pytest.approx(onset, rel=5e-3)
+    assert margin[SNAKING].hookload_left == pytest.approx(onset - own, abs=5e-3 * onset)
+    assert margin["drive"].torque == pytest.approx(20e3, rel=1e-6)
+    assert margin["drive"].surface_torque_left == pytest.approx(20e3 - own / 10, rel=1e-6)
+    assert (margin[SNAKING].reason == "beyond it already with 60 kN on the bit") == (own > onset)

@@ -70,7 +70,9 @@ def unlike_pipe(string: StringSpec) -> Doubts:
         if part.pipe is None:
             continue
         pipe = pipe_named(part.pipe)
-        own, named = (part.outer_diameter, part.inner_diameter), (pipe.worn_outer, pipe.inner)
+        own, named = (part.outer_diameter, part.inner_diameter), (pipe.outer, pipe.inner)
+        if pipe.inner + pipe.wall_share * (pipe.outer - pipe.inner) - SAME_DIAMETER <= own[0] < pipe.outer:
+            named = own[0], pipe.inner  # as measured, of worn pipe
         if max(abs(x - y) for x, y in zip(own, named, strict=True)) > SAME_DIAMETER:
             sizes = [
                 f"{quantity(1e3 * outer, 'mm', '.6g')} by {quantity(1e3 * inner, 'mm', '.6g')}"

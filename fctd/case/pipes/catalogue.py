@@ -49,8 +49,9 @@ class Pipe(NamedTuple):
 
     size, second : as it is sold, outer diameter [in] and nominal weight [lb/ft], of a collar its bore [in]; grade :
     None for a collar, and for casing and tubing whose name has none; yield_strength : the least one [Pa], or None;
-    wall_share : of the nominal wall that is left; linear_mass : of new pipe with its tool joints or couplings [kg/m],
-    None where it is not printed; coupling : its outer diameter [m], or None; sources : keys of ``sources()``.
+    wall_share : of the nominal wall that its class leaves to its strength; linear_mass : of new pipe with its tool
+    joints or couplings [kg/m], None where it is not printed; coupling : its outer diameter [m], or None; sources : keys
+    of ``sources()``.
     """
 
     kind: str
@@ -70,11 +71,6 @@ class Pipe(NamedTuple):
     def outer(self) -> float:
         """Nominal outer diameter of the body [m]."""
         return _si(self.size, INCH)
-
-    @property
-    def worn_outer(self) -> float:
-        """Outer diameter of the body with the wall that is left [m]."""
-        return round(self.inner + self.wall_share * (self.outer - self.inner), 9)
 
     @property
     def name(self) -> str:

@@ -1,6 +1,5 @@
 """The keys of a component that its pipe gives, and those of an interval of the hole that its casing gives."""
 
-import math
 from collections.abc import Mapping
 from typing import Any, Final
 
@@ -64,8 +63,8 @@ def casing_named(text: str) -> Pipe:
 
 def _keys_of(pipe: Pipe) -> dict[str, Any]:
     keys: dict[str, Any] = {
-        "name": pipe.name, "outer_diameter": pipe.worn_outer, "inner_diameter": pipe.inner,
-        "yield_strength": pipe.yield_strength, "linear_mass": mass_of(pipe),
+        "name": pipe.name, "outer_diameter": pipe.outer, "inner_diameter": pipe.inner,
+        "yield_strength": pipe.yield_strength, "linear_mass": pipe.linear_mass,
     }  # fmt: skip
     joint = pipe.joint
     if joint is not None:
@@ -78,21 +77,6 @@ def _keys_of(pipe: Pipe) -> dict[str, Any]:
             "tool_joint_inner": joint.inner,
         }  # fmt: skip
     return {key: value for key, value in keys.items() if value is not None}
-
-
-def mass_of(pipe: Pipe) -> float | None:
-    """Mass of a pipe with its tool joints or couplings, less the steel that its wear took from the body [kg/m].
-
-    None where no mass is printed: it is then that of the body.
-    """
-    if pipe.linear_mass is None:
-        return None
-    worn = math.pi / 4 * (pipe.outer**2 - pipe.worn_outer**2)
-    joint = pipe.joint
-    body = 1.0
-    if joint is not None and joint.length is not None and joint.joint_length is not None:
-        body -= joint.length / joint.joint_length
-    return pipe.linear_mass - STEEL * worn * body
 
 
 def lacks_joints(pipe: Pipe) -> bool:

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from typing import Any, Final
 
 from fctd.case.pipes.catalogue import FOOT, POUND, SAME_DIAMETER, Pipe, connection_of, of_grade, pipes_of_size
-from fctd.case.pipes.filling import STEEL, lacks_joints, mass_of
+from fctd.case.pipes.filling import STEEL, lacks_joints
 from fctd.case.pipes.grades import drill_pipe_grade_of, grade_of
 from fctd.case.pipes.names import CASING, DRILL_PIPE, TUBING
 from fctd.case.witsml.tubular import TubularPart
@@ -59,7 +59,7 @@ def _same(given: float | None, of_pipe: float | None) -> bool:
 
 def _weighs(pipe: Pipe, mass: float | None) -> bool:
     """Whether a mass [kg/m] is that of the pipe with its tool joints, or not given."""
-    whole = mass_of(pipe) or 0.25 * math.pi * (pipe.outer**2 - pipe.inner**2) * STEEL
+    whole = pipe.linear_mass or 0.25 * math.pi * (pipe.outer**2 - pipe.inner**2) * STEEL
     return not mass or abs(mass - whole) <= _SAME_MASS * whole
 
 

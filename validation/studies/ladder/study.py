@@ -10,6 +10,7 @@ from validation.studies.ladder import (
     bends,
     bha,
     capstan,
+    fluids,
     helix,
     onset,
     statics,
@@ -23,7 +24,7 @@ from validation.studies.ladder.rung import Rung, measure, observed_order, worst_
 FAMILIES: dict[str, list[Rung]] = {
     "helix": helix.RUNGS, "onset": onset.RUNGS, "waves": waves.RUNGS, "threshold": threshold.RUNGS,
     "capstan": capstan.RUNGS, "bends": bends.RUNGS, "bit": bha.RUNGS, "rest": statics.RUNGS,
-    "trips": trips.RUNGS,
+    "trips": trips.RUNGS, "fluids": fluids.RUNGS,
 }  # fmt: skip
 RUNGS = {rung.name: rung for rungs in FAMILIES.values() for rung in rungs}
 MEETING = "meet their neighbours'"

@@ -7,7 +7,7 @@ from scipy.linalg import eigvalsh_tridiagonal
 from scipy.optimize import brentq, minimize_scalar
 
 from references.beams.beam_column import bending, deflect, grid
-from validation.studies.ladder import bends, bha, capstan, helix, statics, threshold, waves
+from validation.studies.ladder import bends, bha, capstan, fluids, helix, statics, threshold, waves
 from validation.studies.ladder.rung import case_of, pipe_of, section
 
 
@@ -65,6 +65,20 @@ def test_a_catenary_needs_no_wall():
     tension = weight * bends.TANGENT / np.sin(angle)
     assert np.gradient(tension, s)[1:-1] == pytest.approx(-weight * np.cos(angle)[1:-1], rel=1e-4)
     assert tension * np.gradient(angle, s) == pytest.approx(weight * np.sin(angle), rel=1e-2)
+
+
+def test_the_depth_of_an_arc_is_integrated_along_it():
+    depth = lambda s: s if s < 300 else 300 + 800 * np.sin((s - 300) / 800)  # noqa: E731
+    whole, _ = quad(depth, 0, 300 + 400 * np.pi, points=[300.0])
+    assert fluids.warm_stretch(case_of(fluids.warmed(50.0))) == pytest.approx(12.42e-6 * 0.06 * whole)
+
+
+def test_a_falling_column_loses_what_a_slot_and_a_bore_do():
+    """The annulus as an unrolled slot of its mean circumference, which is within 1 %; the bore by Poiseuille."""
+    rate = fluids.free_fall(case_of(fluids.falling(50.0)))
+    gap, around = 0.5 * (0.2159 - 0.127), 0.5 * np.pi * (0.2159 + 0.127)
+    lost = 128 * rate / (np.pi * 0.1086**4) + 12 * rate / (around * gap**3)
+    assert lost == pytest.approx(300 * 9.80665, rel=0.01)
 
 
 def test_an_elastica_is_found_by_shooting_and_by_a_small_load():
