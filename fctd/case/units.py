@@ -309,6 +309,7 @@ PositiveShare = Annotated[float, Number(noun="a share", above=0.0, at_most=1.0)]
 # Hoists run at 1 to 3 m/s and top drives at up to 300 rev/min; a model at a thousandth of the size turns some thirty
 # times as fast.  A larger number is in the wrong unit.
 FASTEST: Final = 10.0  # [m/s]
+A_MINUTE: Final = (LikelyUnit(10, 120, " m/min"),)  # speeds beyond it
 MOST_RPM: Final = 10_000.0
 DEEPEST: Final = 50_000.0  # [m] measured depth: four times the deepest well drilled
 Rpm = Annotated[float, Quantity(dimension=ROTATION, at_least=0.0, at_most=MOST_RPM)]

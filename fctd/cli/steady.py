@@ -11,7 +11,7 @@ from fctd.case.message import frame_of
 from fctd.case.operation_names import USUAL, kinds_of, split_names
 from fctd.case.operations import KINDS
 from fctd.case.systems import FLOW, LENGTH, ROTATION, SPEED
-from fctd.case.units import MOST_FLOW
+from fctd.case.units import A_MINUTE, FASTEST, MOST_FLOW, MOST_RPM
 from fctd.cli.options import screen
 from fctd.cli.quantities import Given, QuantityOption, quantity, si
 from fctd.model.drillstring import lay_out
@@ -32,7 +32,8 @@ def _defaults(rate: str) -> str:
 
 KIND_HELP = f"Kind of operation: {', '.join(KINDS)}, also {', '.join(USUAL)}"
 SPEED_OPTION, RPM_OPTION, FLOW_OPTION = (
-    QuantityOption("--speed", SPEED), QuantityOption("--rpm", ROTATION),
+    QuantityOption("--speed", SPEED, at_most=FASTEST, likely_units=A_MINUTE),
+    QuantityOption("--rpm", ROTATION, at_most=MOST_RPM),
     QuantityOption("--flow", FLOW, at_most=MOST_FLOW),
 )  # fmt: skip
 Speed = Annotated[

@@ -16,7 +16,7 @@ from fctd.case.load import Case, check_bit_depth, naming_file
 from fctd.case.message import Message, frame_of, quantity, within
 from fctd.case.operation_names import kinds_of
 from fctd.case.operations import KINDS
-from fctd.case.units import MOST_FLOW, SPEED, LikelyUnit, argument, unit_hint
+from fctd.case.units import MOST_FLOW, SPEED, argument, unit_hint
 from fctd.hydraulics.circuit import Circuit, circulate
 from fctd.hydraulics.closed_forms import REGIMES
 from fctd.hydraulics.pressures import Eccentricity, Laid, Progress, Row, check_flows, lay
@@ -34,7 +34,6 @@ FASTEST: Final = 2.0  # [m/s]: trips are not faster than the hoist
 SLOWEST: Final = 1e-3  # [m/s]: what is slower is no trip
 PLACES: Final = 200  # along the open hole, at which the window is looked at
 HALVINGS: Final = 20  # of the range of speeds
-A_MINUTE: Final = (LikelyUnit(10, 120, " m/min"),)
 
 
 @dataclass(frozen=True)
@@ -133,7 +132,7 @@ def surge_pressures(
         rates = [argument(speed, SPEED, "speeds") for speed in given]
         for speed, rate in zip(given, rates, strict=True):
             if not 0 <= rate <= units.FASTEST:
-                hint = "" if isinstance(speed, str) else unit_hint(rate, A_MINUTE)
+                hint = "" if isinstance(speed, str) else unit_hint(rate, units.A_MINUTE)
                 raise InputError(f"a speed of 0 to {quantity(units.FASTEST, 'm/s')}{hint}", key="speeds", value=speed)
         asked = _asked(case, bit_depths, operation, end, eccentricity)
         rows: list[Row] = []

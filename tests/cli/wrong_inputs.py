@@ -309,7 +309,7 @@ REFUSED_TOGETHER: Final[list[tuple[dict[str, Any], dict[str, str], str]]] = [
         {"--friction": "open=0.2"},
         '--friction = {"open": 0.2}: expected factors of kinds that the intervals have, cased',
     ),
-    ({}, {"--speed": "60"}, "--speed = 60.0: expected a speed above 0 and at most 10 m/s for trip_in"),
+    ({}, {"--speed": "60"}, "--speed = \"60\": expected a speed of at most 10 m/s (60 looks like '60 m/min')"),
     (
         {},
         {"--operation": "rotate_off_bottom", "--speed": "1"},
