@@ -23,6 +23,12 @@ FLAGS := $(if $(filter-out 0,$(QUICK)),--quick) $(if $(PERTURBED),--perturbed $(
 # The first of these that starts; a command may exist and fail to start.
 PYTHON ?= $(shell for p in python3.11 python3.12 python3.13 python3.14 python3; do $$p -c '' 2>/dev/null && { echo $$p; break; }; done)
 
+# Where the user's cache cannot be written, as in a read-only home, what would lie there lies in the checkout.
+CACHE := $(if $(XDG_CACHE_HOME),$(XDG_CACHE_HOME),$(HOME)/.cache)
+ifneq ($(shell mkdir -p '$(CACHE)/fctd' 2>/dev/null && test -w '$(CACHE)/fctd' && echo kept),kept)
+export XDG_CACHE_HOME := $(CURDIR)/.cache
+endif
+
 # Said before the work begins; minutes on two cores from an empty cache of compiled code, as in the README.
 SET_UP_TAKES := 2
 TESTS_TAKE := $(if $(filter 0,$(BROWSER)),7,11)
@@ -110,5 +116,5 @@ lowest: $(STAMP)
 	tests/mechanics tests/steady tests/monitoring tests/plots tests/report tests/sweep/test_design.py tests/sweep/test_indices.py
 
 clean:
-	rm -rf .venv-next .venv-lowest validation/results reports/out docs/out build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis .benchmarks
+	rm -rf .cache .venv-next .venv-lowest validation/results reports/out docs/out build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis .benchmarks
 	find . -name __pycache__ -not -path './.venv/*' -prune -exec rm -rf {} +

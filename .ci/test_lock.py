@@ -1,6 +1,7 @@
 """Set-up: the locks against pyproject.toml and rivals, their check for every Python, and what make says."""
 
 import importlib.util
+import os
 import re
 import shlex
 import shutil
@@ -156,3 +157,18 @@ def test_make_says_how_long_it_takes_before_it_begins(
         ).stdout
         before = text[: text.index("works: -m")]
         assert [each in before for each in expected] == [first, True]
+
+
+def test_what_cannot_be_kept_at_home_is_kept_in_the_checkout(tmp_path: Path) -> None:
+    """Else each process of a test run would compile all code."""
+    if shutil.which("make") is None:
+        pytest.skip("make is not installed")
+    shutil.copy(ROOT / "Makefile", tmp_path)
+    (tmp_path / "file").touch()
+    clean = {k: v for k, v in os.environ.items() if k != "XDG_CACHE_HOME"}
+    for home, kept in ((tmp_path, ""), (tmp_path / "file", f"{tmp_path}/.cache")):
+        done = subprocess.run(
+            ["make", "--silent", "--eval=show:;@echo $$XDG_CACHE_HOME", "show"],
+            cwd=tmp_path, env=clean | {"HOME": str(home)}, capture_output=True, text=True, check=True,
+        )  # fmt: skip
+        assert done.stdout.strip() == kept

@@ -22,7 +22,7 @@ or as a bare number in SI units. A default of "–" means that you may leave the
 own](well.md) says how the keys belong together, and `examples/my_well.toml` uses most of them.
 
 `name`, a text in quotes, stands at the top of the file, before the first table. `units = "field"` beside it shows the
-results of the case in field units where a command has no `--units`; "si" is the default.
+results of the case in field units where a command has no `--units`; "si" (or "metric") is the default.
 
 `--friction 0.2` and the override `friction` set the friction factor of every interval, `--friction cased=0.2,open=0.3`
 those of intervals of a `kind`; in place of a factor stands `0.3/0.2` for one along the hole and another around it

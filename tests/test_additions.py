@@ -256,15 +256,14 @@ VISCOUS = '''"""Law ``viscous``: a drag along the axis and a couple about it tha
 
 from fctd.mechanics.friction import Law
 from fctd.mechanics.jit import inlined
-from fctd.mechanics.state import INVERSE_JA, INVERSE_MASS, RADIUS
+from fctd.mechanics.state import INVERSE_JA, INVERSE_MASS
 
 PER_SPEED = 0.5  # share of the limit for each metre per second
 
 
 @inlined
-def impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit, around):
-    r = S[RADIUS + j]
-    k, q = PER_SPEED * limit * S[INVERSE_MASS + j], PER_SPEED * limit * r * r * S[INVERSE_JA + j]
+def impulse(S, j, radius, net, u, v, w, a, b, c, nx, ny, nz, limit, around):
+    k, q = PER_SPEED * limit * S[INVERSE_MASS + j], PER_SPEED * limit * radius * radius * S[INVERSE_JA + j]
     return 0.0 * w, 0.0 * w, -w * k / (1 + k), 0.0 * w, 0.0 * w, -c * q / (1 + q)
 
 

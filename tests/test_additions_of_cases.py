@@ -129,7 +129,7 @@ def test_an_operation_is_one_class(copy: Path) -> None:
     pytest.importorskip("matplotlib")
     pytest.importorskip("plotly")
     file = copy / "fctd" / "case" / "operations.py"
-    union = "Operation = TripIn | TripOut | RotateOffBottom | BackReam | DrillRotating | DrillSliding"
+    union = "Operation = TripIn | TripOut | RotateOffBottom | BackReam | ReamIn | DrillRotating | DrillSliding"
     add_line(file, union, f"{REAM_DOWN}\n\n{union} | ReamDown")
     (copy / "well.toml").write_text(WELL + REAMING)
     assert STORE.folder is not None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from functools import wraps
 from html import escape
 from inspect import getdoc
@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 from fctd import plots
 from fctd.case.errors import InputError
 from fctd.results.columns import COLUMNS, LOADS
-from fctd.results.shown_tables import NONE, Cell, Table, frame_table, of_column
+from fctd.results.shown_tables import NONE, Table, frame_table, of_column
 from fctd.results.unit_systems import System, shown
 
 if TYPE_CHECKING:
@@ -28,6 +28,7 @@ Asked = ParamSpec("Asked")
 Answer = TypeVar("Answer")
 # Loads that say most: hook load and surface torque.
 MAIN = LOADS[:2]
+MOST = 12  # rows of a table in a notebook
 
 
 def html_table(table: Table) -> str:
@@ -40,18 +41,12 @@ def html_table(table: Table) -> str:
         return f"<p><b>{escape(table.title)}</b></p>{shown.to_html(header=bool(table.heads), index=False)}"
 
 
-def html_of(title: str, rows: pd.DataFrame, units: System = "si", columns: Sequence[str] = (), most: int = 12) -> str:
+def html_of(title: str, rows: pd.DataFrame, units: System = "si", columns: Sequence[str] = ()) -> str:
     """An SI table below a title, as HTML; of a long one the first and the last rows.
 
     columns : that are shown, by default all.  units : of what is shown.
     """
-    half, long = most // 2, len(rows) > most
-    shown = rows.iloc[[*range(half), *range(-half, 0)]] if long else rows
-    table = frame_table(title, shown, columns or list(map(str, rows)), units)
-    if long:
-        between = (Cell("…"),) * len(table.heads)
-        table = replace(table, rows=(*table.rows[:half], between, *table.rows[half:]))
-    return html_table(table)
+    return html_table(frame_table(title, rows, columns or list(map(str, rows)), units, most=MOST))
 
 
 def load_rows(loads: Mapping[str, float], units: System) -> dict[str, str]:

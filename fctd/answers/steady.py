@@ -135,11 +135,11 @@ def torque_drag(
     """A row per operation, friction and depth.
 
     operation : kind or kinds.  bit_depths [m], or texts as of ``equilibrium`` : one or several, rising, or those of a
-    text FROM:TO:STEP such as "shoe:td:50".  friction : None for the case's own,
-    or what is set in turn, each a kinetic factor for every interval or factors by kind, such as {"cased": 0.2,
-    "open": 0.3}; a text "0.3/0.2" is a factor along the hole and one around it.  speed [m/s], rpm : see
-    ``equilibrium``; only for kinds that have them.  flow [m³/s] : of the pumps, for all kinds.  threads : by
-    default as many as processors; the rows do not depend on it.
+    text FROM:TO:STEP such as "shoe:td:50".  friction : None for the case's own, or what is set in turn, each a kinetic
+    factor for every interval or factors by kind, such as {"cased": 0.2, "open": 0.3}; a text "0.3/0.2" is a factor
+    along the hole and one around it.  speed [m/s], rpm, flow [m³/s] : see ``equilibrium``; a speed is that of the kinds
+    that move, an rpm that of those that rotate by their name, a flow that of all.  threads : by default as many as
+    processors; the rows do not depend on it.
 
     A row without a balance has NaN in place of loads.  So has a row that is ``locked_up`` where no push suffices, and
     one that is ``unstable`` because no steady shape was found.  At a depth where string and hole do not fit the status

@@ -15,7 +15,7 @@ from fctd.app.pool import Pool
 from fctd.app.runs import Runs, target_of
 from fctd.app.sessions import Session, Sessions
 from fctd.app.sliders import Slider
-from fctd.app.uploads import added_operations, content_of, source_of, text_of
+from fctd.app.uploads import content_of, source_of, text_of
 from fctd.case.errors import InputError
 from fctd.case.text import counted, printable
 from fctd.plots.palette import PALETTE
@@ -269,15 +269,15 @@ def _running(app: Dash, backend: PageBackend) -> None:
     def start(
         clicks: object, pathname: str, sliders: Sequence[float], opened: Mapping[str, Any] | None, more: str | None
     ) -> tuple[Any, ...]:
-        session, added = backend.session(pathname), added_operations(more or "")
+        session = backend.session(pathname)
         # Where the sliders stand: their last move may not be solved yet.
         own = (opened or {"own": {}})["own"]
         values = {name: at for (name, usual), at in zip(own.items(), sliders, strict=True) if at != usual}
         source, name = session.source, ""
         if source is not None and source.survey_name:
             name = "survey" + PurePath(source.survey_name).suffix.lower()
-        text = backend.ask(session, "text", values=values, survey=name)["text"]
-        backend.runs.start(session, f"{text.rstrip()}\n{added}", name, b"" if source is None else source.survey)
+        text = backend.ask(session, "text", values=values, survey=name, more=more or "")["text"]
+        backend.runs.start(session, text, name, b"" if source is None else source.survey)
         return "the string comes to rest first; nothing is recorded yet", page.TICK
 
     @app.callback(

@@ -17,6 +17,7 @@ from fctd.case.input_file import LARGEST_FILE, tables_of
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case, make_case
 from fctd.case.raw_case import look_up, set_key, split_key
+from fctd.case.surveys.stations import MOST_STATIONS as MOST_OF_FILE
 from fctd.case.systems import System
 from fctd.case.tables.workbook import ZIP, check_workbook
 from fctd.case.xml_file import has_doctype
@@ -66,7 +67,7 @@ class SourceCase:
         value = self._written if error.value == str(self._survey) else error.value
         more = [self.named(other) for other in error.more]
         file = self._written if of_survey else None
-        return InputError(error.expected, key=error.key, value=value, file=file, more=more)
+        return InputError(_here(error.expected), key=error.key, value=value, file=file, more=more)
 
     @property
     def warnings(self) -> list[InputWarning]:
@@ -137,11 +138,16 @@ def from_upload(name: str, survey: bytes, units: System, folder: Path) -> tuple[
     try:
         found = read_survey(path, units)
     except InputError as error:
-        raise InputError(error.expected, key=error.key, value=error.value, file=name, more=error.more) from None
+        raise InputError(_here(error.expected), key=error.key, value=error.value, file=name, more=error.more) from None
     if len(found.stations) > MOST_STATIONS:
         raise InputError(f"at most {MOST_STATIONS} stations, here {len(found.stations)}", file=name)
     plan = from_survey(None, Path(name).stem or "my well", units, name, found.keys, found.stations)
     return Source(plan.text(), name, survey), found.note
+
+
+def _here(expected: str) -> str:
+    """What is expected of a survey: the page takes fewer stations than a file may have."""
+    return expected if expected != f"at most {MOST_OF_FILE} stations" else f"at most {MOST_STATIONS} stations"
 
 
 def _suffix(name: str) -> str:

@@ -12,6 +12,7 @@ import numpy as np
 
 from fctd.app.well import LIMITS, USUAL, Well, load_of
 from fctd.case.errors import InputError
+from fctd.case.input_file import tables_of
 from fctd.case.message import frame_of
 from fctd.case.operations import KINDS
 from fctd.case.text import file_name
@@ -19,6 +20,7 @@ from fctd.plots.loads import ChartLook
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import in_field_units, shown
 from fctd.store.origin import versions
+from fctd.store.tables import to_csv
 
 # What a name of a file is for.
 FILES: Final = {
@@ -29,11 +31,22 @@ FILES: Final = {
 VIEWED: Final = 25  # strings of a view
 
 
-def text(well: Well, values: Mapping[str, object], survey: str | None = None) -> dict[str, str]:
-    """The case with the sliders at values, as text; survey : another name for its survey, where it has one."""
+def text(well: Well, values: Mapping[str, object], survey: str | None = None, more: str = "") -> dict[str, str]:
+    """The case with the sliders at values, as text.
+
+    survey : another name for its survey, where it has one.  more : operations to add, as lines of a case file.  Raises
+    InputError for other tables in them, which might name files of this machine.
+    """
     well.moved(values)
-    more = {"wellbore.survey": survey} if survey and well.read.source.survey_name else {}
-    return {"text": well.read.text(well.overrides(values) | more)}
+    own = {"wellbore.survey": survey} if survey and well.read.source.survey_name else {}
+    found = well.read.text(well.overrides(values) | own)
+    if not more.strip():
+        return {"text": found}
+    tables = tables_of(more, "operations")
+    if [*tables] != ["operations"]:
+        other = next((name for name in tables if name != "operations"), "")
+        raise InputError("operations alone, each below a line [[operations]]", key="operations to add", value=other)
+    return {"text": f"{found.rstrip()}\n\n{more.strip()}\n"}
 
 
 def file(
@@ -71,7 +84,7 @@ def _write(
         path.write_text(text(well, values)["text"], encoding="utf-8")
     elif name == "profile.csv":
         profile = well.profile_at(values, operation, depth)
-        (in_field_units(profile) if units == "field" else profile).to_csv(path, index=False)
+        to_csv(in_field_units(profile) if units == "field" else profile, path)
     elif name == "view.html":
         from fctd.view.page import save_view
 

@@ -17,7 +17,6 @@ from fctd.app.home import private_folder
 from fctd.app.sessions import Source
 from fctd.case.errors import InputError
 from fctd.results.unit_systems import System
-from fctd.store.whole_file import left_by_dead
 
 LONGEST: Final = 20.0  # of reading and solving [s]
 WORKERS: Final = 2  # so that a file that takes its time holds up no other
@@ -102,15 +101,14 @@ def command_of(folder: Path) -> list[str]:
 
 
 class Pool:
-    """Processes for requests; scratch files lie below ``folder``, and those of processes that were killed go.
+    """Processes for requests; their scratch files lie below ``folder``, which this program has for itself.
 
     longest : of an answer [s], by default LONGEST.
     """
 
     def __init__(self, folder: Path, size: int = WORKERS, longest: float | None = None) -> None:
-        for left, _ in left_by_dead(folder, r"work-PID"):
-            shutil.rmtree(left, ignore_errors=True)
-        self.folder, self.longest = folder / f"work-{os.getpid()}", LONGEST if longest is None else longest
+        self.folder, self.longest = folder / "work", LONGEST if longest is None else longest
+        shutil.rmtree(self.folder, ignore_errors=True)  # of a program that was killed
         private_folder(self.folder)
         self._free: list[Worker] = []
         self._all: list[Worker] = []

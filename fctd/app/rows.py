@@ -9,10 +9,11 @@ from typing import Any, Final
 
 from fctd.case.errors import InputError
 from fctd.case.load import Case
-from fctd.model.operations import rates_of_all
+from fctd.model.operations import SteadyRates, rates_of_all
 from fctd.model.wellbore import Wellbore
 from fctd.results.buckling import UNKNOWN
 from fctd.results.columns import IN_CHART, SHAPES
+from fctd.results.doing import does
 from fctd.results.status import SteadyStatus
 from fctd.steady.batch import Row, solve_batch
 from fctd.steady.equilibrium import Solver
@@ -70,16 +71,22 @@ class Rows:
                 found[row.laid.string.bit_depth, row.operation] = point
         self._own = solver.work
         return [
-            _row(kind, depth, string if isinstance(string, str) else found[string.string.bit_depth, kind])
+            _row(
+                case,
+                kind,
+                rates[kind],
+                depth,
+                string if isinstance(string, str) else found[string.string.bit_depth, kind],
+            )
             for kind in kinds
             for depth, string in laid.items()
         ]
 
 
-def _row(kind: str, depth: float, point: Equilibrium | str) -> dict[str, Any]:
+def _row(case: Case, kind: str, rates: SteadyRates, depth: float, point: Equilibrium | str) -> dict[str, Any]:
     found = None if isinstance(point, str) else point
     answer = found if found is not None and found.answered else None
-    row: dict[str, Any] = {"operation": kind, "friction": float("nan"), "bit_depth_m": depth}
+    row: dict[str, Any] = {"operation": kind, "friction": float("nan"), "bit_depth_m": depth, **does(case, kind, rates)}
     row |= {load.name: float("nan") if answer is None else load.value(answer) for load in IN_CHART}
     row |= {end.name: float("nan") if found is None else end.value(found) for end in SHAPES}
     if found is None:

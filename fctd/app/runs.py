@@ -65,7 +65,7 @@ class Runs:
         Raises InputError while the session has a run, and where ``MOST_RUNS`` others run.
         """
         with self._lock:
-            running = {key for key, run in self._runs.items() if run.number is not None}
+            running = self._going()
             if session.key in running:
                 raise InputError("a page without a run: stop it first, or wait for its end")
             if len(running) >= MOST_RUNS:
@@ -82,6 +82,14 @@ class Runs:
                     start_new_session=os.name == "posix", umask=0o077 if os.name == "posix" else -1,
                 )  # fmt: skip
             self._runs[session.key] = Run(session.folder, process)
+
+    def running(self) -> set[str]:
+        """The keys of the sessions whose run goes on."""
+        with self._lock:
+            return self._going()
+
+    def _going(self) -> set[str]:
+        return {key for key, run in self._runs.items() if run.number is not None}
 
     def state(self, session: Session) -> dict[str, Any]:
         """Whether a session's run goes on, how far it is, and what its process has said; its page asks."""

@@ -86,7 +86,7 @@ class AppServer:
         """The address of a new session with a case, or without one of the page."""
         if source is None:
             return self.address()
-        session = self.sessions.new()
+        session = self.sessions.new(self.runs.running())
         session.put(source)
         return self.address(session.key)
 
@@ -157,7 +157,7 @@ def _steered(backend: PageBackend) -> "Answer | None":
     if rest in ("", "new") and request.method in ("GET", "HEAD"):
         session = backend.sessions.newest() if not rest else None
         if session is None:
-            session = backend.sessions.new()
+            session = backend.sessions.new(backend.runs.running())
             session.put(_first(backend.units))
         return redirect(f"{backend.prefix}s/{session.key}/")
     match = OF_SESSION.fullmatch(rest)

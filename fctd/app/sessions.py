@@ -6,6 +6,7 @@ import re
 import secrets
 import shutil
 import threading
+from collections.abc import Collection
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -106,10 +107,11 @@ class Sessions:
                 self._open[key] = Session(self._folder / key)
             return self._open.get(key)
 
-    def new(self) -> Session:
-        """A new session; the oldest ones beyond ``MOST_SESSIONS`` are removed."""
+    def new(self, running: Collection[str] = ()) -> Session:
+        """A new session; the oldest ones beyond ``MOST_SESSIONS`` are removed, those aside whose run is ``running``."""
         with self._lock:
-            for old in self._by_age()[MOST_SESSIONS - 1 :]:
+            idle = [path for path in self._by_age() if path.name not in running]
+            for old in idle[max(0, MOST_SESSIONS - 1 - len(running)) :]:
                 self._open.pop(old.name, None)
                 shutil.rmtree(old, ignore_errors=True)
             folder = self._folder / secrets.token_urlsafe(9)

@@ -16,6 +16,7 @@ from fctd.case.systems import Kind, System
 from fctd.hydraulics.channel import has_flow_curve
 from fctd.model.drillstring import lay_out
 from fctd.model.layouts import is_cut
+from fctd.model.operations import flow_of, steady_rates
 
 RPM: Final = "rpm"
 FLOW: Final = "flow"
@@ -68,8 +69,7 @@ def sliders_of(case: Case, units: System) -> list[Slider]:
     turning = [operation.rpm for operation in case.operations if KINDS[operation.kind].turns]
     rpm = float(turning[0] if turning else KINDS["rotate_off_bottom"].default_rpm)
     length = float(f"{_segment_length(case):.3g}")
-    flow = max((operation.flow for operation in case.operations), default=0.0)
-    of_flow = [(FLOW, "flow of the pumps", flow)] if has_flow_curve(case) else []
+    of_flow = [(FLOW, "flow of the pumps", flow_of(case))] if has_flow_curve(case) else []
     of_mud = [] if case.mud.inside and case.mud.outside else [("mud", "mud density", case.mud.density)]
     for name, label, value in (
         *of_mud,
@@ -125,19 +125,20 @@ def changes(
     return found
 
 
-def rates_at(case: Case, rpm: float, flow: float) -> Case:
+def rates_at(case: Case, rpm: float, flow: float | None = None) -> Case:
     """The case with operations of all kinds, those that turn at a rotation [rev/min], for steady strings alone.
 
-    flow : of the pumps [m³/s].
+    flow : of the pumps in all of them [m³/s], None for that of the case in those that pump it.
     """
     here = {operation.kind for operation in case.operations}
     more: Any = tuple(
         kind.model_construct(
-            kind=name, rpm=rpm if kind.turns else kind.default_rpm, speed=kind.default_speed, flow=flow
+            kind=name, rpm=rpm if kind.turns else kind.default_rpm, speed=kind.default_speed,
+            flow=steady_rates(case, name).flow if flow is None else flow,
         )
         for name, kind in KINDS.items()
         if name not in here
-    )
+    )  # fmt: skip
     return case.model_copy(update={"operations": (*case.operations, *more)})
 
 

@@ -9,7 +9,6 @@ from typing import Final
 from fctd.app.pool import Pool
 from fctd.app.sessions import Source
 from fctd.case.errors import InputError
-from fctd.case.input_file import tables_of
 from fctd.case.text import printable
 from fctd.results.unit_systems import System
 
@@ -67,17 +66,3 @@ def source_of(files: Mapping[str, bytes], before: Source | None, pool: Pool, uni
         return Source(made["text"], name, survey), printable(note)
     pool.ask("open", source, units)  # a case that cannot be used does not take the place of the one before
     return source, ""
-
-
-def added_operations(text: str) -> str:
-    """Operations to add to a case, as lines of a case file; "" for none.  Raises InputError for anything else.
-
-    Other tables might name files of this machine.
-    """
-    if not text.strip():
-        return ""
-    tables = tables_of(text, "operations")
-    if [*tables] != ["operations"]:
-        other = next((name for name in tables if name != "operations"), "")
-        raise InputError("operations alone, each below a line [[operations]]", key="operations to add", value=other)
-    return f"\n{text.strip()}\n"

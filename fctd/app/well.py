@@ -93,8 +93,9 @@ class Well:
             case = self.read.changed(self.overrides(values))
             rates = {slider.name: slider for slider in self.sliders if slider.name in (RPM, FLOW)}
             if rates.keys() & values.keys():
+                # A slider that stands at its value leaves the flows as the case has them.
                 shown_at = {name: of.check(values.get(name, of.value)) * of.factor for name, of in rates.items()}
-                case = rates_at(case, shown_at[RPM], shown_at.get(FLOW, 0.0))
+                case = rates_at(case, shown_at[RPM], shown_at.get(FLOW) if FLOW in values else None)
             # No slider moves the hole: its wall alone changes.
             self._last = key, case, self.hole.with_friction(table_of(case.wellbore.intervals))
         return self._last[1]

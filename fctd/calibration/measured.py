@@ -5,6 +5,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+import numpy as np
+
 from fctd.calibration.measured_file import (
     ANY_FORCE,
     ANY_TORQUE,
@@ -18,18 +20,23 @@ from fctd.calibration.measured_file import (
     measured_form,
     read_measured_file,
 )
+from fctd.calibration.misread import WEIGHTS, Weight, out_of_order
+from fctd.calibration.rows import Range
 from fctd.case.errors import InputError, naming
 from fctd.case.load import Case
-from fctd.case.message import quantity
+from fctd.case.message import Message, quantity, within
 from fctd.case.operations import KINDS
+from fctd.case.systems import told
 from fctd.case.tables.fields import Field
 from fctd.case.tables.readings import TORQUE_OF_STRING
+from fctd.case.text import counted
 from fctd.model.operations import string_load, weight_indicator
 from fctd.results.unit_systems import System
 
 if TYPE_CHECKING:
     import pandas as pd
 
+NOISE: Final = 0.02  # of a hook load: by less may readings be out of order
 _BELOW: Final = 30.0  # m: a measured depth may exceed the last station of the survey by a joint or two
 _LOADS: Final = (
     Field("string_load", "string load", ANY_FORCE, HOOKLOAD.beside, example="kN"),
@@ -72,11 +79,29 @@ def read_measured(
     numbers = {name: [found.number(row, key) for row in kept] for key, name in columns.items()}
     table = pd.DataFrame({"operation": [kinds[row] for row in kept]} | numbers)
     direction = table["operation"].map(lambda kind: KINDS[kind].direction)
+    if tell is not None:
+        _tell_swapped(table, direction, lambda sentence: tell(told(sentence, units or "si")))
     for end in ENDS:
         string, gauge = table.pop(f"string_load{end}_N"), table.pop(f"hookload{end}_N")
         table[f"hookload{end}_N"] = string.fillna(string_load(case.rig, direction, gauge))
         table[f"weight_indicator{end}_N"] = gauge.fillna(weight_indicator(case.rig, direction, string))
     return table
+
+
+def _tell_swapped(table: "pd.DataFrame", direction: "pd.Series[int]", tell: Callable[[str], None]) -> None:
+    """Say where hook loads of one depth are out of order, as they are where pick-up and slack-off are swapped."""
+    ends = [table[f"hookload{end}_N"].fillna(table[f"string_load{end}_N"]) for end in ENDS]
+    weighed = table.assign(low=np.fmin.reduce(ends), high=np.fmax.reduce(ends), name=direction.map(WEIGHTS))
+    weighed = weighed[weighed["operation"].isin(("trip_in", "trip_out", "rotate_off_bottom")) & weighed["low"].notna()]
+    found: list[str] = []
+    for _, rows in weighed.groupby("bit_depth_m", sort=False):
+        of_name = rows.groupby("name").agg(low=("low", "min"), high=("high", "max")).itertuples()
+        loads = {name: Weight(0, Range(low, high), NOISE * high) for name, low, high in of_name}
+        at = quantity(rows["bit_depth_m"].iloc[0], "m", ".6g")
+        found += [sentence for _, sentence in out_of_order(loads, at)][:1]
+    if found:
+        more = f" (and at {counted(len(found) - 1, 'more depth')})" if len(found) > 1 else ""
+        tell(Message(f"{within(found[0])}{more}"))
 
 
 def _check_depth(found: Measured, row: int, deepest: float) -> None:

@@ -3,7 +3,7 @@
 They are fitted all the same, with a sentence each: the rows cannot say which of two readings is wrong.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Final, NamedTuple
 
@@ -23,6 +23,18 @@ TORQUE: Final = (0.3, 3.0)
 FAR: Final = 5.0
 _DIGIT: Final = 4.0
 _NAMES: Final = {"hookload": ("hook load", "kN"), "torque": ("torque", "kN·m")}
+
+
+# Names of weights, by the direction of the block.
+WEIGHTS: Final = {1: "slack-off", 0: "rotating", -1: "pick-up"}
+
+
+class Weight(NamedTuple):
+    """A hook load with its row; margin [N] : by which another one must exceed it to be out of order."""
+
+    row: int
+    read: Range
+    margin: float
 
 
 class _Station(NamedTuple):
@@ -77,22 +89,30 @@ def _carried_over(before: _Station, now: _Station) -> str:
 
 
 def _out_of_order(station: _Station, rows: Sequence[Row]) -> list[tuple[int, str]]:
-    """Sentences of rows whose hook load is out of the order slack-off, rotating, pick-up."""
-    loads: dict[str, tuple[int, Range, float]] = {}
+    """Sentences of rows whose hook load is out of order."""
+    loads: dict[str, Weight] = {}
     for (_, load), (k, read, _, noise) in station.readings.items():
         if load == "hookload" and (rows[k].operation == "rotate_off_bottom" or not rows[k].rates.spin):
-            loads[{1: "slack-off", 0: "rotating", -1: "pick-up"}[rows[k].direction]] = k, read, noise
+            loads[WEIGHTS[rows[k].direction]] = Weight(k, read, MARGIN * noise)
+    return out_of_order(loads, station.label)
+
+
+def out_of_order(loads: Mapping[str, Weight], where: str) -> list[tuple[int, str]]:
+    """Rows whose hook load is out of the order slack-off, rotating, pick-up, and a sentence for each.
+
+    loads : of one depth, by their names in ``WEIGHTS``; where : the depth in words.
+    """
     found: list[tuple[int, str]] = []
     pairs = (("slack-off", "rotating"), ("rotating", "pick-up"), ("slack-off", "pick-up"))
     for lower, upper in pairs:
         if lower not in loads or upper not in loads or (upper == "pick-up" and lower == "slack-off" and found):
             continue
-        (k, low, noise), (other, high, _) = loads[lower], loads[upper]
-        if low.low > high.high + MARGIN * noise:
-            wrong = k if upper == "rotating" else other
-            one = f"{lower} weight of {quantity(_kilo(low), 'kN', '.6g')}"
-            two = f"{upper} weight of {quantity(_kilo(high), 'kN', '.6g')}"
-            found.append((wrong, Message(f"a {one} above the {two} at {station.label}: swapped or misread?")))
+        low, high = loads[lower], loads[upper]
+        if low.read.low > high.read.high + low.margin:
+            wrong = low.row if upper == "rotating" else high.row
+            one = f"{lower} weight of {quantity(_kilo(low.read), 'kN', '.6g')}"
+            two = f"{upper} weight of {quantity(_kilo(high.read), 'kN', '.6g')}"
+            found.append((wrong, Message(f"a {one} above the {two} at {where}: swapped or misread?")))
     return found
 
 

@@ -151,9 +151,10 @@ def predict_rows(
 ) -> pd.DataFrame:
     """A row for each reading that a row can have, with bands, and scores where it was measured.
 
-    Columns: id, string, operation, bit_depth_m, load, unit, predicted (at the calibrated values), the quantiles of
-    ``BANDS``, reason (why there is no prediction, or none); low and high of the recorded range, inside50 and inside95
-    (of its middle, None where not measured), crps [SI] and distance (from the range over its middle, 0 inside).
+    Columns: id, string, operation, bit_depth_m, speed_m_s, rpm, flow_m3_s, weight_on_bit_N, load, unit,
+    predicted (at the calibrated values), the quantiles of ``BANDS``, reason (why there is no prediction, or none); low
+    and high of the recorded range, inside50 and inside95 (of its middle, None where not measured), crps [SI] and
+    distance (from the range over its middle, 0 inside).
 
     The readings are taken as linear in the unknowns, whose values are drawn from a normal distribution cut at their
     bounds; to each are added the source's noise, a uniform distribution as wide as its recorded ranges, and the
@@ -171,8 +172,9 @@ def predict_rows(
         table.append(
             {
                 "id": row.id, "string": row.string, "operation": row.operation, "bit_depth_m": row.bit_depth,
-                "load": reading.load, "unit": "N" if reading.load == "hookload" else "N*m", "predicted": at.value[i],
-                **bands, "reason": at.reasons.get(reading.row, "none"), "low": low, "high": high,
+                **row.does(strings[row.string]), "load": reading.load,
+                "unit": "N" if reading.load == "hookload" else "N*m", "predicted": at.value[i], **bands,
+                "reason": at.reasons.get(reading.row, "none"), "low": low, "high": high,
                 **_scores(values, bands, reading.range.middle, low, high, float(at.value[i])),
             }
         )  # fmt: skip

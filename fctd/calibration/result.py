@@ -68,8 +68,9 @@ class Calibration:
         """A row for each measured load: id, string, operation, bit_depth_m, load, low, high and fitted (SI), residual.
 
         residual : distance of the fitted reading from the range [SI], 0 within it; in_noise : over the noise; fitted is
-        NaN where the string has no loads.  used : whether it was fitted.  day, pumps and flow_m3_s as the row has them;
-        lift_N : what mud that flows takes off the load along the string.
+        NaN where the string has no loads.  used : whether it was fitted.  day and pumps as the row has them; speed_m_s,
+        rpm, flow_m3_s and weight_on_bit_N : what the string does, with the recorded flow where there is one; lift_N :
+        what mud that flows takes off the load along the string.
         """
         forward, rows = self.forward, []
         for i, reading in enumerate(forward.readings):
@@ -83,7 +84,8 @@ class Calibration:
                     "id": row.id, "string": row.string, "operation": row.operation, "bit_depth_m": row.bit_depth,
                     "load": reading.load, "low": low, "high": high, "fitted": fitted, "residual": off,
                     "in_noise": off / reading.noise, "used": reading.row in self.fit.used, "day": row.day,
-                    "pumps": row.pumps, "flow_m3_s": row.flow, "lift_N": self.fit.evaluation.lifts[reading.row],
+                    "pumps": row.pumps, **row.does(forward.strings[row.string]),
+                    "lift_N": self.fit.evaluation.lifts[reading.row],
                 }
             )  # fmt: skip
         return pd.DataFrame(rows)

@@ -30,7 +30,8 @@ from fctd.case.tables.readings import FLOW_IN, ROTATION_OF_DRIVE, TORQUE_OF_DRIV
 from fctd.case.tables.rows import read_number
 from fctd.case.units import FLOW, LENGTH, MOST_RPM, ROTATION, SPEED, Quantity
 from fctd.hydraulics.channel import has_flow_curve
-from fctd.model.operations import SteadyRates, rad_per_s, steady_rates
+from fctd.model.operations import SteadyRates, flow_of, rad_per_s, steady_rates
+from fctd.results.doing import does
 from fctd.results.unit_systems import System
 
 Load = Literal["hookload", "torque"]
@@ -116,6 +117,10 @@ class Row:
     def reading(self, load: Load) -> Range | None:
         """A reading of the row."""
         return self.hookload if load == "hookload" else self.torque
+
+    def does(self, case: Case) -> dict[str, float]:
+        """What the string of a case does in the row, as columns; a recorded flow also where it does not act."""
+        return does(case, self.operation, self.rates) | ({} if np.isnan(self.flow) else {"flow_m3_s": self.flow})
 
     @property
     def has_string(self) -> bool:
@@ -210,14 +215,16 @@ def _row(found: Measured, k: int, name: str, case: Case, *, measured: bool) -> R
 
 
 def _pumped(found: Measured, k: int, case: Case) -> float | None:
-    """The flow of a row [m³/s], None where it is that of the case's operation.
+    """The flow of a row [m³/s]: as recorded, that of the case where the pumps are on, None where neither is said.
 
     Without a flow curve it is 0: nozzles alone would take less off the hook load than what they leave out.
     """
     if not has_flow_curve(case):
         return 0.0
-    flow = found.number(k, "flow")
-    return 0.0 if np.isnan(flow) and found.rows.texts("pumps")[k] == "off" else _given(flow)
+    flow, pumps = found.number(k, "flow"), found.rows.texts("pumps")[k]
+    if np.isnan(flow) and pumps:
+        return flow_of(case) if pumps == "on" else 0.0
+    return _given(flow)
 
 
 def _range(found: Measured, row: int, load: str) -> Range | None:

@@ -18,6 +18,7 @@ from fctd.calibration.setup import PriorSpec, Setup, UnknownSpec, Written
 from fctd.case.errors import MISSING, InputError, join_key, nearest, show
 from fctd.case.friction import KINDS, Pair, changed, pairs_of
 from fctd.case.load import Case
+from fctd.case.message import quantity
 from fctd.case.units import DENSITY, FORCE, LINEAR_MASS, TORQUE, Dimension, Number, Quantity
 from fctd.model.section import section_of
 
@@ -270,11 +271,13 @@ def refuse_edited(values: Mapping[Unknown, float], case: Case, posterior: str) -
         )
         for key, has, value in zip(keys, own, expected_values, strict=False):
             if abs(has - value) > 1e-5 * abs(value) + 1e-9 * unknown.size:
-                shown = f"{value:.6g} {unknown.unit}".rstrip()
-                expected = (
-                    f"{shown}, as {posterior} beside it has with its band (--posterior names another): calibrate again"
+                asked, given = (
+                    quantity(one, unknown.unit, ".6g") if unknown.unit else f"{one:.6g}" for one in (value, has)
                 )
-                raise InputError(expected, key=key, value=f"{has:.6g} {unknown.unit}".rstrip())
+                expected = (
+                    f"{asked}, as {posterior} beside it has with its band (--posterior names another): calibrate again"
+                )
+                raise InputError(expected, key=key, value=given)
 
 
 def held(name: str, case: Case) -> list[float]:

@@ -163,6 +163,8 @@ def known_keys(table: Mapping[Any, Any], keys: Collection[str], owner: str = "")
     """The table without the keys that are None, or an InputError that names the nearest known key."""
     for key, value in table.items():
         if key not in keys:
+            if key == "units":  # in TOML a key below a table is a key of that table
+                raise InputError("it above the first table of the case file", key=key, value=value)
             word = re.sub(r"[\W_]", "", str(key)).lower()
             meant = [known for known, words in _WORDS.items() if word in words.split()]
             here, elsewhere = [known for known in meant if known in keys], [known for known in meant if "." in known]

@@ -11,9 +11,15 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, Final
 
-from fctd.case.errors import InputError
+from fctd.case.errors import MISSING, InputError
 
 LARGEST_FILE: Final = 4  # MiB of TOML: 100,000 stations written out; the reader takes some seconds for them
+# Parts of a dotted key, of which the reader keeps every beginning, and keys and tables of a text.
+MOST_PARTS: Final = 16
+MOST_KEYS: Final = 50_000
+_PART: Final = r"""(?:(?<![\w-])[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*"""
+_LONG_KEY: Final = re.compile(rf"(?:{_PART}\.[ \t]*){{{MOST_PARTS}}}")
+_TABLE: Final = re.compile(r"^[ \t]*\[[^\],\n]*\]", re.MULTILINE)
 _BINARY: Final = re.compile(r"[\x00-\x08\x0e-\x1f\x7f]")
 
 
@@ -58,6 +64,11 @@ def read_toml(path: Path, what: str) -> dict[str, Any]:
 
 def tables_of(text: str, what: str) -> dict[str, Any]:
     """The tables of a text in TOML; raises InputError as `read_toml` does."""
+    if long := _LONG_KEY.search(text):
+        row = text.count("\n", 0, long.start()) + 1
+        raise InputError(f"{what} in TOML (line {row} has a key of more than {MOST_PARTS} parts)")
+    if text.count("=") + sum(1 for _ in _TABLE.finditer(text)) > MOST_KEYS:
+        raise InputError(f"{what} in TOML with at most {MOST_KEYS:,} keys")
     try:
         return tomllib.loads(text)
     except RecursionError:
@@ -101,10 +112,14 @@ def read_bytes(path: Path, largest: int, what: str) -> bytes:
     return content
 
 
-def check_regular(path: Path) -> None:
-    """Raise InputError for a pipe or a device, OSError for a folder or a missing file."""
+def check_regular(path: Path, key: str = "") -> None:
+    """Raise InputError for a pipe or a device, OSError for a folder or a missing file.
+
+    key : of an option, which the error then names with the path.
+    """
     mode = path.stat().st_mode
     if stat.S_ISDIR(mode):
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
     if not stat.S_ISREG(mode):
-        raise InputError("a regular file (this is a pipe or a device: write its content into a file first)")
+        expected = "a regular file (this is a pipe or a device: write its content into a file first)"
+        raise InputError(expected, key=key, value=path if key else MISSING)

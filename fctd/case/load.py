@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
-from typing import Annotated, Any, Final, Self
+from typing import Annotated, Any, Final, Literal, Self
 
 from pydantic import Field, PrivateAttr, field_validator, model_validator
 
@@ -39,7 +39,7 @@ from fctd.case.raw_case import (
 from fctd.case.rig import MudSpec, RigSpec
 from fctd.case.solver import RESOLVING, RecordSpec, SolverSpec
 from fctd.case.string import StringSpec
-from fctd.case.systems import System
+from fctd.case.systems import System, system_named
 from fctd.case.wall import ContactSpec, check_friction
 
 _OF_SURVEYS: Final = (".csv", ".txt", ".tsv", ".dat", ".xlsx", ".xml")
@@ -84,6 +84,11 @@ class Case(Table):
         return f"Case({self.name!r})" if self.file is None else f"Case({self.name!r}, file={str(self.file)!r})"
 
     __str__ = __repr__
+
+    @field_validator("units", mode="before", json_schema_input_type=Literal["si", "metric", "field"] | None)
+    @classmethod
+    def _read_units(cls, raw: Any) -> Any:
+        return None if raw is None else system_named(raw)
 
     @field_validator("operations", mode="before")
     @classmethod
@@ -234,6 +239,11 @@ class Case(Table):
     def written(self) -> Mapping[str, Any]:
         """The tables as the user wrote them, without stations; of a case from no file those that were given."""
         return self._written.raw or self.model_dump(exclude_unset=True, exclude={"file"})
+
+    def text_of(self, key: str) -> str | None:
+        """The text that the user wrote for a key, None for a bare number and for a key that he left out."""
+        written = look_up(self._written.raw, *split_key(key))
+        return written if isinstance(written, str) else None
 
     def quoting(self, error: InputError) -> InputError:
         """The error with the value as the user wrote it, where the error is about a key that he wrote."""

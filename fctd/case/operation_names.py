@@ -14,13 +14,15 @@ _NAMES: Final[Mapping[str, tuple[str, ...]]] = {
     "trip_in": ("slack-off", "SO", "S/O", "down", "running in", "RIH"),
     "trip_out": ("pick-up", "PU", "P/U", "up", "pulling out", "POOH"),
     "rotate_off_bottom": ("rotating", "ROT", "ROB"),
+    "back_ream": ("reaming out",),
+    "ream_in": ("reaming down",),
     "drill_rotating": ("rotary drilling",),
     "drill_sliding": ("slide drilling",),
 }
 # Words of several kinds, and which.
 _SEVERAL: Final = {
     "drilling": "drill_rotating or drill_sliding",
-    "reaming": "back_ream, or trip_in with a rotation (rpm) downwards",
+    "reaming": "back_ream or ream_in",
     "tripping": "trip_in or trip_out",
 }
 USUAL: Final = ("pick-up", "slack-off", "rotating", "PU", "SO", "ROT")  # in help and messages

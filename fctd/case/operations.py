@@ -18,7 +18,8 @@ class _Operation(Table):
     start_key, end_key : names of the first and the last depth in the file.  label : the kind in the driller's words.
     direction : of the string along the hole, 1 down, −1 up, 0 at rest.  on_bottom : whether the bit carries weight
     and torque.  default_speed [m/s], default_rpm : rates of a steady string where neither call nor case gives any.
-    turns : whether the string must rotate; may_turn : whether it may rotate.  flow : of mud that is pumped [m³/s].
+    turns : whether the string must rotate, as its name says; may_turn : whether it may, where an operation of a case
+    says so.  flow : of mud that is pumped [m³/s].
     """
 
     start_key: ClassVar[str]
@@ -114,6 +115,18 @@ class BackReam(_Move):
     rpm: units.PositiveRpm
 
 
+class ReamIn(_Move):
+    """The string moves into the hole and rotates."""
+
+    kind: Literal["ream_in"]
+    label = "reaming in"
+    direction = 1
+    default_speed = 0.1
+    default_rpm = 60.0
+    turns = True
+    rpm: units.PositiveRpm
+
+
 class DrillRotating(_Move):
     """The bit drills on bottom and the string rotates; `speed` is the rate of penetration."""
 
@@ -139,7 +152,7 @@ class DrillSliding(_Move):
     rpm: ClassVar[float] = 0.0
 
 
-Operation = TripIn | TripOut | RotateOffBottom | BackReam | DrillRotating | DrillSliding
+Operation = TripIn | TripOut | RotateOffBottom | BackReam | ReamIn | DrillRotating | DrillSliding
 KINDS: Final[dict[str, type[Operation]]] = {
     get_args(kind.model_fields["kind"].annotation)[0]: kind for kind in get_args(Operation)
 }

@@ -115,8 +115,14 @@ def _of_intervals(raw: Mapping[str, Any], value: Any) -> Iterator[tuple[int, Any
     if not isinstance(value, Mapping):
         yield from enumerate([value] * count)
         return
-    picked = pick(value, [look_up(raw, "wellbore", "intervals", i, "kind") for i in range(count)])
+    picked = pick(value, [_kind_of(look_up(raw, "wellbore", "intervals", i)) for i in range(count)])
     yield from ((i, factor) for i, factor in enumerate(picked) if factor is not None)
+
+
+def _kind_of(interval: object) -> object:
+    """The kind of an unvalidated interval, MISSING without one; casing of the catalogue is cased."""
+    kind = look_up(interval, "kind")
+    return "cased" if kind is MISSING and look_up(interval, "casing") is not MISSING else kind
 
 
 def _set_friction(raw: dict[str, Any], i: int, factor: object) -> None:
@@ -155,6 +161,7 @@ _LENGTHS: Final = {
         "length", "outer_diameter", "inner_diameter", "contact_diameter", "segment_length",
     ),
     ("operations",): ("at_md", "from_md", "to_md"),
+    ("rig",): ("stand_length", "derrick_height", "slip_length", "surface_length", "surface_bore"),
 }  # fmt: skip
 _FIELD: Final = re.compile(r"(?:ft|feet|foot|in|inch|inches|'|\"|″|′)\.?\s*$", re.IGNORECASE)
 
@@ -163,15 +170,16 @@ def bare_lengths(raw: Mapping[str, Any]) -> list[str]:
     """Keys of lengths without a unit, where most lengths are in feet and inches and none in SI."""
     bare, field_units = [], 0
     for path, keys in _LENGTHS.items():
-        tables = look_up(raw, *path)
-        for i, table in enumerate(tables if isinstance(tables, list) else ()):
+        found = look_up(raw, *path)
+        tables = {join_key(*path, i): of for i, of in enumerate(found)} if isinstance(found, list) else {path[0]: found}
+        for place, table in tables.items():
             for key in keys:
                 value = look_up(table, key)
                 if isinstance(value, str) and not _FIELD.search(value):
                     return []
                 field_units += isinstance(value, str)
                 if isinstance(value, int | float) and value:
-                    bare.append(join_key(*path, i, key))
+                    bare.append(f"{place}.{key}")
     stations = look_up(raw, "wellbore", "stations")
     depths = [look_up(station, 0) for station in stations] if isinstance(stations, list) else []
     if any(isinstance(depth, int | float) and depth for depth in depths):

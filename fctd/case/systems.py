@@ -9,12 +9,26 @@ from dataclasses import dataclass
 from typing import Final, Literal, NamedTuple, get_args
 
 from fctd.case import units
+from fctd.case.errors import InputError
 from fctd.case.message import Message, Numbers
 from fctd.case.units import Dimension
 
 System = Literal["si", "field"]
 SYSTEMS: Final[tuple[System, ...]] = get_args(System)
 SIGNS: Final = {"*": "·", "^2": "²", "^3": "³", "hsqft": "(100 ft²)", "degF": "°F"}
+
+
+def system_named(word: object) -> System:
+    """The system of units that a word is of, in small letters or capitals; "metric" units are those of SI.
+
+    Raises InputError for another.
+    """
+    plain = word.strip().lower() if isinstance(word, str) else word
+    if plain in ("si", "metric"):
+        return "si"
+    if plain == "field":
+        return "field"
+    raise InputError('"si" or "metric" (m, kN, kN·m), or "field" (ft, klbf, kft·lbf)', value=word)
 
 
 class Shown(NamedTuple):
@@ -89,6 +103,8 @@ BIT_TORQUE: Final = Kind(units.TORQUE, ("kN*m", "ft*lbf"))  # as a new case has 
 FORCE_PER_LENGTH: Final = Kind(
     Dimension("a force per length", "N/m", "'1 kN/m'", ("N/m", "kN/m", "lbf/ft")), ("kN/m", "lbf/ft")
 )
+STIFFNESS: Final = Kind(units.STIFFNESS, ("N/m", "lbf/ft"))
+STIFFNESS_PER_LENGTH: Final = Kind(units.STIFFNESS_PER_LENGTH, ("N/m/m", "lbf/ft/ft"))
 STRESS: Final = Kind(units.STRESS, ("MPa", "ksi"), (1, 1), also=("GPa",))
 PRESSURE: Final = Kind(units.PRESSURE, ("bar", "psi"), (1, 0), also=("Pa",))
 STRENGTH: Final = Kind(units.PRESSURE, ("MPa", "psi"), (1, 0))  # pressures that a pipe of the catalogue bears

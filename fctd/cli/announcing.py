@@ -47,7 +47,7 @@ def announcing(messages: Console = messages) -> Iterator[None]:
     def first(_: str = "") -> None:
         nonlocal said
         if not said and messages.is_terminal:
-            messages.print("compiling, once for this version: about half a minute", highlight=False)
+            messages.print("compiling, once for this version: about a minute", highlight=False)
         said = True
 
     others = warnings.showwarning

@@ -36,6 +36,7 @@ from fctd.cli.options import (
 )
 from fctd.cli.pictures import DRAWN, TABLES
 from fctd.cli.steady import file_option, metadata_of_case
+from fctd.results.doing import clauses
 from fctd.results.shown_tables import Head, shown_table
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, in_words, shown_unit
@@ -188,6 +189,7 @@ def print_calibration(found: Calibration, units: System) -> None:
             name, f"{row['load']}, {label}", measured, f"{row['fitted'] * factor:z.1f}",
             f"{row['residual'] * factor:z.1f}", f"{row['in_noise']:z.1f}", alone,
         ])  # fmt: skip
+    screen.print("; ".join(clauses(rows_of(found.residuals), units)), soft_wrap=True)
     _print(["row", "load", *right("measured", "fitted", "off", "off/noise", "left out")], rows)
     left = "row" if found.scattered is None else "rows of its day"
     screen.print(f"off: beyond the recorded range; left out: predicted by a fit without the {left}", soft_wrap=True)
@@ -228,7 +230,7 @@ def print_factors(found: Calibration) -> None:
 def _pumps(row: Mapping[Any, Any], units: System) -> str:
     """What a row says of pumps and flow, in brackets."""
     said = [f"pumps {row['pumps']}"] if row["pumps"] else []
-    if not np.isnan(row["flow_m3_s"]):
+    if row["flow_m3_s"] > 0:
         said.append(in_words(row["flow_m3_s"], "flow_m3_s", units))
     return f" ({', '.join(said)})" if said else ""
 
@@ -249,6 +251,7 @@ def print_prediction(table: pd.DataFrame, units: System) -> None:
         rows.append([
             row["id"], f"{row['load']}, {label}", f"{row['predicted'] * factor:z.1f}", *bands, measured, inside
         ])  # fmt: skip
+    screen.print("; ".join(clauses(rows_of(table), units)), soft_wrap=True)
     _print(["row", "load", *right("predicted", "50 %", "95 %", "measured"), "inside"], rows)
     for name, reason in (
         table[table["reason"] != "none"].drop_duplicates("id")[["id", "reason"]].itertuples(index=False)

@@ -14,7 +14,7 @@ from fctd.calibration.measured import read_measured
 from fctd.case.errors import InputError
 from fctd.case.friction import parse_frictions
 from fctd.case.load import Case, with_friction
-from fctd.cli.chart_table import print_chart
+from fctd.cli.chart_table import print_chart, title_of
 from fctd.cli.job import Job
 from fctd.cli.keeping import (
     EVERY_CHART,
@@ -184,11 +184,12 @@ def _chart(
             return draw_profiles(path, strings, units=units, **look)
 
         def show_all() -> None:
-            print_chart(rows, case.name, units, asked.load or usual_load([case]))
+            print_chart(rows, units, asked.load or usual_load([case]))
             print_segments(case, last, units)
 
         job.end(
-            {"--out": rows, "--plot": draw, "--plot-profile": draw_last}, show_all, title="", rates=(kinds, drive),
+            {"--out": rows, "--plot": draw, "--plot-profile": draw_last}, show_all,
+            title=title_of(rows, case.name, units), rates=(kinds, drive),
             notes=(row["notes"] for row in rows), then=lambda: None if kept is None else kept.folder.clear(),
             acceptable=all(SteadyStatus(status).acceptable for status in {row["status"] for row in rows}),
         )  # fmt: skip

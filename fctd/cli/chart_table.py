@@ -9,7 +9,7 @@ import numpy as np
 
 from fctd.case.message import Message, within
 from fctd.case.systems import told
-from fctd.case.text import counted, printable
+from fctd.case.text import counted
 from fctd.cli.job import FOLD, WHOLE, Looks, headed, print_table
 from fctd.cli.options import messages, screen
 from fctd.plots.loads import LOAD_COLUMNS, Load
@@ -27,7 +27,17 @@ SCREEN_ROWS = 36
 SHOWN = [column for column in (DEPTH, *IN_CHART) if column.heading]
 
 
-def print_chart(rows: list[Row], name: str, units: System, load: Load) -> None:
+def title_of(rows: Sequence[Row], name: str, units: System) -> str:
+    """The title of a chart: one set of factors, which may be a long text, stands above the table."""
+    frictions = _frictions(rows, units)
+    return name if len(frictions) > 1 else f"{name}; {in_words(frictions[0])}"
+
+
+def _frictions(rows: Sequence[Row], units: System) -> list[str]:
+    return list(dict.fromkeys(told(row[FRICTION_LABEL], units) for row in rows))
+
+
+def print_chart(rows: list[Row], units: System, load: Load) -> None:
     """Print a table that fits the screen, and a line for each run of rows with another status or a note.
 
     load : that it shows, of the string or with the block.
@@ -37,9 +47,7 @@ def print_chart(rows: list[Row], name: str, units: System, load: Load) -> None:
     series: dict[tuple[str, str], list[Row]] = {}
     for row in rows:
         series.setdefault((row["operation"], told(row[FRICTION_LABEL], units)), []).append(row)
-    frictions = list(dict.fromkeys(friction for _, friction in series))
-    fan = len(frictions) > 1  # one set of factors, which may be a long text, stands above the table
-    screen.print(printable(name if fan else f"{name}; {in_words(frictions[0])}"), style="bold", soft_wrap=True)
+    fan = len(_frictions(rows, units)) > 1
     buckled = not all(np.isnan(row["buckled_from_md_m"]) for row in rows)
     heads = headed({column.name: column.heading or load for column in columns}, units)
     heads += [Head("buckled", units_of[DEPTH.name].label, numbers=False)] * buckled

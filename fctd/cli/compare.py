@@ -9,6 +9,7 @@ import typer
 
 from fctd.answers.comparison import FEWEST, compare, names_of
 from fctd.answers.steady import chart
+from fctd.case import message
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionSet, parse_frictions
 from fctd.case.load import SAME_DEPTH, Case, naming_file, with_friction
@@ -142,7 +143,7 @@ def _depths(given: Given, cases: Mapping[str, Case], units: System) -> tuple[dic
             wanted = given.depths(case, units)
             found[name] = [depth for depth in wanted if depth <= case.deepest + SAME_DEPTH]
             if not found[name]:
-                expected = f"a depth that its string reaches, at most {case.deepest:g} m"
+                expected = f"a depth that its string reaches, at most {message.quantity(case.deepest, 'm')}"
                 raise InputError(expected, key="--depths", value=given.text)
         if len(found[name]) < len(wanted):
             end = f"{case.deepest * metre.factor:.10g} {metre.label}"

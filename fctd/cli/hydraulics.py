@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Final
 import numpy as np
 import typer
 
+from fctd.case import message
 from fctd.case.errors import InputError
 from fctd.case.load import Case, naming_file
 from fctd.case.message import frame_of
@@ -20,6 +21,7 @@ from fctd.cli.quantities import PENETRATION, TO_TOTAL_DEPTH, Given, QuantityOpti
 from fctd.cli.steady import file_option
 from fctd.hydraulics.cuttings import Cuttings
 from fctd.hydraulics.pressures import SHARE, Circulation, Eccentricity, circulations
+from fctd.model.operations import flow_of
 from fctd.results.case_facts import flow_curves
 from fctd.results.shown_tables import Fact, Head, Table, facts, short, shown_table
 from fctd.results.unit_systems import System, in_words, shown
@@ -104,7 +106,7 @@ def hydraulics_command(
     if penetration is not None:
         cuttings = Cuttings(penetration.si(units), cuttings_size.si(units), cuttings_density.si(units))
         if cuttings.density <= case.mud.densest:
-            heavier = f"a density above the mud's, {case.mud.densest:g} kg/m^3"
+            heavier = f"a density above the mud's, {message.quantity(case.mud.densest, 'kg/m^3')}"
             raise InputError(heavier, key="--cuttings-density", value=cuttings_density.text)
     job.warn(flow=pumped[0])
     with naming_file(case), job.bar() as show:
@@ -138,7 +140,7 @@ def read_eccentricity(text: str | None, case: Case) -> Eccentricity:
 def _flows(given: Sequence[Given], case: Case, units: System) -> list[float]:
     """The flows of ``--flow`` [m³/s]; else the largest of the operations."""
     found = several(given, units)
-    largest = max((operation.flow for operation in case.operations), default=0.0)
+    largest = flow_of(case)
     if not found and not largest:
         raise InputError("a flow such as '2000 L/min', as no operation of the case has one", key="--flow")
     return found or [largest]

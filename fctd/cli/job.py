@@ -24,7 +24,9 @@ from fctd.cli.options import changes_of, finish, messages, print_written, read_c
 from fctd.cli.pictures import PICTURES, TABLES, File, check_files
 from fctd.cli.quantities import DEPTHS, Given, quantity
 from fctd.cli.steady import DEPTHS_HELP, in_units, metadata_of, metadata_of_case
+from fctd.model.operations import rates_of_all
 from fctd.results.differences import in_a_row
+from fctd.results.doing import told_of
 from fctd.results.notes import meanings_of
 from fctd.results.shown_tables import Cell, Head, Table, short
 from fctd.results.table_files import write_table
@@ -147,8 +149,8 @@ class Job:
         """Write files, print, and end the command.
 
         files : by option, a table or what writes to a path.  title : above what is printed; default: the case's name.
-        rates : operations and their drive, of which tables tell; more : metadata.  notes : cells of codes, whose
-        meanings tables have too; codes : of other notes.  then : called once all is written.
+        rates : operations and their drive, of which tables tell, and a line above them; more : metadata.  notes :
+        cells of codes, whose meanings tables have too; codes : of other notes.  then : called once all is written.
         """
         meanings = {} if notes is None else meanings_of(notes)
         about = (more or {}) | ({} if notes is None else {"notes": meanings})
@@ -166,6 +168,8 @@ class Job:
             if not self.silent:
                 if title is None or title:
                     screen.print(printable(title or self.case.name), style="bold", soft_wrap=True)
+                if rates is not None:
+                    self._say_doing(*rates)
                 show()
         if not self.silent:
             print_written(written)
@@ -175,6 +179,19 @@ class Job:
         """Print lines."""
         for line in lines:
             screen.print(line, soft_wrap=True)
+
+    def _say_doing(self, kinds: Sequence[str], drive: Row) -> None:
+        """Print what the strings of a table do: once where it is the same in all cases, else for each.
+
+        kinds, drive : operations, and their speed, rpm and flow where they are given.
+        """
+        lines = {
+            name: told_of(case, rates_of_all(case, kinds, **drive), self.units) for name, case in self.cases.items()
+        }
+        if len({tuple(of) for of in lines.values()}) == 1:
+            lines = {"": next(iter(lines.values()))}
+        for name, of in lines.items():
+            self.say(*(f"{printable(name)}: {line}" if name else line for line in of))
 
     def words(self, row: Row, column: str) -> str:
         """A number of a row with its unit."""

@@ -30,11 +30,11 @@ if TYPE_CHECKING:
     import pandas as pd
 
 SCREEN_ROWS = 24  # of a margin
-# Of each margin, in words, and the columns of what is added at the bit, of the load at the limit and of what is left.
+# Of each margin, in words, and the columns of the load at the bit, of that at the hook and of what is left.
 SHOWN: Final = {
     OVERPULL: ("pull on a stuck bit", "force_at_bit_N", "hookload_N", "hookload_left_N"),
-    SET_DOWN: ("more weight on the bit", "force_at_bit_N", "hookload_N", "hookload_left_N"),
-    TORQUE: ("more torque at the bit", "torque_at_bit_N_m", "surface_torque_N_m", "surface_torque_left_N_m"),
+    SET_DOWN: ("weight on the bit", "force_at_bit_N", "hookload_N", "hookload_left_N"),
+    TORQUE: ("torque at the bit", "torque_at_bit_N_m", "surface_torque_N_m", "surface_torque_left_N_m"),
     SLIPS: ("weight in the slips", "", "hookload_N", "hookload_left_N"),
 }
 # The same of pipe that is stuck above its bit.
@@ -71,11 +71,12 @@ def limits_command(
     drive = read_drive(speed, rpm, flow, units)
     stuck = None if stuck_at is None else stuck_at.depth(job.case, units)
     job.warn(kinds, **drive)
+    pumps: dict[str, float] = {} if stuck is None else {"flow": 0.0}  # of a string that is stuck they stand
     with job.bar() as show:
         table = limits_of(job.case, kinds, bit_depths, **drive, stuck_at=stuck, progress=show)
     meanings = {code: MEANINGS[code] for code in table["limit"].unique() if code in MEANINGS}
     job.end(
-        {"--out": table}, lambda: _print(job, table), rates=(kinds, drive),
+        {"--out": table}, lambda: _print(job, table), rates=(kinds, drive | pumps),
         more={"stuck_at_m": stuck, "limits": meanings}, acceptable=bool((table["margin"] != "none").all()),
         codes=_beyond(table),
     )  # fmt: skip

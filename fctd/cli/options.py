@@ -14,7 +14,7 @@ from fctd.case.friction import parse_frictions
 from fctd.case.input_warnings import InputWarning
 from fctd.case.load import Case, load_case, read_raw
 from fctd.case.raw_case import parse_override
-from fctd.case.systems import told
+from fctd.case.systems import system_named, told
 from fctd.case.text import printable, printable_lines
 from fctd.results.notes import Note
 from fctd.results.tables import open_result, own_files
@@ -54,10 +54,10 @@ screen, messages = Terminal(), Terminal(stderr=True)
 
 def _system(text: str) -> System:
     """The system of units that a word of an option is of; metric units are those of SI."""
-    word = text.strip().lower()
-    if word not in ("si", "metric", "field"):
-        raise typer.BadParameter(f"{text!r} is not si (or metric: m, kN, kN·m) or field (ft, klbf, kft·lbf)")
-    return "field" if word == "field" else "si"
+    try:
+        return system_named(text)
+    except InputError as error:
+        raise typer.BadParameter(f"{text!r}: expected {error.expected}") from None
 
 
 def units_option(what: str, default: str = "the case's units, else si") -> typer.models.OptionInfo:
@@ -97,7 +97,8 @@ def _named(path: Path, overrides: Sequence[str]) -> System:
             raw = read_raw(path)
             case, changes = raw.get("case", raw), {**raw.get("set", {}), **dict(map(parse_override, overrides))}
             tables = {**(read_raw(path.parent / case) if isinstance(case, str) else case), **changes}
-    return "field" if tables.get("units") == "field" else "si"
+        return system_named(tables.get("units"))
+    return "si"
 
 
 CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML).", show_default=False)]

@@ -7,11 +7,12 @@ from typing import Any, Final
 
 import typer
 
+from fctd.case import message
 from fctd.case.errors import InputError
 from fctd.case.load import Case, check_bit_depth, naming_file
 from fctd.case.spellings import split
 from fctd.case.systems import FORCE, LENGTH, ROP, TORQUE, Kind, System
-from fctd.case.units import typed
+from fctd.case.units import LikelyUnit, typed, unit_hint
 from fctd.model.depths import read_depth, read_depths
 
 # Who types a bare number seldom means newtons: a force or a torque has its unit.
@@ -23,13 +24,14 @@ class QuantityOption:
     """An option that takes a quantity.
 
     name : with its dashes.  kind : with the units of a bare number.  above : 0 where 0 is refused.  at_most : largest
-    value [SI].
+    value [SI].  likely_units : that a bare SI number beyond it may be in.
     """
 
     name: str
     kind: Kind
     above: float | None = None
     at_most: float | None = None
+    likely_units: tuple[LikelyUnit, ...] = ()
 
     def parse(self, text: "str | Given") -> "Given":
         """What was typed; it is read once the system of units is known."""
@@ -45,7 +47,9 @@ class QuantityOption:
         if self.above is not None and value <= self.above:
             raise InputError(f"{dimension.noun} above {self.above:g}", key=self.name, value=text)
         if self.at_most is not None and value > self.at_most:
-            most = f"{dimension.noun} of at most {self.at_most:g} {dimension.unit}"
+            most = f"{dimension.noun} of at most {message.quantity(self.at_most, dimension.unit)}"
+            if is_number(text) and bare == dimension.unit:
+                most += unit_hint(float(text), self.likely_units)
             raise InputError(most, key=self.name, value=text)
         return value
 

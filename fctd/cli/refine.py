@@ -79,7 +79,8 @@ def refine_command(
         {"--out": partial(write_refined, refined, case_file, job.changes) if found else None},
         lambda: _print(job, refined, graded, lacking=out is not None and not found),
         title=f"{job.case.name}: bit at {job.depth(refined.bit_depth)}",
-        acceptable=refined.status.acceptable, codes=(note.code for note in refined.notes),
+        rates=(refined.steps["operation"].unique().tolist(), drive), acceptable=refined.status.acceptable,
+        codes=(note.code for note in refined.notes),
     )  # fmt: skip
 
 

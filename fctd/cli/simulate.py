@@ -62,6 +62,7 @@ from fctd.simulation.preparation import LONGEST_SETTLING
 from fctd.simulation.run_saver import RunSaver
 from fctd.simulation.simulate import simulate
 from fctd.store.run_folder import RunFolder
+from fctd.store.whole_file import writing
 
 ShownUnits = Annotated[System, units_option("Units of screen and CSV files; the Parquet files are in SI units")]
 
@@ -142,7 +143,9 @@ def simulate_file(
     with begun_folder(folder, "--out", restart=keeping.restart) as kept:
         identity = uuid4().hex
         options = to_keep(shown, shown.units) | dict(more or {})
-        kept.describe(*description_of(case, program, "simulate", options, identity))
+        described = description_of(case, program, "simulate", options, identity)
+        with writing(kept.path):
+            kept.describe(*described)
         _compute(case, folder, method, shown, keeping, kept, identity)
 
 

@@ -9,13 +9,14 @@ import typer
 
 from fctd.case.errors import InputError
 from fctd.case.systems import SPEED, told
+from fctd.case.units import FASTEST as MOST_SPEED
 from fctd.cli.hydraulics import Beside, read_eccentricity
 from fctd.cli.job import FOLD, Depths, Job, headed, numbers, print_facts, print_table, rows_of
 from fctd.cli.options import CaseFile, Overrides, Quiet, Strict, Units, screen
 from fctd.cli.pictures import PICTURE_HELP, TABLES, draw_panels
 from fctd.cli.quantities import TO_TOTAL_DEPTH, Given, QuantityOption, quantity, several
 from fctd.cli.steady import file_option
-from fctd.hydraulics.surge import ENDS, FASTEST, TRIPS, fastest_trips, surge_pressures
+from fctd.hydraulics.surge import A_MINUTE, ENDS, FASTEST, TRIPS, fastest_trips, surge_pressures
 from fctd.results.case_facts import flow_curves
 from fctd.results.shown_tables import shown_table
 from fctd.results.unit_systems import System, shown
@@ -32,7 +33,7 @@ SURGES: Final = {
 TRIPPED: Final = {"bit_depth_m": "bit", "fastest_m_s": "fastest", "md_m": "limit at"}
 
 
-USUAL: Final = QuantityOption("--speed", SPEED).parse("0.5 m/s")
+USUAL: Final = QuantityOption("--speed", SPEED, at_most=MOST_SPEED, likely_units=A_MINUTE).parse("0.5 m/s")
 MOST: Final = QuantityOption("--most", SPEED).parse(f"{FASTEST:g} m/s")
 
 

@@ -18,6 +18,7 @@ from fctd.cli.pictures import DRAWN, check_files
 from fctd.cli.quantities import Given, QuantityOption, quantity, si
 from fctd.cli.steady import file_option
 from fctd.cli.sweep import SweepFile
+from fctd.results.doing import clauses
 from fctd.results.shown_tables import shown_table
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System, in_field_units, long_in_field_units, shown, shown_if_any
@@ -138,6 +139,8 @@ def _figures(
 def _print(found: Uncertainty, units: System) -> None:
     """Print percentiles at the last depth, the probabilities of events anywhere, and the influences."""
     screen.print(f"{printable(found.spec.name)}: {counted(found.rows['sample'].nunique(), 'sample')}", style="bold")
+    if "flow_m3_s" in found.rows:  # else rows of runs and of searches for segments
+        screen.print("; ".join(clauses(rows_of(found.rows), units)), soft_wrap=True)
     _print_percentiles(found, units)
     anywhere = found.probabilities[found.probabilities["bit_depth_m"].isna()]
     rows: list[list[Any]] = [

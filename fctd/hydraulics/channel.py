@@ -1,6 +1,6 @@
 """What the mud of a laid-out string flows through, and its losses there at a flow out of the bit.
 
-Tool joints that are not laid out as segments of their own do not narrow the annulus.
+Tool joints that are not laid out as segments of their own narrow neither annulus nor bore.
 """
 
 import math
@@ -192,11 +192,11 @@ def channel_of(case: Case, string: String, hole: Wellbore, eccentricity: float |
     n, length, wide = string.segments, string.length, hole_radius(hole, string.top_md, string.length)
     inside, outside = flow_curves(case, string)
     densities = string.densities or (case.mud.density, case.mud.density)
-    bottom, outer = string.top_md + np.cumsum(length), string.of("outer")
-    bladed = (string.of("point") != 0) & (outer > BLADED * wide)
+    bottom, (outer, inner) = string.top_md + np.cumsum(length), string.channel_radii
+    bladed = (string.of("point") != 0) & (string.of("tool_joint") == 0) & (outer > BLADED * wide)
     wet = np.where(bladed, 0.0, np.clip(bottom, 0.0, length))
     around = (np.minimum(outer, FULLEST * wide), wide, eccentricity, *outside, densities[1])
-    within = (string.of("inner"), *inside, densities[0])
+    within = (inner, *inside, densities[0])
     return Channel(
         string.above_bit, length, wet, _table(n, around), _table(n, within),
         _tools(string, densities[0]), (case.bit.nozzle_area or np.inf, case.bit.discharge**-2),

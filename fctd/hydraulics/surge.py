@@ -34,7 +34,7 @@ FASTEST: Final = 2.0  # [m/s]: trips are not faster than the hoist
 SLOWEST: Final = 1e-3  # [m/s]: what is slower is no trip
 PLACES: Final = 200  # along the open hole, at which the window is looked at
 HALVINGS: Final = 20  # of the range of speeds
-_A_MINUTE: Final = (LikelyUnit(10, 120, " m/min"),)
+A_MINUTE: Final = (LikelyUnit(10, 120, " m/min"),)
 
 
 @dataclass(frozen=True)
@@ -106,7 +106,7 @@ def trips_at(
 
 def surge_pressures(
     case: Case,
-    speeds: Sequence[float | str],
+    speeds: float | str | Sequence[float | str],
     bit_depths: float | str | Sequence[float | str] = (),
     operation: str | Sequence[str] = TRIPS,
     end: str | Sequence[str] = (),
@@ -129,10 +129,11 @@ def surge_pressures(
         11.5
     """
     with naming_file(case):
-        rates = [argument(speed, SPEED, "speeds") for speed in speeds]
-        for speed, rate in zip(speeds, rates, strict=True):
+        given = [speeds] if isinstance(speeds, str | float | int) else list(speeds)
+        rates = [argument(speed, SPEED, "speeds") for speed in given]
+        for speed, rate in zip(given, rates, strict=True):
             if not 0 <= rate <= units.FASTEST:
-                hint = unit_hint(rate, _A_MINUTE)
+                hint = "" if isinstance(speed, str) else unit_hint(rate, A_MINUTE)
                 raise InputError(f"a speed of 0 to {quantity(units.FASTEST, 'm/s')}{hint}", key="speeds", value=speed)
         asked = _asked(case, bit_depths, operation, end, eccentricity)
         rows: list[Row] = []

@@ -9,8 +9,8 @@ from fctd.mechanics.jit import entry, inlined, kernel
 TWO_PLACES = 0.1
 # Largest half angle between two normals [rad]: sides of a groove that face each other would hold the disc by any force.
 STEEPEST = 1.45
-# Halvings of the angle between two directions in which the corner lies.
-HALVINGS = 12
+# Halvings of the angle between two directions in which the corner lies; parabolas that find the place of contact.
+HALVINGS, PARABOLAS = 12, 3
 # So many angles to both sides may be touched next, as the direction changes.
 NEAR = 4
 # Points of a wall whose radii differ by this share are those of an edge, which the disc touches itself.
@@ -65,29 +65,30 @@ def way_to(wall, row, place, angle, radius):
 
 
 @inlined
-def place_near(wall, row, at, angle, radius):
-    """Way until a disc touches near the number of an angle, in a direction [rad], and the number that it touches."""
+def touch_near(wall, row, at, angle, radius):
+    """Where a disc on its way in a direction [rad] touches the wall near the number of an angle.
+
+    It touches at the least of the ways, which parabolas through three of them find.  Returns the way [m], the number of
+    the angle that is next to the place, and the angle of the normal there [rad].
+    """
     least, found = np.inf, at
     for k in range(at - NEAR, at + NEAR + 1):
         way, _, _ = way_to(wall, row, float(k), angle, radius)
         if way < least:
             least, found = way, k
-    return least, found
-
-
-@inlined
-def normal_at(wall, row, at, angle, radius):
-    """Angle of the normal [rad] where a disc touches near the number of an angle: at the least of three ways."""
-    before, _, _ = way_to(wall, row, at - 1.0, angle, radius)
-    here, _, _ = way_to(wall, row, float(at), angle, radius)
-    after, _, _ = way_to(wall, row, at + 1.0, angle, radius)
-    bend = before - 2 * here + after
     count = wall.shape[1]
-    own = wall[row, at % count]
-    is_smooth = max(abs(wall[row, (at - 1) % count] - own), abs(wall[row, (at + 1) % count] - own)) < EDGE * own
-    t = 0.5 * (before - after) / bend if is_smooth and 0 < bend < np.inf else 0.0
-    way, aside, ahead = way_to(wall, row, at + min(max(t, -0.5), 0.5), angle, radius)
-    return angle + np.arctan2(aside, ahead - way)
+    own = wall[row, found % count]
+    is_smooth = max(abs(wall[row, (found - 1) % count] - own), abs(wall[row, (found + 1) % count] - own)) < EDGE * own
+    place, h = float(found), 1.0
+    for _ in range(PARABOLAS if is_smooth else 0):
+        before, _, _ = way_to(wall, row, place - h, angle, radius)
+        here, _, _ = way_to(wall, row, place, angle, radius)
+        after, _, _ = way_to(wall, row, place + h, angle, radius)
+        bend = before - 2 * here + after
+        t = 0.5 * (before - after) / bend if 0 < bend < np.inf else 0.0
+        place, h = place + h * min(max(t, -0.5), 0.5), 0.25 * h
+    way, aside, ahead = way_to(wall, row, place, angle, radius)
+    return way, found, angle + np.arctan2(aside, ahead - way)
 
 
 @kernel
@@ -100,13 +101,15 @@ def corner(wall, row, q, first, second, radius):
     low, high = (q - 0.25) * step, (q + 1.25) * step  # in one of the two the disc may touch both
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
-        one, one_at = place_near(wall, row, first, middle, radius)
-        other, other_at = place_near(wall, row, second, middle, radius)
+        one, one_at, _ = touch_near(wall, row, first, middle, radius)
+        other, other_at, _ = touch_near(wall, row, second, middle, radius)
         if one <= other:
             low, first = middle, one_at
         else:
             high, second = middle, other_at
-    return normal_at(wall, row, first, low, radius), normal_at(wall, row, second, high, radius)
+    _, _, one_normal = touch_near(wall, row, first, low, radius)
+    _, _, other_normal = touch_near(wall, row, second, high, radius)
+    return one_normal, other_normal
 
 
 @entry

@@ -16,6 +16,7 @@ from fctd.mechanics.friction import (
     approach,
     factor_around,
     limit_around,
+    net_of,
     normal_impulse,
     turning_limit,
     wall_normal,
@@ -24,7 +25,7 @@ from fctd.mechanics.given_loads import count_given, push_given
 from fctd.mechanics.jit import entry, inlined
 from fctd.mechanics.joints import bend_housings, update_joint_loads
 from fctd.mechanics.laws import LAWS, dispatch
-from fctd.mechanics.own_contact import held_by_bows
+from fctd.mechanics.own_contact import held_by_bows, radius_of
 from fctd.mechanics.readings import read_step
 from fctd.mechanics.rock import NO_ROCK
 from fctd.mechanics.rotations import rotation_columns, turned
@@ -197,11 +198,12 @@ def touch_wall(S, j, u, v, w, a, b, c, friction_impulse, laws, dt):
     u, v, w, a, b = u - h * nx, v - h * ny, w - k * nz, a + q * ny, b - q * nx
     limit = laws.friction_scale * S[FRICTION + j] * normal
     around = limit_around(laws.orthotropic, laws.friction_scale, factor_around(S, j, laws.orthotropic), normal)
-    du, dv, dw, da, db, dc = friction_impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit, around)
+    radius, net = radius_of(laws.bows, S, j, penetration), net_of(laws.corners, S, j)
+    du, dv, dw, da, db, dc = friction_impulse(S, j, radius, net, u, v, w, a, b, c, nx, ny, nz, limit, around)
     u, v, w, a, b, c = brake(S, j, u + du, v + dv, w + dw, a + da, b + db, c + dc, laws, dt)
     m, jt, ja = S[MASS + j], S[J_TRANSVERSE + j], S[J_AXIAL + j]
     S[SUM_NORMAL + j] += normal
-    S[SUM_R_MU_N + j] += S[RADIUS + j] * turning_limit(limit, around)
+    S[SUM_R_MU_N + j] += radius * turning_limit(limit, around)
     S[SUM_FRICTION_TORQUE + j] -= ja * dc
     S[LOST_CONTACT + j] += damper * approach(S, j, u, v, w, a, b, nx, ny, nz)
     S[LOST_FRICTION + j] -= m * (du * u + dv * v + dw * w) + jt * (da * a + db * b) + ja * dc * c

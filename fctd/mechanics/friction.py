@@ -18,6 +18,7 @@ from fctd.mechanics.state import (
     INVERSE_JT,
     INVERSE_MASS,
     K_WALL,
+    NET,
     RADIUS,
     TINY,
     lateral_inverse_mass,
@@ -98,6 +99,18 @@ def _limit_around(orthotropic, scale, factor, normal):
     return lambda orthotropic, scale, factor, normal: scale * factor * normal
 
 
+def net_of(corners, S, j):
+    """``Sliding.net`` of contact point j; corners : of ``Laws``, None where no disc touches two places."""
+    return 1.0 if corners is None else S[NET + j]
+
+
+@overload(net_of, jit_options=INLINED)
+def _net_of(corners, S, j):
+    if isinstance(corners, types.NoneType):
+        return lambda corners, S, j: 1.0
+    return lambda corners, S, j: S[NET + j]
+
+
 @inlined
 def turning_limit(limit, around):
     """The limit of friction around the string, given those along and around it (None where both are equal)."""
@@ -120,8 +133,12 @@ class Sliding(NamedTuple):
     A body that is round about z yields to an impulse along p in that direction alone, and so along r: in them its
     response is diagonal.  Impulses act at T + R n, a distance h along the body from its centre.
 
+    A disc that touches two places has the friction of both normal forces as its limits, and turns with it all.  Only a
+    share of it, ``net``, is left across the body and about its transverse axes: there the two are added as vectors, and
+    their normals add up to less than they press.  The sliding is then the mean of both places.
+
     along, around : sliding along p and r, times q [m/s]; yields_along, yields_around : velocity by a unit impulse
-    [1/kg]; square : q²; arm, lever : R + h n_z and h + R n_z [m].
+    [1/kg]; square : q²; arm, lever : net R + h n_z and net (h + R n_z) [m]; radius : R [m]; net : 1 at a single place.
     """
 
     along: float
@@ -131,25 +148,26 @@ class Sliding(NamedTuple):
     square: float
     arm: float
     lever: float
+    radius: float
+    net: float
 
 
 @inlined
-def sliding(S, j, u, v, w, a, b, c, nx, ny, nz):
-    """``Sliding`` of body j; velocity, spin and normal in the frame of the body.
+def sliding(S, j, radius, net, u, v, w, a, b, c, nx, ny, nz):
+    """``Sliding`` of body j that touches at a radius [m]; velocity, spin and normal in the frame of the body.
 
     The body's inertia enters friction here and in ``against``.
     """
-    radius, h = S[RADIUS + j], S[ARM_CONTACT + j]
-    im, it, ia = S[INVERSE_MASS + j], S[INVERSE_JT + j], S[INVERSE_JA + j]
+    h, im, it, ia = S[ARM_CONTACT + j], S[INVERSE_MASS + j], S[INVERSE_JT + j], S[INVERSE_JA + j]
     il = lateral_inverse_mass(S, j)
     square = nx * nx + ny * ny
-    arm, lever = radius + h * nz, h + radius * nz
+    arm, lever = net * radius + h * nz, net * (h + radius * nz)
     return Sliding(
         square * w - nz * (nx * u + ny * v) - arm * (nx * b - ny * a),
-        nx * v - ny * u + radius * square * c - lever * (nx * a + ny * b),
+        net * (nx * v - ny * u) + radius * square * c - lever * (nx * a + ny * b),
         nz * nz * il + square * im + arm * arm * it,
-        il + lever * lever * it + radius * radius * square * ia,
-        square, arm, lever,
+        net * net * il + lever * lever * it + radius * radius * square * ia,
+        square, arm, lever, radius, net,
     )  # fmt: skip
 
 
@@ -157,11 +175,11 @@ def sliding(S, j, u, v, w, a, b, c, nx, ny, nz):
 def against(S, j, f, g, p, nx, ny, nz):
     """Change of velocity and spin (6) of body j by an impulse −f·p − g·r at the wall; p : its ``Sliding``."""
     im, it, ia = S[INVERSE_MASS + j], S[INVERSE_JT + j], S[INVERSE_JA + j]
-    il = lateral_inverse_mass(S, j)
+    il, across = lateral_inverse_mass(S, j), g * p.net
     return (
-        il * (f * nz * nx + g * ny), il * (f * nz * ny - g * nx), -im * f * p.square,
+        il * (f * nz * nx + across * ny), il * (f * nz * ny - across * nx), -im * f * p.square,
         it * (g * p.lever * nx - f * p.arm * ny), it * (g * p.lever * ny + f * p.arm * nx),
-        -ia * g * S[RADIUS + j] * p.square,
+        -ia * g * p.radius * p.square,
     )  # fmt: skip
 
 
@@ -237,8 +255,9 @@ class Law(NamedTuple):
     limit, around : limits of friction along the string and around it, friction factor × normal force or impulse; the
     latter is None where both are equal, and numba then compiles the branches ``around is None`` alone.
 
-    impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit, around) : change of velocity and spin (6) of body j, both in its
-    own frame, by an impulse that may stop the sliding but not reverse it; n : the wall's normal; limits [N s].
+    impulse(S, j, radius, net, u, v, w, a, b, c, nx, ny, nz, limit, around) : change of velocity and spin (6) of body j,
+    both in its own frame, by an impulse that may stop the sliding but not reverse it; radius [m] : at which it touches;
+    net : of ``Sliding``; n : the wall's normal; limits [N s].
     steady_load(speed, spin, limit, around, radius, ax, ay, az, nx, ny, nz, tx, ty, tz) : force [N] and moment [N m] (6,
     global) and torque about the axis [N m] on a body that slides at ``speed`` [m/s] along the hole t and spins about
     its axis a [rad/s]; limits [N].  It is differentiated by a complex step.

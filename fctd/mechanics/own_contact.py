@@ -3,6 +3,9 @@
 Bows that are wider than the hole press the pipe towards its axis in proportion to how far it lies off it, and drag by
 a starting force wherever it lies; others press where they touch.  Within ``GAP`` of the axis, where a force has no
 direction, they do not press.
+
+Bows slide on the wall, at the radius R of the hole.  Their starting force, all round, has this arm about the axis.  The
+spring presses at one place, towards which the pipe lies e off the axis: the pipe's own axis is R − e away from it.
 """
 
 import math
@@ -12,6 +15,7 @@ from numba.extending import overload
 
 from fctd.mechanics.jit import INLINED, inlined
 from fctd.mechanics.state import (
+    BARE_HOLE,
     BOW_STIFFNESS,
     FRICTION,
     FRICTION_AROUND,
@@ -44,8 +48,23 @@ def store_own_contact(S, j):
     if S[OWN_FRICTION + j] != 0:
         S[FRICTION + j] = S[FRICTION_AROUND + j] = S[OWN_FRICTION + j]
     if S[BOW_STIFFNESS + j] != 0:
+        S[BARE_HOLE + j] = S[HOLE + j]
         S[HOLE + j] = max(S[HOLE + j], S[RADIUS + j] + GAP)
         S[K_WALL + j] = S[BOW_STIFFNESS + j]
+
+
+def radius_of(bows, S, j, penetration):
+    """Distance from the axis of body j to the place of the wall that it touches [m]; bows : of ``Laws``."""
+    if S[BOW_STIFFNESS + j] != 0:
+        return S[BARE_HOLE + j] - (penetration + S[HOLE + j] - S[RADIUS + j])
+    return S[RADIUS + j]
+
+
+@overload(radius_of, jit_options=INLINED)
+def _radius_of(bows, S, j, penetration):
+    if isinstance(bows, types.NoneType):
+        return lambda bows, S, j, penetration: S[RADIUS + j]
+    return radius_of
 
 
 def held_by_bows(bows, S, j, along, rate, scale, dt):
@@ -54,7 +73,7 @@ def held_by_bows(bows, S, j, along, rate, scale, dt):
     It is dry friction, which stops a motion and does not reverse it.  bows : of ``Laws``, None where no body has one;
     scale : share of friction.
     """
-    pull, r = _pull(S, j, along, rate, scale, dt), S[RADIUS + j]
+    pull, r = _pull(S, j, along, rate, scale, dt), S[BARE_HOLE + j]
     less = along * min(pull * S[INVERSE_MASS + j], 1.0)
     fewer = rate * min(pull * r * r * S[INVERSE_JA + j], 1.0)
     along, rate = along - less, rate - fewer
@@ -66,7 +85,7 @@ def held_by_bows(bows, S, j, along, rate, scale, dt):
 @inlined
 def _pull(S, j, along, rate, scale, dt):
     """Impulse of the starting force over the speed with which bows slide [kg]; none where nothing compresses them."""
-    turning = S[RADIUS + j] * rate
+    turning = S[BARE_HOLE + j] * rate
     scale *= S[HOLE + j] <= S[RADIUS + j] + GAP
     return scale * dt * S[STARTING_FORCE + j] / (math.sqrt(along * along + turning * turning) + TINY)
 

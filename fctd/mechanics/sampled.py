@@ -4,7 +4,9 @@ The table of pieces is that of arcs, cut into short pieces, the cells.  Further 
 the wall lies beyond the round hole of its interval at equal angles around it, for each contact radius of the string: a
 disc of this radius whose centre has come to the hole's radius and that, less its own radius, touches the wall.  So a
 point of a string needs no search around the hole, also where its disc touches at two places, as in a groove that is
-narrower than itself.  There the friction of both is that of more than the force that they add up to: ``grip``.
+narrower than itself.  There the friction of both is that of more than the force that they add up to: ``grip``.  It
+drags along the hole and turns the string in full.  Around the hole both add up to what that force alone would have:
+each friction is across its own normal, so their sum is across the sum of the normal forces.
 
 Between cells the deviation is a quadratic B-spline in depth and angle, whose slope is continuous.  Angles count from a
 direction that goes with the hole without turning about it (Bishop 1975), clockwise looking downhole.
@@ -170,7 +172,8 @@ def grip_at(C, i, column, angle):
     """The grip of a corner in row i for a force at an angle [rad], less 1, and its derivative by the angle.
 
     A disc that touches two places is pressed onto each by more than the force that holds it there: with the two normals
-    at β to either side of their middle, and the force at δ from it, both are cos δ/cos β times as large together.
+    at β to either side of their middle, and the force at δ from it, both are cos δ/cos β times as large together.  The
+    force is the sum of the two, without the friction.
     """
     half = C[i, column + 1]
     if half == 0:
@@ -205,7 +208,7 @@ def grip_of(C, i, found, ga, gb):
 
 class SampledWall(NamedTuple):
     """The wall beside a point: PT (3) [m], hole radius [m], stiffness, friction factors along and around the string,
-    measured depth [m]; and the gradient (3) of the penetration, where that is not along PT."""
+    measured depth [m]; gradient (3) of the penetration, where that is not along PT; ``friction.Sliding.net``."""
 
     px: float
     py: float
@@ -218,6 +221,7 @@ class SampledWall(NamedTuple):
     gx: float
     gy: float
     gz: float
+    net: float
 
 
 @kernel
@@ -228,7 +232,7 @@ def sampled_wall(C, i, x, y, z, radius):
     px, py, pz, md = of.px, of.py, of.pz, arc.md + of.s
     hole, stiffness, friction, around = sizes_of_arc(arc, of.s)
     if C[i, AROUND_CELLS] == 0:
-        return SampledWall(px, py, pz, hole, stiffness, friction, around, md, px, py, pz)
+        return SampledWall(px, py, pz, hole, stiffness, friction, around, md, px, py, pz, 1.0)
     found = deviation_at(C, i, of.s, of.a, of.b, radius)
     gx, gy, gz, grip = px, py, pz, 1.0
     square = of.a * of.a + of.b * of.b
@@ -240,4 +244,6 @@ def sampled_wall(C, i, x, y, z, radius):
         gx = ga * of.ax + gb * of.bx - rise * of.tx
         gy = ga * of.ay + gb * of.by - rise * of.ty
         gz = ga * of.az + gb * of.bz - rise * of.tz
-    return SampledWall(px, py, pz, hole + found.value, stiffness, grip * friction, grip * around, md, gx, gy, gz)
+    return SampledWall(
+        px, py, pz, hole + found.value, stiffness, grip * friction, grip * around, md, gx, gy, gz, 1 / grip
+    )

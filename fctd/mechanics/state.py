@@ -119,8 +119,11 @@ GIVEN_FRICTION = 101 * STRIDE
 OWN_FRICTION, BOW_STIFFNESS, STARTING_FORCE = 102 * STRIDE, 103 * STRIDE, 104 * STRIDE
 # 1 below a swivel, where a steady string does not rotate.
 STILL = 105 * STRIDE
+# Beside bow springs: radius of the hole itself [m].  Of a disc that may touch two places (laws.corners): share of the
+# friction of both that is left across the body (``friction.Sliding``).
+BARE_HOLE, NET = 106 * STRIDE, 107 * STRIDE
 
-ROWS = 106
+ROWS = 108
 
 
 class Laws(NamedTuple):
@@ -141,7 +144,7 @@ class Laws(NamedTuple):
     body has given loads.
     orthotropic : True where friction factors along and around the string differ, else None, a type of its own: code for
     factors that differ is compiled where it is needed, and that for equal factors does without it.  bows : the same, of
-    bow springs with a starting force.
+    bow springs.  corners : the same, of a hole in which a disc may touch two places at once (sampled.py).
     """
 
     geometry: int
@@ -164,6 +167,7 @@ class Laws(NamedTuple):
     given: bool = False
     orthotropic: bool | None = None
     bows: bool | None = None
+    corners: bool | None = None
 
 
 # Keeps 0/0 out of packed arithmetic, where a branch would cost more, and changes no other result.

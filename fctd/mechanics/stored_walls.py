@@ -48,6 +48,7 @@ from fctd.mechanics.state import (
     K_WALL,
     MARGIN_END,
     MARGIN_TOP,
+    NET,
     NX,
     NY,
     NZ,
@@ -216,6 +217,7 @@ def refresh_sampled(S, owner, n, C):
         owner[j] = i
         wall = sampled_wall(C, i, x, y, z, S[RADIUS + j])
         store_wall(S, j, wall.px, wall.py, wall.pz, wall.hole, wall.stiffness, wall.friction, wall.around)
+        S[NET + j] = wall.net
         is_round = C[i, AROUND_CELLS] == 0
         if not is_round:
             lean_wall(S, j, wall.gx, wall.gy, wall.gz)

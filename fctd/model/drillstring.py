@@ -16,7 +16,7 @@ from fctd.model.default_layout import DefaultLayout
 from fctd.model.fluids import Fluids, fluids_of
 from fctd.model.joints import Kind, Part, Pieces, cut_joints, joints_in, repeat_of, sections_of, segments_in
 from fctd.model.perturbed import perturb_lengths
-from fctd.model.section import Section, buoyed
+from fctd.model.section import Section, buoyed, tool_joint_radii
 from fctd.model.string_rows import find_contacts, find_stiffness
 
 # A long segment must be this long [m].
@@ -102,6 +102,18 @@ class String:
     def of(self, name: str) -> Array:
         """A section property of every segment, shape (n,), in the unit that `Section` gives."""
         return np.array([getattr(s, name) for s in self.sections])[self.component]
+
+    @cached_property
+    def channel_radii(self) -> tuple[Array, Array]:
+        """Radii (n,) [m] that mud flows past, outside and inside: of a tool joint that is laid out its own."""
+        radii = [
+            (section.outer, section.inner)
+            if part.kind != Kind.TOOL_JOINT or part.component.joint is None
+            else tool_joint_radii(part.component.joint, section.inner)
+            for part, section in zip(self.parts, self.sections, strict=True)
+        ]
+        outer, inner = np.array(radii)[self.component].T
+        return outer, inner
 
     @cached_property
     def above_bit(self) -> Array:

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
@@ -131,9 +131,10 @@ class SteadyRates(NamedTuple):
     flow: float = 0.0
 
 
-# Kinds that have a speed, and those that can have a rotation.
-MOVING = frozenset(name for name, kind in KINDS.items() if kind.direction)
-TURNING = frozenset(name for name, kind in KINDS.items() if kind.may_turn)
+# Kinds that have a speed, those that rotate, and those that pump what the case pumps; trips do neither unasked.
+MOVING: Final = frozenset(name for name, kind in KINDS.items() if kind.direction)
+TURNING: Final = frozenset(name for name, kind in KINDS.items() if kind.turns)
+PUMPING: Final = frozenset(name for name, kind in KINDS.items() if kind.turns or kind.on_bottom)
 
 
 class BitLoads(NamedTuple):
@@ -158,18 +159,24 @@ def steady_rates(
     rpm: float | str | None = None,
     flow: float | str | None = None,
 ) -> SteadyRates:
-    """Rates of an operation: as given, else those of the case's first operation of that kind, else the kind's defaults.
+    """Rates of one operation: as given, else those of the case's first operation of that kind, else the kind's
+    defaults, which for what drills, rotates or reams are with the flow of the case (``flow_of``).
 
-    speed [m/s], rpm and flow [m³/s], or texts with units, are not negative; the kind sets the direction.  Raises
-    InputError for an unknown kind, for rates that are not of its kind and for rates beyond ``units.FASTEST`` and
-    ``units.MOST_RPM``.
+    speed [m/s], rpm and flow [m³/s], or texts with units, are not negative; the kind sets the direction.  A given rpm
+    turns a trip, too: what options mean is ``rates_of_all``.  Raises InputError for an unknown kind, for rates that are
+    not of its kind and for rates beyond ``units.FASTEST`` and ``units.MOST_RPM``.
     """
     if kind not in KINDS:
         raise InputError(nearest(kind, KINDS, "kind"), key="operation", value=kind)
     of = KINDS[kind]
     own = next((o for o in case.operations if o.kind == kind), None)
     own_speed, own_rpm = (of.default_speed, of.default_rpm) if own is None else (own.speed, own.rpm)
-    pumped = (0.0 if own is None else own.flow) if flow is None else argument(flow, FLOW, "flow")
+    if flow is not None:
+        pumped = argument(flow, FLOW, "flow")
+    elif own is not None:
+        pumped = own.flow
+    else:
+        pumped = flow_of(case) if kind in PUMPING else 0.0
     speed, rpm = own_speed if speed is None else speed, own_rpm if rpm is None else rpm
     feed, turns = argument(speed, SPEED, "speed"), argument(rpm, ROTATION, "rpm")
     if not (0 < feed <= FASTEST if of.direction else feed == 0):
@@ -184,6 +191,11 @@ def steady_rates(
     return SteadyRates(of.direction * feed, rad_per_s(turns), pumped)
 
 
+def flow_of(case: Case) -> float:
+    """The flow of a case [m³/s]: the largest of its operations, 0 where none pumps."""
+    return max((operation.flow for operation in case.operations), default=0.0)
+
+
 def rates_of_all(
     case: Case,
     kinds: Sequence[str],
@@ -191,12 +203,14 @@ def rates_of_all(
     rpm: float | str | None = None,
     flow: float | str | None = None,
 ) -> dict[str, SteadyRates]:
-    """Rates of several operations: a given speed applies to the kinds that move, a given rpm to those that may rotate,
-    a flow to all.
+    """Rates of operations as options mean them: a given speed applies to the kinds that move, a given rpm to those that
+    rotate by their name, a flow to all.  No kind's rates depend on the kinds beside it.
 
     Raises InputError as ``steady_rates`` does, also for a rate that applies to none of the kinds.
     """
     moving, turning = ([k for k in kinds if k in having] for having in (MOVING, TURNING))
+    if rpm is not None and not turning:
+        _refuse_turning(kinds, rpm)
 
     def rates(kind: str) -> SteadyRates:
         # A rate that applies to no kind is passed on, so that ``steady_rates`` raises InputError.
@@ -209,3 +223,14 @@ def rates_of_all(
         )
 
     return {kind: rates(kind) for kind in kinds}
+
+
+def _refuse_turning(kinds: Sequence[str], rpm: float | str) -> None:
+    """Raise InputError for a rotation of kinds that slide; 0 is none."""
+    kind = next((kind for kind in kinds if kind in KINDS and KINDS[kind].may_turn), None)
+    if kind is not None and argument(rpm, ROTATION, "rpm") > 0:
+        turns = next(
+            name for name, of in KINDS.items()
+            if of.turns and not of.on_bottom and of.direction == KINDS[kind].direction
+        )  # fmt: skip
+        raise InputError(f"rev/min of 0 for {kind}: {turns} turns as it moves that way", key="rpm", value=rpm)

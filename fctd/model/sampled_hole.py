@@ -19,6 +19,8 @@ from fctd.model.pieces import RADIUS, TO_MD
 CELL_AROUND, FEWEST, POINTS = 0.02, 16, 8
 # A wall that lies within this of the round hole is round [m].
 ROUND = 1e-9
+# Depths that are equal but for rounding differ by less than this [m].
+SAME_DEPTH = 1e-6
 # Shortest piece as a share of a cell; ways of a disc that is hardly narrower than its hole count as this much [m].
 SHORTEST, SHORTEST_WAY = 0.05, 0.005
 
@@ -45,6 +47,13 @@ class Sampling:
         """The same with the contact of further discs."""
         return replace(self, radii=tuple(np.union1d(self.radii, np.unique(radii)).tolist()))
 
+    def covers(self, md: Array) -> NDArray[np.bool_]:
+        """Whether depths (n,) [m] lie within a stretch of open hole that was measured, where cells cut the hole."""
+        if self.caliper is None:
+            return np.zeros(len(md), np.bool_)
+        inside = (md > self.caliper.md[0]) & (md < self.caliper.md[-1])
+        return np.asarray(inside & np.any([(md > a) & (md < b) for a, b, _ in self.open_hole], axis=0))
+
     def cut(self, md: Array) -> Array:
         """Ends of pieces [m], with those of cells where open hole was measured.
 
@@ -56,7 +65,7 @@ class Sampling:
         for top, bottom, _ in self.open_hole:
             first, last = max(float(self.caliper.md[0]), top), min(float(self.caliper.md[-1]), bottom)
             if last > first:
-                count = int(np.ceil((last - first) / self.cell))
+                count = int(np.ceil((last - first - SAME_DEPTH) / self.cell))
                 ends.append(np.linspace(first - self.cell, last + self.cell, count + 3))
         if not ends:
             return md
@@ -69,11 +78,20 @@ class Sampling:
 
 
 def sampling_of(hole: WellboreSpec, ends: Array, radii: Sequence[float]) -> Sampling:
-    """The sampling of a hole whose intervals have these ends [m], for discs of radii [m]."""
+    """The sampling of a hole whose intervals have these ends [m], for discs of radii [m].
+
+    Intervals of one size are one stretch of open hole, in however many pieces a case writes it.
+    """
+    open_hole: list[tuple[float, float, float]] = []
     starts = np.concatenate([[0.0], ends[:-1]])
-    stretches = zip(starts.tolist(), ends.tolist(), hole.intervals, strict=True)
-    open_hole = tuple((a, b, 0.5 * interval.diameter) for a, b, interval in stretches if interval.kind != "cased")
-    return Sampling(hole.calipers, open_hole, hole.cell, tuple(np.union1d([0.0], radii).tolist()))
+    for start, end, interval in zip(starts.tolist(), ends.tolist(), hole.intervals, strict=True):
+        radius = 0.5 * interval.diameter
+        if interval.kind == "cased":
+            continue
+        if open_hole and open_hole[-1][1:] == (start, radius):
+            start, _, _ = open_hole.pop()
+        open_hole.append((start, end, radius))
+    return Sampling(hole.calipers, tuple(open_hole), hole.cell, tuple(np.union1d([0.0], radii).tolist()))
 
 
 def turns(pieces: Array) -> Array:
@@ -145,9 +163,9 @@ def in_cells(caliper: Caliper, top: Array, bottom: Array) -> tuple[Array, Array]
     areas = np.vstack([np.zeros(caliper.radii.shape[1]), np.cumsum(0.5 * steps * _pairs(caliper.radii, 0.0), axis=0)])
     missing = np.isnan(_pairs(caliper.radii, np.nan)).any(axis=1)
     gaps = np.concatenate([[0], np.cumsum(missing)])
-    first = np.clip(np.searchsorted(caliper.md, top, side="right") - 1, 0, len(steps))
-    last = np.clip(np.searchsorted(caliper.md, bottom, side="left"), 0, len(steps))
-    outside = (top < caliper.md[0] - 1e-9) | (bottom > caliper.md[-1] + 1e-9) | (gaps[last] > gaps[first])
+    first = np.clip(np.searchsorted(caliper.md, top + SAME_DEPTH, side="right") - 1, 0, len(steps))
+    last = np.clip(np.searchsorted(caliper.md, bottom - SAME_DEPTH, side="left"), 0, len(steps))
+    outside = (top < caliper.md[0] - SAME_DEPTH) | (bottom > caliper.md[-1] + SAME_DEPTH) | (gaps[last] > gaps[first])
     filled = np.nan_to_num(caliper.radii)
     of = [
         (
@@ -159,7 +177,7 @@ def in_cells(caliper: Caliper, top: Array, bottom: Array) -> tuple[Array, Array]
     ]
     radii = np.stack(of, axis=1)
     radii[outside] = np.nan
-    nearest = np.clip(np.searchsorted(caliper.md, 0.5 * (top + bottom)), 0, len(caliper.md) - 1)
+    nearest = np.clip(np.searchsorted(caliper.md, 0.5 * (top + bottom) - SAME_DEPTH), 0, len(caliper.md) - 1)
     return radii, caliper.angles[nearest, 0]
 
 
@@ -211,6 +229,16 @@ def deviations(pieces: Array) -> tuple[Array, NDArray[np.int64]]:
     return pieces[rows, sampled.TABLES + 1 : sampled.TABLES + 1 + PER_CELL * cells : PER_CELL], rows
 
 
+def has_corners(pieces: Array) -> bool:
+    """Whether any disc touches two places at once in any cell."""
+    (rows,) = np.nonzero(pieces[:, sampled.AROUND_CELLS])
+    if not len(rows):
+        return False
+    size = 1 + PER_CELL * int(pieces[rows[0], sampled.AROUND_CELLS])
+    of_cells = pieces[rows, sampled.TABLES :].reshape(len(rows), -1, size)[:, :, 1:]
+    return bool(of_cells[:, :, PER_CELL - 1 :: PER_CELL].any())
+
+
 def narrow_cells(pieces: Array) -> tuple[Array, Array]:
     """Measured depths (k, 2) [m] of the ends of cells that are not round, and half their least diameters (k,) [m]."""
     found, rows = deviations(pieces)
@@ -244,7 +272,8 @@ def mean_radii(rows: Array, top: Array, bottom: Array) -> Array:
 
     Above the first row and below the last one it is theirs.
     """
-    md = np.concatenate([[0.0], rows[:, TO_MD], [max(float(bottom.max()), float(rows[-1, TO_MD])) + 1.0]])
+    first, last = min(0.0, float(top.min())), max(float(bottom.max()), float(rows[-1, TO_MD]))
+    md = np.concatenate([[first], rows[:, TO_MD], [last + 1.0]])
     radius = np.concatenate([rows[:1, RADIUS], rows[:, RADIUS], rows[-1:, RADIUS]])
     areas = np.append(0.0, np.cumsum(0.5 * np.diff(md) * (radius[1:] + radius[:-1])))
     area = _integral(md, radius, areas, bottom) - _integral(md, radius, areas, top)

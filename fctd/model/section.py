@@ -217,7 +217,7 @@ def tool_joint_of(component: ComponentSpec, outside: float) -> Section:
         _of_tool_joints(component),
     )
     assert component.joint is not None  # the caller has one
-    (d, c), poisson = _radii(component.joint, whole.inner), component.poisson_ratio
+    (d, c), poisson = tool_joint_radii(component.joint, whole.inner), component.poisson_ratio
     mass = (whole.mass - (1 - share) * body.mass) / share
     wider = shear_coefficient(d, c, poisson) / shear_coefficient(whole.outer, whole.inner, poisson)
     return body._replace(
@@ -228,7 +228,7 @@ def tool_joint_of(component: ComponentSpec, outside: float) -> Section:
     )  # fmt: skip
 
 
-def _radii(joint: JointSpec, bore: float) -> tuple[float, float]:
+def tool_joint_radii(joint: JointSpec, bore: float) -> tuple[float, float]:
     """Outer and inner radius of a tool joint [m]; bore : inner radius of the body."""
     inner = bore if joint.tool_joint_inner is None else 0.5 * joint.tool_joint_inner
     return 0.5 * joint.tool_joint_diameter, inner
@@ -243,7 +243,7 @@ def _of_tool_joints(component: ComponentSpec) -> tuple[float, float, float]:
     if joint is None:
         return 0.0, 1.0, 1.0
     b, a = 0.5 * component.outer_diameter, 0.5 * component.inner_diameter
-    d, c = _radii(joint, a)
+    d, c = tool_joint_radii(joint, a)
     share = joint.tool_joint_length / joint.length
     return share, (d * d - c * c) / (b * b - a * a), (d**4 - c**4) / (b**4 - a**4)
 

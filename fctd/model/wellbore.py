@@ -33,7 +33,7 @@ from fctd.model.pieces import (
     cylinders,
     fill_wall,
 )
-from fctd.model.sampled_hole import Sampling, narrow_cells, sample, sampling_of, steepest, with_mean_radii
+from fctd.model.sampled_hole import Sampling, has_corners, narrow_cells, sample, sampling_of, steepest, with_mean_radii
 from fctd.model.section import contact_radii
 from fctd.model.tortuosity import winding
 
@@ -122,6 +122,11 @@ class Wellbore:
     def orthotropic(self) -> bool | None:
         """True where friction factors along and around the string differ anywhere, else None; see ``state.Laws``."""
         return True if (self.pieces[:, contact.FACTOR] != self.pieces[:, contact.FACTOR_AROUND]).any() else None
+
+    @cached_property
+    def corners(self) -> bool | None:
+        """True where a disc of the string may touch two places of the wall at once, else None; see ``state.Laws``."""
+        return True if self.sampling is not None and has_corners(self.pieces) else None
 
     def with_friction(self, factors: Array | float) -> "Wellbore":
         """The same hole with other friction factors.
@@ -311,6 +316,10 @@ def _build(hole: WellboreSpec, components: Sequence[ComponentSpec], seed: int | 
     if hole.geometry != "cylinders":
         assert courses is not None  # WellboreSpec requires the method
         # Where the hole changes, a shoe as long as the overlap of cylinders leads from one size to the next.
+        if sampling is not None and len(ends):
+            # A border between equal intervals does not cut the cells that it lies in.
+            alike = (intervals[1:, RADIUS:] == intervals[:-1, RADIUS:]).all(axis=1)[: len(ends)]
+            ends = ends[~(alike & sampling.covers(ends))]
         shoes = np.minimum(ends + hole.overlap, stations[-1, 0])
         md = np.union1d(stations[:, 0], np.concatenate([ends, shoes]))
         if sampling is not None:

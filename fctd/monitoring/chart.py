@@ -13,7 +13,7 @@ from fctd.case.friction import FrictionSet, Pair, changed, table_of
 from fctd.case.load import Case
 from fctd.case.operations import KINDS as OPERATIONS
 from fctd.hydraulics.channel import has_flow_curve
-from fctd.model.operations import drive_torque, rad_per_s, rates_of_all, weight_indicator
+from fctd.model.operations import drive_torque, rad_per_s, rates_of_all, string_load, weight_indicator
 from fctd.model.section import section_of
 from fctd.model.wellbore import build_wellbore
 from fctd.monitoring.stretches import OF_KIND, Mode
@@ -28,6 +28,7 @@ FACTORS: Final = np.array([0.0, 0.1, 0.2, 0.3, 0.45, 0.65])
 # [m] between bit depths: within half of it hook load changes by less than 100 N, a hundredth of its noise.  Linear
 # interpolation over a stand is worse: loads of a string in segments ripple with the place of its joints.
 NODES: Final = 0.5
+OF_BLOCK: Final = 0.1  # of the string's weight: a load that exceeds the block's by less is the block's
 COARSE: Final = 120.0  # [m] between bit depths of the loads that the rules of stretches need
 HELD: Final = 2  # place of the factor at which the derivative by the held one is taken
 CASED_STEP: Final = 0.05  # of the held factor, for the derivative by it
@@ -48,6 +49,9 @@ class Relief(NamedTuple):
 
     lift: float
     torque_share: float
+
+
+NOTHING: Final = Relief(0.0, 1.0)
 
 
 def fit_of(case: Case, fit: Fit | None) -> Fit:
@@ -113,8 +117,8 @@ class Chart:
     def relief(self, mode: Mode, depth: float, flow: float) -> Relief:
         """What mud that is pumped [m³/s] takes off, at the case's own friction; nothing where the case does not say
         how its mud flows, and without a flow.  NaN without a balance."""
-        if not flow > 0 or not has_flow_curve(self.case):
-            return Relief(0.0, 1.0)
+        if not self.relieves(flow):
+            return NOTHING
         key = KIND_OF[mode], self._near(depth), round(flow, 4)
         if key not in self._reliefs:
             rest = self._solve(self._own, *key[:2])
@@ -122,6 +126,22 @@ class Chart:
             share = pumped[1] / rest[1] if rest[1] else 1.0
             self._reliefs[key] = Relief(rest[0] - pumped[0], share)
         return self._reliefs[key]
+
+    def relieves(self, flow: float) -> bool:
+        """Whether a flow [m³/s] changes loads, as far as the case says."""
+        return flow > 0 and has_flow_curve(self.case)
+
+    def at_rest(
+        self, mode: Mode, depth: float, flow: float, rpm: float, *, gauge: float, torque: float
+    ) -> tuple[float, float]:
+        """Readings of weight indicator [N] and drive [N m] with a flow [m³/s], brought to the mud at rest of the
+        curves: as they are without ``relief``, NaN without a balance."""
+        relief = self.relief(mode, depth, flow)
+        if relief == NOTHING:
+            return gauge, torque
+        rig, direction = self.case.rig, OPERATIONS[KIND_OF[mode]].direction
+        raised = weight_indicator(rig, direction, string_load(rig, direction, gauge) + relief.lift)
+        return float(raised), torque + self.turning(torque, rpm) * (1 / relief.torque_share - 1)
 
     def _near(self, depth: float) -> float:
         return float(np.clip(round(depth / NODES) * NODES, NODES, self.deepest))
@@ -177,14 +197,15 @@ class Chart:
         more = self._solve(self._other, kind, self._near(depth))[1 if kind == "rotate_off_bottom" else 0]
         return float(np.nan_to_num((more - self.loads(kind, depth)[HELD]) / CASED_STEP))
 
-    def slips_below(self, depth: Array) -> Array:
-        """Weight indicator below which the string hangs in the slips: the block and half the string's weight [N]."""
+    def slips_below(self, depth: Array) -> tuple[Array, Array]:
+        """Weight indicator below which the load is that of the block, and below which a bit that stands still while
+        the block moves hangs in the slips [N]: with a tenth and with half of the string's weight."""
         depth = np.clip(depth, 0.0, self.deepest)
         low, high = float(np.floor(depth.min() / COARSE)), float(np.ceil(depth.max() / COARSE))
         at = np.arange(low, high + 1) * COARSE
-        weights = np.array([self._coarse_node(float(d))[0] for d in at])
-        limits: Array = self.case.rig.block_weight + 0.5 * np.interp(depth, at, weights)
-        return limits
+        string = np.interp(depth, at, [self._coarse_node(float(d))[0] for d in at])
+        block = self.case.rig.block_weight
+        return block + OF_BLOCK * string, block + 0.5 * string
 
     def reversal(self, depth: float) -> float:
         """Stretch at reversal: difference of hook loads up and down, which falls to 0 at the bit, over EA [m]."""

@@ -6,6 +6,7 @@ from typing import Final
 import numpy as np
 
 from fctd.case.errors import InputError, nearest
+from fctd.case.message import quantity
 from fctd.case.units import FORCE, FRICTION, TORQUE, Dimension, Quantity
 from fctd.monitoring.chart import Chart
 from fctd.monitoring.stretches import ROTATING, Stretch
@@ -62,7 +63,8 @@ def parse_uncertainty(texts: list[str], key: str) -> Uncertainty:
                 "a number or a percentage" if dimension is None else f"{dimension.noun} such as {dimension.example}"
             )
             if name in LEAST:
-                expected += f", at least {LEAST[name]:g}{' N' if name in _DIMENSIONS else ''}: every reading has noise"
+                least = quantity(LEAST[name], "N") if name in _DIMENSIONS else f"{LEAST[name]:g}"
+                expected += f", at least {least}: every reading has noise"
             raise InputError(expected, key=f"{key} {name}", value=value) from None
     return Uncertainty(**found)
 
@@ -105,10 +107,10 @@ def apparent(stretch: Stretch, chart: Chart, uncertainty: Uncertainty) -> Appare
     relief = chart.relief(mode, depth, stretch.flow)
     if not np.isfinite(relief).all():
         return none("no steady string at this depth with this flow")
-    at_rest = reading.median + relief.lift
-    if rotating:
-        at_rest = reading.median + chart.turning(reading.median, stretch.rpm) * (1 / relief.torque_share - 1)
-    found = chart.invert(mode, depth, at_rest, stretch.rpm)
+    gauge, torque = chart.at_rest(
+        mode, depth, stretch.flow, stretch.rpm, gauge=stretch.hook_load.median, torque=stretch.torque.median
+    )
+    found = chart.invert(mode, depth, torque if rotating else gauge, stretch.rpm)
     if found is None:
         return none("no steady string at this depth")
     if rotating:

@@ -45,7 +45,8 @@ class Roadmap:
     def points(self, found: Sequence[Apparent]) -> pd.DataFrame:
         """The steady readings within the hole, as rows of ``read_measured``, with quartiles as ranges [SI].
 
-        The torque is what the drive's reading leaves to the string, while it rotates.
+        They are brought to the mud at rest of the curves.  The torque is what the drive's reading leaves to the string,
+        while it rotates.
         """
         import pandas as pd  # slow to import
 
@@ -64,7 +65,10 @@ class Roadmap:
         kind = KIND_OF[stretch.mode]
         row: dict[str, Any] = {"operation": kind, "bit_depth_m": stretch.bit_depth}
         for end in ("p25", "median", "p75"):
-            gauge, torque = getattr(stretch.hook_load, end), getattr(stretch.torque, end)
+            gauge, torque = self.chart.at_rest(
+                stretch.mode, stretch.bit_depth, stretch.flow, stretch.rpm,
+                gauge=getattr(stretch.hook_load, end), torque=getattr(stretch.torque, end),
+            )  # fmt: skip
             turning = self.chart.turning(torque, stretch.rpm) if stretch.mode in ROTATING else np.nan
             values = (float(string_load(rig, KINDS[kind].direction, gauge)), gauge, turning)
             for load, value in zip(LOADS, values, strict=True):
@@ -85,10 +89,15 @@ class Roadmap:
             words.append(f"drive torque {quantity(last.torque.median / 1e3, 'kN·m', '.2f')}")
         if np.isfinite(drawn[-1].factor):
             words.append(f"friction factor of {self.chart.fit} hole {drawn[-1].factor:.2f}")
+        pumped = [reading for reading in drawn if self.chart.relieves(reading.stretch.flow)]
+        lifted = [f"{counted(len(pumped), 'reading')} with the pumps on, drawn as with mud at rest"] if pumped else []
         top, bottom = (float(end) for end in (self.rows["bit_depth_m"].min(), self.rows["bit_depth_m"].max()))
         outside = sum(not top <= reading.stretch.bit_depth <= bottom for reading in drawn)
         beyond = f"{counted(outside, 'reading')} outside the depths of the curves, {span(top, bottom, 'm', '.1f')}"
-        return [Message(line) for line in (", ".join(words), *([beyond] if outside else []), *self._left_out(found))]
+        return [
+            Message(line)
+            for line in (", ".join(words), *lifted, *([beyond] if outside else []), *self._left_out(found))
+        ]
 
     def _left_out(self, found: Sequence[Apparent]) -> list[str]:
         deepest = self.chart.deepest

@@ -2,7 +2,9 @@
 
 The rules, whose numbers are in `Rules`:
 
-- **in slips**: the hook load is below the block weight and half the string's weight, that is nearer to the empty block.
+- **in slips**: the hook load exceeds that of the block by less than a tenth of the string's weight.  Or it does by less
+  than half of it, and the bit moves by less than half of what the block does: a string that slides into an
+  extended-reach well is as light, and its bit moves with the block.
 - **off bottom**: the bit is more than 1 m above the deepest point.  The bit leaves the bottom when the stretch of the
   weight on bit is drawn out of the string, a few decimetres, and the depth of a series is that of a rigid string.
 - **rotating** (standing, up or down): at least 20 rev/min, at which the wall's speed is that of the pipe in the hole or
@@ -41,12 +43,13 @@ TORSION: Final = 3100.0  # [m/s], waves of torsion in steel pipe
 
 @dataclass(frozen=True)
 class Rules:
-    """Limits of the rules above [m, m/s, rev/min, s]."""
+    """Limits of the rules above [m, m/s, rev/min, s]; follows : the bit's speed over the block's."""
 
     off_bottom: float = 1.0
     off_bottom_weight: float = 10e3  # [N], where a series has weight on bit and no hole depth
     standing: float = 0.01
     moving: float = 0.02
+    follows: float = 0.5
     speed_over: float = 3.0
     turning: float = 20.0
     resting: float = 5.0
@@ -62,8 +65,9 @@ class Rules:
 class Expected(Protocol):
     """What the rules need of the string, by bit depth (n,) [m]."""
 
-    def slips_below(self, depth: Array) -> Array:
-        """Weight indicator below which the string hangs in the slips [N]."""
+    def slips_below(self, depth: Array) -> tuple[Array, Array]:
+        """Weight indicator [N] below which the string hangs in the slips, and below which it does where the block
+        moves and the bit does not."""
         ...
 
     def reversal(self, depth: float) -> float:
@@ -110,7 +114,7 @@ class Stretch:
 
 
 # Columns of the rows that a stretch gathers.
-_ROW, _TIME, _DEPTH, _HOOK, _TORQUE, _RPM, _BLOCK, _FLOW, _SPEED = range(9)
+_ROW, _TIME, _DEPTH, _HOOK, _TORQUE, _RPM, _BLOCK, _FLOW, _SPEED, _LOWERED = range(10)
 
 
 class Finder:
@@ -122,7 +126,7 @@ class Finder:
     def __init__(self, expected: Expected, rules: Rules | None = None) -> None:
         self.expected, self.rules = expected, Rules() if rules is None else rules
         self.counts: Counter[str] = Counter()
-        self._before: Array = np.empty((0, 2))  # time and block position of the last rows
+        self._before: Array = np.empty((0, 3))  # time, block position and bit depth of the last rows
         self._deepest = -np.inf
         self._mode: str = OTHER
         self._rows: list[Array] = []
@@ -162,17 +166,17 @@ class Finder:
     def _columns(self, table: pd.DataFrame) -> Array:
         """The rows with their speeds; remembers what the next rows need."""
         time, block = table["time_s"].to_numpy(float), table["block_position_m"].to_numpy(float)
-        known = np.vstack((self._before, np.column_stack((time, block))))
+        known = np.vstack((self._before, np.column_stack((time, block, table["bit_depth_m"].to_numpy(float)))))
         here = np.arange(len(self._before), len(known))
         then = np.searchsorted(known[:, 0], time - self.rules.speed_over, side="right") - 1
         step = time - known[then, 0]
         usable = (then >= 0) & (step <= self.rules.gap)
-        speed = np.where(usable, (block - known[then, 1]) / np.where(usable, step, 1.0), np.nan)
+        speed, lowered = np.where(usable, (known[here, 1:] - known[then, 1:]).T / np.where(usable, step, 1.0), np.nan)
         self._before = known[known[:, 0] >= known[here[-1], 0] - 2 * self.rules.gap]
         flow = table["flow_m3_s"].to_numpy(float) if "flow_m3_s" in table else np.full(len(table), np.nan)
         columns = [table.index.to_numpy(float), time]
         columns += [table[name].to_numpy(float) for name in ("bit_depth_m", "weight_indicator_N", "drive_torque_N_m")]
-        return np.column_stack([*columns, table["rpm"].to_numpy(float), block, flow, speed])
+        return np.column_stack([*columns, table["rpm"].to_numpy(float), block, flow, speed, lowered])
 
     def _modes(self, table: pd.DataFrame, rows: Array) -> list[str]:
         rules, depth, hook, rpm, speed = self.rules, *(rows[:, k] for k in (_DEPTH, _HOOK, _RPM, _SPEED))
@@ -185,7 +189,9 @@ class Finder:
             off = table["weight_on_bit_N"].to_numpy(float) < rules.off_bottom_weight
         else:
             off = running - depth > rules.off_bottom
-        slips = hook < self.expected.slips_below(depth)
+        own, still = self.expected.slips_below(depth)
+        follows = np.abs(rows[:, _LOWERED]) >= rules.follows * np.abs(speed)
+        slips = (hook < own) | ((hook < still) & (np.abs(speed) > rules.moving) & ~follows)
         turning, resting = rpm >= rules.turning, rpm <= rules.resting
         standing, up, down = np.abs(speed) < rules.standing, speed > rules.moving, speed < -rules.moving
         free = off & ~slips

@@ -6,12 +6,12 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from fctd.case.friction import factors_label
-from fctd.case.load import Case
 from fctd.case.operations import KINDS
-from fctd.case.systems import DENSITY, FLOW, FORCE, ROP, SPEED, TORQUE, Kind, told
-from fctd.model.operations import SteadyRates, rad_per_s, rates_of_all
+from fctd.case.systems import told
+from fctd.model.operations import rates_of_all
 from fctd.plots.loads import ChartLook, Compared
 from fctd.results.differences import in_a_row
+from fctd.results.doing import facts_of, unlike
 from fctd.results.notes import meanings_of, worst
 from fctd.results.profile import place_in_words
 from fctd.results.series import frictions_of, in_words, series_of
@@ -22,38 +22,17 @@ if TYPE_CHECKING:
     import pandas as pd
 
 
-def facts_of(
-    case: Case, kinds: Sequence[str], units: System, rates: Mapping[str, SteadyRates] | None = None
-) -> list[str]:
-    """Facts of a case, a clause each; rates : of the operations, the case's own or the defaults where None."""
-    rates = rates_of_all(case, kinds) if rates is None else rates
-    mud = _in(case.mud.density, DENSITY, units, 4) if case.mud.density else "none (air)"
-    facts = ["fluids by depth"] if case.mud.given else [f"mud {mud}"]
-    if any(KINDS[kind].on_bottom for kind in kinds):
-        facts += [f"weight on bit {_in(case.bit.weight_on_bit, FORCE, units)}"]
-        if case.bit.torque:
-            facts += [f"bit torque {_in(case.bit.torque, TORQUE, units)}"]
-    if case.rig.block_weight:
-        facts += [f"block {_in(case.rig.block_weight, FORCE, units)}"]
-    for kind in kinds:
-        speed, rpm = abs(rates[kind].speed), rates[kind].spin / rad_per_s(1.0)
-        parts = [_in(speed, ROP if KINDS[kind].on_bottom else SPEED, units)] if speed else []
-        parts += [f"{rpm:.3g} rev/min"] if rpm else []
-        parts += [_in(rates[kind].flow, FLOW, units, 4)] if rates[kind].flow else []
-        facts += [f"{KINDS[kind].label} {' and '.join(parts)}"]
-    return facts
-
-
 def heading_of_chart(chart: pd.DataFrame, units: System, case: Compared, look: ChartLook) -> tuple[str, list[str]]:
     """Title of a chart, and the lines below it: what is told, facts that all cases share, warnings, notes."""
     series = series_of(chart, units)
     kinds, frictions = list(dict.fromkeys(one.operation for one in series)), frictions_of(series)
     if isinstance(case, Mapping):
-        words = [in_a_row(list(case))]
-        all_facts = [facts_of(of.case, list(of.rates), units, of.rates) for of in case.values()]
+        words, all_of = [in_a_row(list(case))], [(of.case, of.rates) for of in case.values()]
     else:
         words = [] if case is None else [case.name]
-        all_facts = [] if case is None else [facts_of(case, kinds, units, look.rates)]
+        all_of = [] if case is None else [(case, look.rates or rates_of_all(case, kinds))]
+    all_facts = [facts_of(of, rates, units) for of, rates in all_of]
+    differ = list(dict.fromkeys(line for of, rates in all_of for line in unlike(of, rates, units)))
     facts = [fact for fact in all_facts[0] if all(fact in of for of in all_facts)] if all_facts else []
     words += [KINDS[kinds[0]].label] if len(kinds) == 1 else []
     words += [in_words(frictions[0])] if len(frictions) == 1 else []
@@ -61,7 +40,7 @@ def heading_of_chart(chart: pd.DataFrame, units: System, case: Compared, look: C
         f"note {code}: {found['headline']}: {found['remedy']}"
         for code, found in meanings_of(chart.get("notes", ())).items()
     ]
-    return "; ".join(words), [*look.told, "; ".join(facts), *_told(look.warnings), *notes]
+    return "; ".join(words), [*look.told, "; ".join(facts), *differ, *_told(look.warnings), *notes]
 
 
 def heading_of_profile(
@@ -75,7 +54,7 @@ def heading_of_profile(
     bit, ends = points[0].bit_depth, [point.profile["md_m"].iloc[-1] for point in points if point.answered]
     words = [case.name, f"bit at {place_in_words(max([bit, *ends]), bit, *depth)}", in_words(friction)]
     words += [f"the first of {sets} sets of factors"] if sets > 1 else []
-    facts = "; ".join(facts_of(case, [point.operation for point in points], units))
+    facts = "; ".join(facts_of(case, {point.operation: point.rates for point in points}, units))
     found = worst(note for point in points if point.answered for note in point.notes)
     return "; ".join(words), [facts, *_told(warnings), *(f"note {note.code}: {note.told(units)}" for note in found)]
 
@@ -83,9 +62,3 @@ def heading_of_profile(
 def _told(warnings: Sequence[str]) -> list[str]:
     """Warnings as lines below a title."""
     return [f"warning {text}" for text in warnings]
-
-
-def _in(value: float, kind: Kind, units: System, digits: int = 3) -> str:
-    """An SI value with its unit."""
-    factor, label = kind.shown(units)
-    return f"{value * factor:.{digits}g} {label}"

@@ -37,17 +37,20 @@ SHOE: Final[dict[str, Any]] = {"color": QUIET, "linewidth": 0.9, "linestyle": (0
 def monitor_figure(found: Monitored, case: Case, units: System = "si") -> Figure:
     """Weight indicator, torque and apparent friction factor over bit depth, with the alarms.
 
-    Bars are quartiles of the rows of a stretch in the first two panels, and 95 % bands in the third, where a line is
+    Bars are quartiles of the rows of a stretch in the first two panels, brought to mud at rest, and 95 % bands in the
+    third, where a line is
     the baseline of each kind.  Curves are those of the steady string at the median of the factors and 0.1 beside it.
     """
     stretches = found.stretches
-    known = stretches[stretches["friction"].notna()]
+    known = _at_rest(found, stretches[stretches["friction"].notna()])
     kinds = known["mode"].map(kind_of) if len(known) else pd.Series(dtype=str)
     middle = round(float(np.clip(known["friction"].median(), BESIDE, FACTORS[-1] - BESIDE)), 2) if len(known) else 0.3
     factors = [round(middle + k * BESIDE, 2) for k in (-1, 0, 1)]
     depth = shown("bit_depth_m", units)
     with mpl.rc_context(RC):
         lines = [f"friction factor of {found.chart.fit} hole; {len(known)} of {len(stretches)} stretches have one"]
+        if any(map(found.chart.relieves, known["flow_m3_s"])):
+            lines.append("readings with the pumps on are drawn as with mud at rest, which the curves have")
         lines += [f"alarm: {told(alarm.sentence, units)}" for alarm in found.alarms]
         handles = _handles(kinds, factors, found.alarms)
         width = LEFT + sum(WIDTHS) + BETWEEN * 2 + 0.3
@@ -75,6 +78,21 @@ def monitor_figure(found: Monitored, case: Case, units: System = "si") -> Figure
         panels[0].set_ylabel(f"bit depth, {depth.label}")
         _depths(panels, known, found.alarms, case, depth.factor)
         return sheet.figure
+
+
+def _at_rest(found: Monitored, known: pd.DataFrame) -> pd.DataFrame:
+    """Stretches with their readings as in the mud at rest of the curves."""
+    known = known.copy()
+    for end in ("", "_p25", "_p75"):
+        gauge, torque = f"weight_indicator{end}_N", f"drive_torque{end}_N_m"
+        pairs = [
+            found.chart.at_rest(
+                row["mode"], row["bit_depth_m"], row["flow_m3_s"], row["rpm"], gauge=row[gauge], torque=row[torque]
+            )
+            for row in known.to_dict("records")
+        ]
+        known[[gauge, torque]] = np.array(pairs, float).reshape(len(pairs), 2)
+    return known
 
 
 def _readings(ax: Axes, rows: pd.DataFrame, kind: str, column: str, units: System) -> None:

@@ -12,7 +12,7 @@ from fctd.case.friction import FrictionSet
 from fctd.case.load import Case, naming_file, with_friction
 from fctd.case.message import frame_of
 from fctd.hydraulics.pressures import Circulation, Eccentricity, check_flows, circulations
-from fctd.model.operations import SteadyRates, rates_of_all
+from fctd.model.operations import SteadyRates, flow_of, rates_of_all
 from fctd.results.status import SteadyStatus
 from fctd.steady.equilibrium import Solver, lie_along
 from fctd.steady.margin_table import USUAL, margin_rows, of_lines
@@ -90,10 +90,8 @@ def answer(case: Case, asked: Asked, progress: Progress = lambda what, done, tot
             at = [(kind, depth) for kind in kinds if kind in USUAL for depth in of_lines(depths, LIMIT_DEPTHS)]
             lines = _margins(solver, rates, at, show("limits"), beyond_buckling=False) if at else None
         points = tuple(solver.solve(kind, rates[kind], depths[-1]) for kind in kinds)
-        flows = [rate.flow for rate in rates.values()]
-        if drive.get("flow") is None:  # else all of the report is of that flow
-            flows += [operation.flow for operation in case.operations]
-        flow = max(flows, default=0.0)
+        # A flow that is asked for is that of all of the report.
+        flow = flow_of(case) if drive.get("flow") is None else max(rate.flow for rate in rates.values())
         found, dry = _pumped(one, flow, depths, show("hydraulics"))
     return Answers(one, asked, rates, chart, margins, lines, points, flow, found, dry)
 

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Final
 
 from fctd.case.errors import InputError
+from fctd.case.input_file import check_regular
 
 LARGEST: Final = 4 * 2**20  # bytes of a file
 WIDEST: Final = 4000  # pixels
@@ -18,6 +19,7 @@ def read_logo(path: Path, key: str = "--logo") -> bytes:
 
     expected = f"a PNG or JPEG of at most {LARGEST // 2**20} MiB and {WIDEST} by {WIDEST} pixels"
     try:
+        check_regular(path, key)
         with path.open("rb") as file:
             content = file.read(LARGEST + 1)
     except OSError as error:

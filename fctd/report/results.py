@@ -17,6 +17,7 @@ from fctd.plots.profile import profile_figure
 from fctd.report.answers import Answers
 from fctd.report.parts import Part, Picture, Section, Text
 from fctd.results.columns import LOADS
+from fctd.results.doing import told_of
 from fctd.results.notes import MEANINGS
 from fctd.results.series import FRICTION_LABEL
 from fctd.results.shown_tables import NONE, Cell, Table, facts, frame_table, of_column, shown_table, text
@@ -39,10 +40,10 @@ _PLACE: Final = ("share_used", "bit_depth_m", "md_m", "part")
 _PUSHED: Final = ("operation", "limit", "force_at_bit_N", "hookload_N", "hookload_left_N", *_PLACE)
 MARGINS: Final = {
     OVERPULL: ("Pull on a stuck bit", _PUSHED),
-    SET_DOWN: ("More weight on the bit", _PUSHED),
+    SET_DOWN: ("Weight on the bit", _PUSHED),
     SLIPS: ("Weight in the slips", _PUSHED),
     TORQUE: (
-        "More torque at the bit",
+        "Torque at the bit",
         ("operation", "limit", "torque_at_bit_N_m", "surface_torque_N_m", "surface_torque_left_N_m", *_PLACE),
     ),
     FATIGUE: (
@@ -93,6 +94,7 @@ def loads(found: Answers, look: ChartLook, units: System) -> Section:
     drawn = "with limits" if found.lines is not None else ""
     drawn += (" and " if drawn else "with ") + "measured points" if look.measured is not None else ""
     parts: list[Part] = [
+        *map(Text, told_of(case, found.rates, units)),
         Picture(f"Loads over bit depth {drawn}".strip(), chart_figure(chart, units, case, look)),
         frame_table("Loads over bit depth", chart, columns, units, CHART_WORDS, _buckled(chart)),
     ]

@@ -9,6 +9,7 @@ from typing import Any
 
 from fctd.calibration.predict import posterior_file, read_posterior
 from fctd.calibration.unknowns import held
+from fctd.case import message
 from fctd.case.friction import FrictionSet
 from fctd.case.load import Case
 from fctd.case.operations import KINDS
@@ -28,8 +29,9 @@ from fctd.case.systems import (
     Kind,
     System,
     signed,
+    told,
 )
-from fctd.model.operations import SteadyRates, rad_per_s
+from fctd.model.operations import SteadyRates
 from fctd.model.section import bearing, section_of
 from fctd.model.summary import Summary
 from fctd.report.parts import Section, Text
@@ -42,6 +44,7 @@ from fctd.results.case_facts import (
     path_facts,
     string_table,
 )
+from fctd.results.doing import does, unlike
 from fctd.results.shown_tables import (
     NONE,
     Cell,
@@ -259,14 +262,19 @@ def assumptions(
     """
     hole_of, contact = case.wellbore, case.contact
     stiffness = (
-        f"{hole_of.stiffness:.3g} N/m at a contact" if hole_of.stiffness is not None
-        else f"{hole_of.stiffness_per_length:.3g} N/m for each metre"
+        f"{message.quantity(hole_of.stiffness, 'N/m', '.3g')} at a contact" if hole_of.stiffness is not None
+        else message.quantity(hole_of.stiffness_per_length or 0.0, "N/m/m", ".3g")
     )  # fmt: skip
     lies = "0, concentric" if case.mud.eccentricity == 0 else str(case.mud.eccentricity)
     chosen: list[tuple[str, str, Any, str]] = [
         ("friction law", contact.friction_law, contact, "friction_law"),
         ("shape of the hole", hole_of.geometry, hole_of, "geometry"),
-        ("stiffness of the wall", stiffness, hole_of, "stiffness" if hole_of.stiffness else "stiffness_per_length"),
+        (
+            "stiffness of the wall",
+            told(message.Message(stiffness), units),
+            hole_of,
+            "stiffness" if hole_of.stiffness else "stiffness_per_length",
+        ),
         ("where the string buckles", case.solver.buckling, case.solver, "buckling"),
         ("eccentricity of the pipe in the annulus", lies, case.mud, "eccentricity"),
     ]
@@ -294,15 +302,24 @@ def _cut(case: Case) -> str:
 
 
 def _rates(case: Case, rates: Mapping[str, SteadyRates], drive: Mapping[str, Any], units: System) -> Table:
-    """Speed, rotation and flow of each operation, and where they are from."""
+    """What the string does in each operation, where that is from, and what they differ in."""
     own = {operation.kind for operation in case.operations}
-    given = any(value is not None for value in drive.values())
+    given = "options, else " * any(value is not None for value in drive.values())
+
+    def source(kind: str) -> str:
+        lent = rates[kind].flow and drive.get("flow") is None
+        return given + ("case" if kind in own else "default, flow of the case" if lent else "default")
+
+    acts = {kind: does(case, kind, rate) for kind, rate in rates.items()}
     rows = (
         (
-            KINDS[kind].label, abs(rate.speed), number(rate.spin / rad_per_s(1.0), 1), rate.flow,
-            "options, else " * given + ("case" if kind in own else "default"),
+            KINDS[kind].label, of["speed_m_s"], number(of["rpm"], 1), of["flow_m3_s"], of["weight_on_bit_N"],
+            source(kind),
         )
-        for kind, rate in rates.items()
+        for kind, of in acts.items()
     )  # fmt: skip
-    heads = ("operation", None), ("speed", SPEED), ("rotation", ROTATION), ("flow", FLOW), ("from", None)
-    return quantities("Rates", heads, rows, units)
+    heads = (
+        ("operation", None), ("speed", SPEED), ("rotation", ROTATION), ("flow", FLOW), ("weight on bit", FORCE),
+        ("from", None),
+    )  # fmt: skip
+    return quantities("Rates", heads, rows, units, tuple(unlike(case, rates, units)))

@@ -56,8 +56,11 @@ def string_table(summary: Summary, units: System, *, sizes: bool = False) -> Tab
     parts = list(zip(summary.parts, summary.case.string.components[: len(summary.parts)][::-1], strict=True))
     of_pipe: list[tuple[str, Kind]] = [(f"{which} diameter", ACROSS) for which in ("outer", "inner", "contact")] * sizes
     clearances = () if sizes else range(1, len(summary.case.wellbore.intervals) + 1)
+    at = LENGTH.shown(units)
+    reached = summary.bit_depth == summary.path.depth
+    bit = "the bottom" if reached else f"{summary.bit_depth * at.factor:.1f} {at.label}"
     columns: list[tuple[str, Kind | None]] = [
-        ("string, the bit at the bottom", None), ("from", LENGTH), ("to", LENGTH), *of_pipe,
+        (f"string, the bit at {bit}", None), ("from", LENGTH), ("to", LENGTH), *of_pipe,
         *([("mass", LINEAR_MASS)] * sizes), ("in air", FORCE), ("in mud", FORCE),
     ]  # fmt: skip
     rows = [

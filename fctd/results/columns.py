@@ -98,6 +98,13 @@ CYCLES: Final = Column("cycles_per_hour", "cycles per hour", digits=0)
 DEPTH: Final = Column(
     "bit_depth_m", "bit depth", heading="bit", meaning="unstretched length of the string below the rotary table"
 )
+# What the string does in a row, beside its operation.
+DOES: Final = (
+    Column("speed_m_s", "speed", meaning="of the string along the hole; the operation says which way"),
+    Column("rpm", "rotation", meaning="of the string, in rev/min"),
+    Column("flow_m3_s", "flow", meaning="of the pumps, 0 where they stand"),
+    Column("weight_on_bit_N", "weight on bit", meaning="below 0 where a stuck bit holds the string (bit.overpull)"),
+)
 _MODE: Final = Column("buckling", meaning="none, sinusoidal or helical; unknown without loads")
 _MD: Final = Column("md_m", "measured depth", meaning="measured depth of the contact point")
 _ABOVE: Final = (
@@ -128,7 +135,7 @@ TABLES: Final = {
         Column("friction", meaning="friction factor along the hole; NaN where intervals differ"),
         Column("rotational_friction", meaning="the factor around the hole; NaN where intervals differ"),
         Column("friction_label", meaning='the factors as a text: "0.25", "0.3/0.2", "cased 0.20, open 0.30"'),
-        DEPTH, *IN_CHART, _MODE, *BUCKLED,
+        DEPTH, *DOES, *IN_CHART, _MODE, *BUCKLED,
         Column("shape", meaning="of a string whose segments follow its buckling: none, snaking or helix"),
         *SHAPES, *SHARES,
         Column("status", meaning="how the row ended; a row without a balance has NaN in place of loads"),

@@ -70,6 +70,10 @@ MEANINGS: Final = {
         "where the string lies in the mud that flows past it is not known: the annulus is taken as concentric",
         "give mud.eccentricity a number",
     ),
+    "bent": Meaning(
+        "the surface torque of a bent housing that turns is that of one toolface",
+        "take the torque of wall, mud and bit, or the mean of several rows with other values of toolface",
+    ),
     "tortuosity": Meaning("the segments are too long to follow the hole's tortuosity", "use shorter segments"),
     "wall": Meaning(
         "the string was pressed deeper into the wall than the time step is stable for",
@@ -306,6 +310,18 @@ def homogenised(buckling: Buckling) -> Note:
         "may have, or finds no shape that slides"
     )
     return note_of("homogenised", text, 1.0, buckling.from_md)
+
+
+def bent(torque: float, lost: float) -> Note | None:
+    """The note on a surface torque at one toolface; None where it hardly differs from its mean over a turn [N m].
+
+    lost : torque of wall, mud and bit [N m].  The rest holds the bend in its toolface, and does no work in a turn.
+    """
+    text = (
+        f"the surface torque is that of one toolface: wall, mud and bit take {quantity(lost / 1e3, 'kN·m', '.3g')}, "
+        f"and {quantity((torque - lost) / 1e3, 'kN·m', '.3g')} hold the bend and are nearly 0 on the mean of a turn"
+    )
+    return note_beyond("bent", text, abs(torque - lost), HARDLY * abs(lost))
 
 
 def several_balances(hookload: float, drawn: Sequence[float], weight: float) -> Note | None:

@@ -176,20 +176,27 @@ def written_table(frame: pd.DataFrame) -> Table:
 
 def frame_table(
     title: str, frame: pd.DataFrame, columns: Sequence[str], units: System, words: Mapping[str, str] | None = None,
-    notes: Sequence[str] = (),
+    notes: Sequence[str] = (), most: int = 0,
 ) -> Table:  # fmt: skip
     """Columns of an SI table, with heads and digits as a workbook has them; those without any value are left out.
 
-    words : heads of columns in place of those of their names.
+    words : heads of columns in place of those of their names.  most : rows of a longer table, half of them its first
+    and half its last ones; 0 for all.
     """
     kept = frame[[name for name in columns if name in frame and (frame[name].notna() & (frame[name] != "none")).any()]]
+    half = most // 2 if 0 < most < len(kept) else 0
+    if half:
+        kept = kept.iloc[[*range(half), *range(-half, 0)]]
     read = in_field_units(kept) if units == "field" else kept
     heads, cells = [], []
     for k, name in enumerate(map(str, kept)):
         heading = heading_of(str(read.columns[k]))
         heads.append(Head((words or {}).get(name) or heading.head.words, heading.head.unit))
         cells.append([_cell(name, value, heading, units) for value in read.iloc[:, k]])
-    return Table(title, tuple(heads), tuple(zip(*cells, strict=True)), tuple(map(printable, notes)))
+    rows = list(zip(*cells, strict=True))
+    if half:
+        rows.insert(half, (Cell("…"),) * len(heads))
+    return Table(title, tuple(heads), tuple(rows), tuple(map(printable, notes)))
 
 
 def _cell(column: str, value: Any, heading: Heading, units: System) -> Cell:

@@ -20,7 +20,7 @@ from fctd.results.unit_systems import System, in_field_units
 from fctd.store.origin import versions
 from fctd.store.parquet import read_table
 from fctd.store.tables import to_csv, to_parquet
-from fctd.store.whole_file import check_file, left_overs
+from fctd.store.whole_file import check_file
 from fctd.store.whole_folder import PAUSE, check_folder, repair, whole_folder
 
 if TYPE_CHECKING:
@@ -111,9 +111,7 @@ def own_files(folder: Path) -> set[str]:
     """
     tables = [folder / name for name in result_files(csv=False)]
     csv = any(_metadata(path).get(b"csv") == b"true" for path in tables if path.is_file())
-    places = [folder / name for name in result_files(csv)]
-    found = {path for path in places if path.is_file()}
-    return {path.name for path in found.union(*map(left_overs, places))}
+    return {name for name in result_files(csv) if (folder / name).is_file()}
 
 
 def open_result(folder: str | os.PathLike[str], pause: float = PAUSE) -> SimulationResult:

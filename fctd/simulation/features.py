@@ -153,12 +153,12 @@ def _incline(run: Run) -> Use:
 
 
 def _mud_moves(run: Run) -> Use:
-    return ("mud.viscosity", f"{run.case.mud.unsteady:g} Pa s") if run.case.mud.unsteady else None
+    return ("mud.viscosity", quantity(1e3 * run.case.mud.unsteady, "mPa·s")) if run.case.mud.unsteady else None
 
 
 def _flow(run: Run) -> Use:
     flows = enumerate(operation.flow for operation in run.case.operations)
-    return next(((f"operations[{k}].flow", f"{flow:g} m^3/s") for k, flow in flows if flow), None)
+    return next(((f"operations[{k}].flow", quantity(flow, "m^3/s")) for k, flow in flows if flow), None)
 
 
 def _joint_damping(run: Run) -> Use:

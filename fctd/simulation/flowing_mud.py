@@ -79,5 +79,5 @@ def lie_of(S: Array, string: String) -> Array:
     """Offset of each segment over its clearance (n,), 0 to 1, by its contact point; 0 where there is no wall."""
     n = string.segments
     offset = np.linalg.norm([state.row(S, row, n) for row in (state.PX, state.PY, state.PZ)], axis=0)
-    clearance = state.row(S, state.HOLE, n) - string.of("outer")
+    clearance = state.row(S, state.HOLE, n) - string.channel_radii[0]
     return np.asarray(np.clip(offset / np.where(clearance > 0, clearance, np.inf), 0.0, 1.0))

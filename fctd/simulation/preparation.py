@@ -169,6 +169,7 @@ def _run(
         bent=any(component.bend for component in case.string.components),
         given=pumps(case),
         orthotropic=hole.orthotropic if case.contact.enabled else None,
+        corners=hole.corners if case.contact.enabled else None,
         bows=True if case.contact.enabled and any(part.has_bows for part in case.string.components) else None,
     )
     limit = min(_step_limit(probe, count, case, hole, laws) for probe, count in probes)

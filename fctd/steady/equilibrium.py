@@ -19,7 +19,7 @@ from fctd.case.solver import RESOLVING
 from fctd.mechanics import state
 from fctd.model.depths import depth_of
 from fctd.model.drillstring import lay_out
-from fctd.model.operations import SteadyRates, steady_rates
+from fctd.model.operations import SteadyRates, rates_of_all
 from fctd.model.string_in_hole import check_end, check_fit
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.results.buckling import NOT_BUCKLED
@@ -145,15 +145,16 @@ def equilibrium(
     """The steady string of an operation with the bit at ``bit_depth`` [m], or a text: "8000 ft", "td" or "shoe".
 
     operation : a kind of operation.  speed [m/s], rpm, flow [m³/s], or texts with units : by default those of the
-    case's operation of that kind, else the kind's defaults.  friction : factors as one set of ``torque_drag``, None for
-    the case's own.  Weight on bit and bit torque are the case's.  Raises InputError for input that cannot be used;
-    ``status`` says whether a balance was found.
+    case's operation of that kind, else the kind's defaults, and for what drills, rotates or reams the flow of the case,
+    the largest of its operations.  rpm : only for kinds that rotate by their name.  friction : factors as one
+    set of ``torque_drag``, None for the case's own.  Weight on bit and bit torque are the case's.  Raises InputError
+    for input that cannot be used; ``status`` says whether a balance was found.
     """
     with naming_file(case):
         depth = depth_of(bit_depth, case, "bit_depth")
         case = with_friction(case, friction)
         (kind,) = kinds_of([operation])
-        return Solver(case).solve(kind, steady_rates(case, kind, speed, rpm, flow), depth)
+        return Solver(case).solve(kind, rates_of_all(case, [kind], speed, rpm, flow)[kind], depth)
 
 
 def lie_along(case: Case, bit_depth: float) -> tuple[Array, Array]:

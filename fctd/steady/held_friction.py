@@ -20,7 +20,18 @@ from fctd.mechanics.state import ARM_BOTTOM, ARM_CONTACT, OPEN, RADIUS, TINY, TR
 from fctd.steady.block_thomas import SIZE
 from fctd.steady.pose import SPIN, in_frame, quaternion, stepped
 from fctd.steady.wall_gradient import wall_of
-from fctd.steady.wall_tangent import DIRECTIONS, ONE_BY_ONE, STEP, UNIT, contact_place, depth_of, moved, unit_of
+from fctd.steady.wall_tangent import (
+    DIRECTIONS,
+    ONE_BY_ONE,
+    STEP,
+    UNIT,
+    contact_place,
+    depth_of,
+    left_of_both,
+    moved,
+    reach_of,
+    unit_of,
+)
 
 # Columns of what a contact point remembers: its place [m], the spin of its body [rad], friction along the hole and
 # around it [N].
@@ -112,15 +123,19 @@ def add_held_wall(S, j, P, C, owner, laws, R, D, K):
         nx, ny, nz = unit_of(moved(wall.x, dx, dy, dz), moved(wall.y, dx, dy, dz), moved(wall.z, dx, dy, dz))
         normal = moved(wall.stiffness, dx, dy, dz) * complex(pressed, slope * moved(wall.beyond, dx, dy, dz).imag)
         tx, ty, tz = moved(wall.tx, dx, dy, dz), moved(wall.ty, dx, dy, dz), moved(wall.tz, dx, dy, dz)
+        reach = reach_of(laws.own, radius, wall.reach, dx, dy, dz)
         along, around, ox, oy, oz = friction_now(
-            laws, memory, j, radius, stiff, stiff_around,
+            laws, memory, j, reach, stiff, stiff_around,
             normal, moved(wall.factor, dx, dy, dz), moved(wall.around, dx, dy, dz),
             complex(ux, dx), complex(uy, dy), complex(uz, dz), complex(turned, ONE_BY_ONE[5, k]),
             nx, ny, nz, tx, ty, tz,
         )  # fmt: skip
         _, _, _, _, _, _, ax, ay, az = rotation_columns(cw, cx, cy, cz)
         fx, fy, fz = along * tx + around * ox, along * ty + around * oy, along * tz + around * oz
-        mx, my, mz = cross(radius * nx, radius * ny, radius * nz, fx, fy, fz)
+        mx, my, mz = cross(reach * nx, reach * ny, reach * nz, fx, fy, fz)
+        fx, fy, fz, mx, my, mz = left_of_both(
+            laws.corners, moved(wall.net, dx, dy, dz), fx, fy, fz, mx, my, mz, ax, ay, az, nx, ny, nz
+        )
         if laws.at_axis:
             about = mx * ax + my * ay + mz * az
             mx, my, mz = about * ax, about * ay, about * az
@@ -155,8 +170,9 @@ def remember(S, n, P, C, owner, laws):
                 stiff_around = stiff * turning_stiffness(laws.orthotropic, wall.factor[0], wall.around[0])
                 normal = wall.stiffness[0] * S[TRIBUTARY + j] * depth_of(laws, penetration)
                 nx, ny, nz = unit_of(wall.x[0], wall.y[0], wall.z[0])
+                reach = radius if laws.own is None else wall.reach[0]
                 along, around, _, _, _ = friction_now(
-                    laws, memory, j, radius, stiff, stiff_around, normal, wall.factor[0], wall.around[0],
+                    laws, memory, j, reach, stiff, stiff_around, normal, wall.factor[0], wall.around[0],
                     x - memory[j, 0], y - memory[j, 1], z - memory[j, 2], P[j, SPIN] - memory[j, SPIN_THEN],
                     nx, ny, nz, wall.tx[0], wall.ty[0], wall.tz[0],
                 )  # fmt: skip

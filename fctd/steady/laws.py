@@ -17,7 +17,8 @@ class Hole(NamedTuple):
     """The hole with its sets of friction factors: a table of pieces for each of them.
 
     with_wall : its geometry, or OPEN where the string does not touch it; bends : of ``Wellbore``; wall_exponent,
-    wall_reference, orthotropic : as in ``Laws``; own : True where fittings have a contact of their own, else None.
+    wall_reference, orthotropic : as in ``Laws``; own : True where fittings have a contact of their own, else None;
+    corners : as in ``Laws``.
     """
 
     pieces: Array
@@ -29,6 +30,7 @@ class Hole(NamedTuple):
     wall_reference: float
     orthotropic: bool | None
     own: bool | None
+    corners: bool | None
 
 
 def hole_of(case: Case, holes: Sequence[Wellbore]) -> Hole:
@@ -39,7 +41,8 @@ def hole_of(case: Case, holes: Sequence[Wellbore]) -> Hole:
     law = CODES[case.contact.friction_law]
     exponent, reference = map(float, case.contact.wall_law)
     own = True if any(part.has_own_contact for part in case.string.components) else None
-    return Hole(pieces, geometry, with_wall, law, holes[0].bends, exponent, reference, holes[0].orthotropic, own)
+    of = holes[0]
+    return Hole(pieces, geometry, with_wall, law, of.bends, exponent, reference, of.orthotropic, own, of.corners)
 
 
 def steady_laws(
@@ -52,5 +55,5 @@ def steady_laws(
     """
     return Steady(
         hole.with_wall, hole.law, friction_scale, speed, spin, x, y, z, torque, at_axis, hole.wall_exponent,
-        hole.wall_reference, 1.0, hole.orthotropic, None, hole.own,
+        hole.wall_reference, 1.0, hole.orthotropic, None, hole.own, hole.corners,
     )  # fmt: skip

@@ -25,5 +25,5 @@ def lie_of(laid: LaidString) -> Array | None:
         return None
     offset = np.linalg.norm(answer.walls[:, :RADIUS], axis=1)
     # At the contact points, which are the lower ends of most segments.
-    share = np.clip(offset / (answer.walls[:, RADIUS] - string.of("outer")), 0.0, 1.0)
+    share = np.clip(offset / (answer.walls[:, RADIUS] - string.channel_radii[0]), 0.0, 1.0)
     return np.asarray(0.5 * (np.append(share[0], share[:-1]) + share))

@@ -15,6 +15,7 @@ from fctd.case.operation_names import kinds_of
 from fctd.model.depths import depth_of, depths_of
 from fctd.model.operations import SteadyRates, rates_of_all
 from fctd.results.attrs import attrs_of
+from fctd.results.doing import does
 from fctd.steady.equilibrium import Solver
 from fctd.steady.margins import Loaded, Margin, margins
 from fctd.steady.stuck import stuck_string
@@ -56,9 +57,10 @@ def limits_of(
     speed [m/s], rpm, flow [m³/s] : see ``equilibrium``.  stuck_at : measured depth [m], or a text, at which the string
     is stuck, in place of its bit; pumps then stand.
 
-    Columns: operation, bit_depth_m, and those of ``Margin``: margin (overpull, set_down, torque, slips, fatigue, or
+    Columns: operation, bit_depth_m, speed_m_s, rpm, flow_m3_s and weight_on_bit_N of the string without more load, and
+    those of ``Margin``: margin (overpull, set_down, torque, slips, fatigue, or
     none where no steady string was found), limit (the first that is reached), part and md_m (where), share_used (of
-    that limit, without more load), force_at_bit_N and torque_at_bit_N_m (that are added there), hookload_N and
+    that limit, without more load), force_at_bit_N and torque_at_bit_N_m (in all, with the case's), hookload_N and
     surface_torque_N_m at the limit, hookload_left_N and surface_torque_left_N_m until then, bending_stress_Pa (its
     amplitude) and cycles_per_hour of a string that turns, and reason.  NaN where a number does not apply.  Of a string
     that is stuck, stuck_md_m says where, force_at_stuck_N and torque_at_stuck_N_m are what arrives there, and what is
@@ -69,7 +71,8 @@ def limits_of(
     with naming_file(case):
         kinds = kinds_of(operation)
         depths = depths_of(bit_depths, case, "bit_depths")
-        rates = rates_of_all(case, kinds, speed, rpm, flow)
+        # Of a string that is stuck the pumps stand.
+        rates = rates_of_all(case, kinds, speed, rpm, flow if stuck_at is None else 0.0)
         case = with_friction(case, friction)
         sticks = None if stuck_at is None else _stuck_at(stuck_at, case, kinds, flow)
         solver = Solver(case)
@@ -81,7 +84,7 @@ def limits_of(
             except InputError as error:
                 unfit.append(error)
                 none = Margin("none", "none", reason=Message(f"not_possible: {within(error.message)}"))
-                rows += [_row(kind, depth, none) for kind in kinds]
+                rows += [_row(solver.case, kind, rates[kind], depth, none) for kind in kinds]
             if progress is not None:
                 progress(done + 1, len(depths))
         if len(unfit) == len(depths):
@@ -124,9 +127,13 @@ def margin_rows(
     else:
         laid = solver.lay_out(depth)
         loaded = [Loaded(solver, kind, rates[kind], laid) for kind in kinds]
-    return [_row(of.operation, depth, one) for of in loaded for one in margins(of, **options)]
+    return [
+        _row(solver.case, of.operation, rates[of.operation], depth, one)
+        for of in loaded
+        for one in margins(of, **options)
+    ]
 
 
-def _row(kind: str, depth: float, margin: Margin) -> Row:
+def _row(case: Case, kind: str, rates: SteadyRates, depth: float, margin: Margin) -> Row:
     named = {COLUMNS[name]: value for name, value in margin._asdict().items()}
-    return {"operation": kind, "bit_depth_m": depth, **named}
+    return {"operation": kind, "bit_depth_m": depth, **does(case, kind, rates), **named}

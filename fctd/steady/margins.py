@@ -51,9 +51,9 @@ class Margin(NamedTuple):
     """What is left until a limit, SI; NaN where a number does not apply.
 
     margin : which load grows; limit : the one that is reached first; part, md : where; share : of the limit that is
-    used already.  force, torque : that are added at the bit; hookload, surface_torque : at the limit, and what is left
-    of them.  bending_stress : its amplitude; cycles_per_hour : of it; reason : why there is no number, or what else is
-    to be said.
+    used already.  force, torque : at the bit in all, with those of the case; hookload, surface_torque : at the limit,
+    and what is left of them.  bending_stress : its amplitude; cycles_per_hour : of it; reason : why there is no number,
+    or what else is to be said.
     """
 
     margin: str
@@ -102,7 +102,7 @@ def first_limit(point: Equilibrium, only: str | None = None) -> First:
 
 @dataclass
 class Loaded:
-    """A string of an operation whose loads at the bit grow.
+    """A string of an operation whose loads at the bit grow: pull and torque from those of the case, weight from none.
 
     solver : of its case; rates : of the operation; laid : the string.  One that is stuck above its bit is loaded at its
     stuck point in place of the bit (stuck.py).
@@ -134,6 +134,14 @@ class Loaded:
         """The string with more weight on its bit [N], and more torque at it [N m]; contact : other keys of contact."""
         loads = {"weight_on_bit": self.own.weight + weight, "torque": self.own.torque + torque}
         return self._solve("drill_rotating" if self.rates.spin else "drill_sliding", loads, contact)
+
+    def set_down(self, weight: float, **contact: Any) -> Equilibrium:
+        """The string with a weight on its bit [N] in place of the case's; contact : other keys of contact."""
+        return self.pressed(weight - self.own.weight, 0.0, **contact)
+
+    def as_it_is(self, **contact: Any) -> Equilibrium:
+        """The string without loads that are added, which a limit's own are compared with; contact : of that limit."""
+        return self.free if self.stuck or not contact else self.pressed(0.0, 0.0, **contact)
 
     def _solve(self, operation: str, bit: dict[str, float], contact: dict[str, Any]) -> Equilibrium:
         case = self.solver.case
@@ -207,7 +215,8 @@ def _turned(loaded: Loaded, limit_of: LimitOf, scale: float) -> Margin:
     used = limit_of(loaded.free, reached.code)
     unknown = _without_make_up(loaded.laid) if limit_of is first_limit else []
     return Margin(
-        TORQUE, reached.code, reached.part, reached.md, used.share, torque=found, surface_torque=point.surface_torque,
+        TORQUE, reached.code, reached.part, reached.md, used.share, torque=loaded.own.torque + found,
+        surface_torque=point.surface_torque,
         surface_torque_left=point.surface_torque - loaded.free.surface_torque,
         reason=_reason([*unknown, *_said(point)]),
     )  # fmt: skip
@@ -260,12 +269,12 @@ def _set_down(loaded: Loaded, beyond_buckling: bool) -> Iterator[Margin]:
 
     @cache
     def mode(weight: float) -> int:
-        point = loaded.pressed(weight, 0.0)
+        point = loaded.set_down(weight)
         return MODES.index(point.buckling.mode) if point.answered else HELICAL
 
     @cache
     def pushed(weight: float) -> Equilibrium:
-        return loaded.pressed(weight, 0.0, helical_force="analytic")
+        return loaded.set_down(weight, helical_force="analytic")
 
     def arrives(weight: float, hookload: float) -> bool:
         point = pushed(weight)
@@ -284,7 +293,8 @@ def _set_down(loaded: Loaded, beyond_buckling: bool) -> Iterator[Margin]:
         yield _at_weight(loaded, first_limit(pushed(bears)).code, bears, helical_force="analytic")
     at_slack_off = _at_weight(loaded, SLACK_OFF, spent, helical_force="analytic")
     if spent > 0:  # the hook load falls steeply with the weight there
-        at_slack_off = at_slack_off._replace(hookload=-push, hookload_left=loaded.free.hookload + push)
+        left = loaded.as_it_is(helical_force="analytic").hookload + push
+        at_slack_off = at_slack_off._replace(hookload=-push, hookload_left=left)
     elif np.isfinite(locks):
         at_slack_off = at_slack_off._replace(reason="the string locks up before")
     yield at_slack_off
@@ -292,18 +302,22 @@ def _set_down(loaded: Loaded, beyond_buckling: bool) -> Iterator[Margin]:
 
 
 def _at_weight(loaded: Loaded, code: str, weight: float, **contact: Any) -> Margin:
-    """The margin of a string that is set down with more weight on its bit [N], NaN where no limit was found."""
+    """The margin of a string that is set down with a weight on its bit [N], NaN where no limit was found."""
     if not np.isfinite(weight):
         return Margin(SET_DOWN, code, reason=f"not below {MOST_WEIGHT:g} weights of the string")
-    point, beyond = loaded.pressed(weight, 0.0, **contact), loaded.pressed((1 + 2 * CLOSE) * weight, 0.0)
+    point, beyond = loaded.set_down(weight, **contact), loaded.set_down((1 + 2 * CLOSE) * weight)
     is_steel = code not in (SNAKING, HELIX, SLACK_OFF, LOCK_UP)
     part, md = first_limit(point)[2:] if is_steel else ("none", beyond.buckling.to_md)
     # The push on a string that locks up grows without bound.
     hookload = point.hookload if code != LOCK_UP else NAN
-    already = f"already so without more weight {loaded.at}"
+    reason = "none"
+    if weight < loaded.own.weight:
+        reason = Message(f"beyond it already with {quantity(loaded.own.weight / 1e3, 'kN')} {loaded.at}")
+    elif weight == 0:
+        reason = f"already so without weight {loaded.at}"
     return Margin(
-        SET_DOWN, code, part, md, force=weight, hookload=hookload, hookload_left=loaded.free.hookload - hookload,
-        reason=already if weight == 0 else "none",
+        SET_DOWN, code, part, md, force=weight, hookload=hookload,
+        hookload_left=loaded.as_it_is(**contact).hookload - hookload, reason=reason,
     )  # fmt: skip
 
 

@@ -16,11 +16,12 @@ from fctd.case.operations import KINDS
 from fctd.case.text import counted
 from fctd.model.frames import steady_offsets
 from fctd.model.operations import SteadyRates, drive_torque, weight_indicator
+from fctd.model.string_in_hole import damping_of
 from fctd.model.tortuosity import shortfall
 from fctd.model.wellbore import Wellbore
 from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling
 from fctd.results.limits import WORST
-from fctd.results.notes import Note, flow_law, flow_lie, homogenised, limit_notes, rig_notes, several_balances
+from fctd.results.notes import Note, bent, flow_law, flow_lie, homogenised, limit_notes, rig_notes, several_balances
 from fctd.results.profile import profile_table
 from fctd.results.status import SteadyStatus
 from fctd.steady.continuation import CONVERGED, NOT_FINITE
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
 
 
 HOMOGENISED = "homogenised"  # the rung of strings whose waves have the wall force of the closed forms
+ABOUT = 2  # column of ``damping_of``: about the axis
 AT_FULL = "solved at its full friction alone, from which share of it on is not known"
 
 
@@ -44,9 +46,10 @@ AT_FULL = "solved at its full friction alone, from which share of it on is not k
 class Equilibrium:
     """A steady string with the bit at one depth.
 
-    status : loads are valid where ``status.has_loads``, also for ``locked_up``, ``under_resolved`` and ``unstable``;
-    message : details.  method : the rung of the ladder (ladder.py) that found the string.  roll_rate : of a string that
-    rolls round the hole [rad/s], against a clockwise rotation below 0, else NaN.
+    rates : of the operation.  status : loads are valid where ``status.has_loads``, also for ``locked_up``,
+    ``under_resolved`` and ``unstable``; message : details.  method : the rung of the ladder (ladder.py) that found the
+    string.  roll_rate : of a string that rolls round the hole [rad/s], against a clockwise rotation below 0, else NaN.
+    lost_torque : of wall, mud and bit [N m], where a bent housing turns, else NaN.
     shape : of a buckled string whose segments follow it, snaking or helix, else none; hookload_low, hookload_high
     [N] : of both shapes where they differ, else NaN; slack_off_spent_at, locked_up_at : shares of the friction (of the
     weight on bit where the message says so) at which the hook load is −block weight and at which no push suffices;
@@ -59,6 +62,7 @@ class Equilibrium:
 
     case: Case
     operation: str
+    rates: SteadyRates
     bit_depth: float
     status: SteadyStatus
     message: str
@@ -79,6 +83,7 @@ class Equilibrium:
     slack_off_spent_at: float = float("nan")
     locked_up_at: float = float("nan")
     roll_rate: float = float("nan")
+    lost_torque: float = float("nan")
     draw: Callable[[], tuple[float, ...]] | None = field(default=None, repr=False)
     carried: Carried | None = field(default=None, repr=False)
     fed: tuple[Fed, ...] = field(default=(), repr=False)
@@ -162,6 +167,8 @@ class Equilibrium:
         weight = float(string.weight @ string.length)
         if (other := several_balances(self.hookload, self.draw() if self.draw is not None else (), weight)) is not None:
             found = (*found, other)
+        if (turned := bent(self.surface_torque, self.lost_torque)) is not None:
+            found = (*found, turned)
         if (circuit := shape.laid.circuit) is not None:
             law = flow_law(circuit.doubted, weight)
             lies = flow_lie() if shape.laid.eccentricity is None else None
@@ -203,9 +210,18 @@ def steady_string(
     drive = drive_torque(case.rig, rates.spin, torque)
     normal, r_ft, r_mu_n = shape.numbers[SUM_NORMAL : SUM_R_MU_FN + 1].tolist()
     return Equilibrium(
-        case, operation, laid.string.bit_depth, status, message, int(iterations), hookload, torque,
+        case, operation, rates, laid.string.bit_depth, status, message, int(iterations), hookload, torque,
         indicator, drive, normal, r_ft, r_mu_n, imbalance, shape, method,
+        lost_torque=_lost_torque(case, hole, laid, rates, r_ft + at_bit.torque),
     )  # fmt: skip
+
+
+def _lost_torque(case: Case, hole: Wellbore, laid: LaidString, rates: SteadyRates, wall_and_bit: float) -> float:
+    """Torque of wall, mud and bit on a string with a bent housing that turns [N m], else NaN."""
+    if not (laid.is_bent and rates.spin):
+        return float("nan")
+    about = damping_of(case, laid.string, hole)[:, ABOUT]
+    return wall_and_bit + rates.spin * float(about @ laid.string.length)
 
 
 def _judge(

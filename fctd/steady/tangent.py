@@ -57,6 +57,7 @@ class Steady(NamedTuple):
     wall_exponent, wall_reference, orthotropic : as in Laws.  given : share of the loads that are given to the bodies.
     held : of a string that is fed, whose friction remembers; None of one that slides or turns at its rates.
     own : True where fittings have a contact of their own, else None, for which the code of others is compiled.
+    corners : as in Laws.
     """
 
     geometry: int
@@ -75,6 +76,7 @@ class Steady(NamedTuple):
     orthotropic: bool | None = None
     held: Held | None = None
     own: bool | None = None
+    corners: bool | None = None
 
 
 @inlined
@@ -169,6 +171,7 @@ def frictionless_tangent(S, n, P, kinks, C, owner, laws, R, D, A, U):
     bare = Steady(
         laws.geometry, laws.friction, 0.0, 0.0, 0.0, laws.bit_x, laws.bit_y, laws.bit_z, laws.bit_torque,
         laws.at_axis, laws.wall_exponent, laws.wall_reference, 0.0, laws.orthotropic, None, laws.own,
+        laws.corners,
     )  # fmt: skip
     assemble(S, n, P, kinks, C, owner, bare, R, D, A, U)
     if laws.geometry in (ARCS, SAMPLED):

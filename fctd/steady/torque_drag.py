@@ -14,6 +14,7 @@ from fctd.model.operations import SteadyRates, rates_of_all
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.results.buckling import UNKNOWN
 from fctd.results.columns import IN_CHART, SHAPES, SHARES
+from fctd.results.doing import does
 from fctd.results.notes import Note, RowNote, codes_of
 from fctd.results.status import SteadyStatus
 from fctd.steady import batch
@@ -125,9 +126,9 @@ class _Chart:
         self, kind: str, k: int, depth: float, string: LaidString | InputError, answers: Iterator[Answer]
     ) -> Row | Callable[[], Row]:
         label, solver = self.solvers[k]
-        if isinstance(string, InputError):
-            return _row(label, solver, kind, depth, None, str(string))
         rates = self.rates[kind]
+        if isinstance(string, InputError):
+            return _row(label, solver, kind, rates, depth, None, str(string))
         point = solver.first(kind, rates, string, next(answers))
         if point is not None:
             return self._answer(kind, k, depth, point)
@@ -137,7 +138,7 @@ class _Chart:
             try:
                 point = solver.solve_problem(solver.problem(kind, rates, string), above)
             except InputError as error:  # as of a resolved string with too many segments
-                return _row(label, solver, kind, depth, None, error.message)
+                return _row(label, solver, kind, rates, depth, None, error.message)
             if point.carried is not None:
                 self._above[loads] = point.carried
             return self._answer(kind, k, depth, point)
@@ -147,7 +148,7 @@ class _Chart:
     def _answer(self, kind: str, k: int, depth: float, point: Equilibrium) -> Row:
         if point.notes:
             self._notes[kind, k, depth] = point.notes
-        return _row(*self.solvers[k], kind, depth, point)
+        return _row(*self.solvers[k], kind, self.rates[kind], depth, point)
 
     def notes_of(self, depths: Sequence[float]) -> list[RowNote]:
         """The notes of the rows so far, in the order of the rows."""
@@ -186,7 +187,9 @@ def _lay_out(solver: Solver, depth: float) -> LaidString | InputError:
         return error
 
 
-def _row(label: str, solver: Solver, kind: str, depth: float, point: Equilibrium | None, misfit: str = "") -> Row:
+def _row(
+    label: str, solver: Solver, kind: str, rates: SteadyRates, depth: float, point: Equilibrium | None, misfit: str = ""
+) -> Row:
     """A chart row, of a string in balance or of a depth where string and hole do not fit."""
     answer = point if point is not None and point.answered else None
     # The values of an unfinished iteration are not loads.
@@ -198,6 +201,7 @@ def _row(label: str, solver: Solver, kind: str, depth: float, point: Equilibrium
         **solver.friction,
         "friction_label": label,
         "bit_depth_m": depth,
+        **does(solver.case, kind, rates),
         **loads,
         **(UNKNOWN if point is None else point.buckling).columns(),
         "shape": "none" if point is None else point.shape,

@@ -37,7 +37,8 @@ from fctd.mechanics.state import ARCS, BOW_STIFFNESS, OWN_FRICTION, RADIUS, SAMP
 
 class Beside(NamedTuple):
     """The wall beside a point, as quantities: PT [m], its length beyond the hole's radius [m], stiffness, friction
-    factor along the string, direction of the hole, friction factor around the string."""
+    factor along the string, direction of the hole, friction factor around the string, ``friction.Sliding.net``, and the
+    distance from the pipe's axis to the place of the wall that bow springs touch [m], which only they read."""
 
     x: Any
     y: Any
@@ -49,6 +50,12 @@ class Beside(NamedTuple):
     ty: Any
     tz: Any
     around: Any
+    net: Any
+    reach: Any
+
+
+# Beside one place of the wall, and without bow springs.
+WHOLE, NO_REACH = (1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)
 
 
 @inlined
@@ -77,6 +84,8 @@ def beside_piece(
         along_hole(ty, share * my, tx, ty, tz),
         along_hole(tz, share * mz, tx, ty, tz),
         along_hole(around, share * around_gain, tx, ty, tz),
+        WHOLE,
+        NO_REACH,
     )
 
 
@@ -173,7 +182,7 @@ def leaning(wall, gx, gy, gz, radius):
     across = product(total(wall.beyond, less), to_the_power(square, -0.5))
     return Beside(
         gx, gy, gz, total(across, times(-1.0, less)), product(wall.stiffness, square), wall.factor,
-        wall.tx, wall.ty, wall.tz, wall.around,
+        wall.tx, wall.ty, wall.tz, wall.around, wall.net, wall.reach,
     )  # fmt: skip
 
 
@@ -208,7 +217,7 @@ def beside_cylinders(C, i, x, y, z, radius):
     wall = Beside(
         blend(a.x, b.x, *v), blend(a.y, b.y, *v), blend(a.z, b.z, *v), blend(a.beyond, b.beyond, *v),
         blend(a.stiffness, b.stiffness, *v), blend(a.factor, b.factor, *v), tx, ty, tz,
-        blend(a.around, b.around, *v),
+        blend(a.around, b.around, *v), WHOLE, NO_REACH,
     )  # fmt: skip
     if wall.beyond[0] + radius > 0:
         return lean_in_overlap(a, b, wall, share, v, radius)
@@ -255,7 +264,7 @@ def beside_sampled(C, i, x, y, z, radius):
     deviation = in_hole(found.value, found.by_s, found.by_angle, s, f)
     wall = Beside(
         wall.x, wall.y, wall.z, total(wall.beyond, times(-1.0, deviation)), wall.stiffness, wall.factor,
-        wall.tx, wall.ty, wall.tz, wall.around,
+        wall.tx, wall.ty, wall.tz, wall.around, WHOLE, NO_REACH,
     )  # fmt: skip
     if wall.beyond[0] + radius <= 0 or distance == 0:
         return wall
@@ -282,7 +291,7 @@ def beside_sampled(C, i, x, y, z, radius):
     )  # fmt: skip
     wall = Beside(
         wall.x, wall.y, wall.z, wall.beyond, wall.stiffness, product(grip, wall.factor), wall.tx, wall.ty, wall.tz,
-        product(grip, wall.around),
+        product(grip, wall.around), to_the_power(grip, -1), NO_REACH,
     )  # fmt: skip
     return leaning(wall, gx, gy, gz, radius)
 
@@ -301,6 +310,7 @@ def wall_beside(C, i, geometry, x, y, z, radius):
 def with_own_contact(S, j, wall):
     """The wall beside contact point j of a fitting, see ``own_contact``."""
     radius, factor, around, beyond, stiffness = S[RADIUS + j], wall.factor, wall.around, wall.beyond, wall.stiffness
+    reach = (radius, 0.0, 0.0, 0.0)
     if S[OWN_FRICTION + j] != 0:
         factor = around = (S[OWN_FRICTION + j], 0.0, 0.0, 0.0)
     if S[BOW_STIFFNESS + j] != 0:
@@ -313,7 +323,8 @@ def with_own_contact(S, j, wall):
                 k * (x[0] * x[2] + y[0] * y[2] + z[0] * z[2]), k * (x[0] * x[3] + y[0] * y[3] + z[0] * z[3]),
             )  # fmt: skip
         stiffness = (S[BOW_STIFFNESS + j] / S[TRIBUTARY + j], 0.0, 0.0, 0.0)
-    return Beside(wall.x, wall.y, wall.z, beyond, stiffness, factor, wall.tx, wall.ty, wall.tz, around)
+        reach = times(-1.0, wall.beyond)
+    return Beside(wall.x, wall.y, wall.z, beyond, stiffness, factor, wall.tx, wall.ty, wall.tz, around, wall.net, reach)
 
 
 @inlined

@@ -46,13 +46,30 @@ def depth_of(laws, penetration):
 
 
 @inlined
+def left_of_both(corners, net, fx, fy, fz, mx, my, mz, ax, ay, az, nx, ny, nz):
+    """Friction at one place with the limits of two, as it is at both: force and moment (6) on a body with the axis a.
+
+    corners : of ``Laws``; net : of ``friction.Sliding``, the share of the force around the body, and of the moment
+    across its axis, that is left of both.
+    """
+    if corners is None:
+        return fx, fy, fz, mx, my, mz
+    cx, cy, cz = cross(ax, ay, az, nx, ny, nz)
+    turn = (1 - net) * (fx * cx + fy * cy + fz * cz) * reciprocal(cx * cx + cy * cy + cz * cz + TINY)
+    about = (1 - net) * (mx * ax + my * ay + mz * az)
+    fx, fy, fz = fx - turn * cx, fy - turn * cy, fz - turn * cz
+    return fx, fy, fz, net * mx + about * ax, net * my + about * ay, net * mz + about * az
+
+
+@inlined
 def loads_of_wall(
-    steady_load, laws, spin, scale, nx, ny, nz, normal, factor, around, tx, ty, tz, w, qx, qy, qz, arm, radius
+    steady_load, laws, spin, scale, nx, ny, nz, normal, factor, around, tx, ty, tz, w, qx, qy, qz, arm, radius, net
 ):
     """Loads of the wall on a body with its frame q, given the normal force on it [N] and the wall beside it.
 
     steady_load : of a law of friction; spin : rotation of the string there [rad/s]; scale : share of the friction;
-    factor, around : friction factors along and around the string.  Returns force [N], global; moment about the centre
+    factor, around : friction factors along and around the string; radius [m] : at which it acts; net : of
+    ``left_of_both``.  Returns force [N], global; moment about the centre
     [N m], in the body's frame: six scalars.
     """
     _, _, _, _, _, _, ax, ay, az = rotation_columns(w, qx, qy, qz)
@@ -61,6 +78,7 @@ def loads_of_wall(
         laws.speed, spin, limit, limit_around(laws.orthotropic, scale, around, normal), radius, ax, ay, az,
         nx, ny, nz, tx, ty, tz,
     )  # fmt: skip
+    fx, fy, fz, mx, my, mz = left_of_both(laws.corners, net, fx, fy, fz, mx, my, mz, ax, ay, az, nx, ny, nz)
     if laws.at_axis:
         about = mx * ax + my * ay + mz * az
         mx, my, mz = about * ax, about * ay, about * az
@@ -87,9 +105,9 @@ def starting(S, j, C, i, laws):
     """Force along body j [N] and torque about it [N m] with which bow springs hold it that piece i compresses."""
     if laws.geometry == OPEN or C[i, HOLE_RADIUS] > S[RADIUS + j]:
         return 0.0, 0.0
-    turning = S[RADIUS + j] * spin_of(S, j, laws)
+    turning = C[i, HOLE_RADIUS] * spin_of(S, j, laws)
     share = laws.friction_scale * S[STARTING_FORCE + j] / (root(laws.speed * laws.speed + turning * turning) + TINY)
-    return share * laws.speed, share * turning * S[RADIUS + j]
+    return share * laws.speed, share * turning * C[i, HOLE_RADIUS]
 
 
 @inlined
@@ -105,6 +123,17 @@ def contact_place(S, j, P):
 def moved(q, dx, dy, dz):
     """A quantity beside a point that moves by d/i."""
     return complex(q[0], q[1] * dx + q[2] * dy + q[3] * dz)
+
+
+@inlined
+def reach_of(own, radius, reach, dx, dy, dz):
+    """Distance from the axis of a body that moves by d/i to the place of the wall that it touches [m].
+
+    own : of ``Steady``; reach : of ``Beside``.
+    """
+    if own is None:
+        return radius
+    return moved(reach, dx, dy, dz)
 
 
 @cache
@@ -129,7 +158,7 @@ def differentiate_with(steady_load: Any) -> Any:
                 steady_load, laws, spin, scale, nx, ny, nz, normal,
                 moved(wall.factor, dx, dy, dz), moved(wall.around, dx, dy, dz),
                 moved(wall.tx, dx, dy, dz), moved(wall.ty, dx, dy, dz), moved(wall.tz, dx, dy, dz),
-                cw, cx, cy, cz, arm, radius,
+                cw, cx, cy, cz, arm, reach_of(laws.own, radius, wall.reach, dx, dy, dz), moved(wall.net, dx, dy, dz),
             )  # fmt: skip
             K[k], K[8 + k], K[16 + k] = fx.imag * UNIT, fy.imag * UNIT, fz.imag * UNIT
             K[24 + k], K[32 + k], K[40 + k] = ma.imag * UNIT, mb.imag * UNIT, mc.imag * UNIT
@@ -212,8 +241,9 @@ def read_wall(S, j, P, C, i, laws):
     around = limit_around(laws.orthotropic, scale, wall.around[0], normal)
     nx, ny, nz = unit_of(wall.x[0], wall.y[0], wall.z[0])
     _, _, _, _, _, _, ax, ay, az = rotation_columns(*quaternion(P, j))
+    radius = S[RADIUS + j] if laws.own is None else wall.reach[0]
     _, _, _, _, _, _, torque = steady_load(
-        laws.friction, laws.speed, spin_of(S, j, laws), limit, around, S[RADIUS + j], ax, ay, az, nx, ny, nz,
+        laws.friction, laws.speed, spin_of(S, j, laws), limit, around, radius, ax, ay, az, nx, ny, nz,
         wall.tx[0], wall.ty[0], wall.tz[0],
     )  # fmt: skip
-    return normal, -torque, S[RADIUS + j] * turning_limit(limit, around)
+    return normal, -torque, radius * turning_limit(limit, around)

@@ -24,7 +24,7 @@ from fctd.case.wall import IntervalSpec
 from fctd.model.capacity import THINNEST, burst_of
 from fctd.model.casing_wear import WEAR_UNIT, groove_area, groove_depth
 from fctd.model.depths import depths_of
-from fctd.model.operations import SteadyRates, steady_rates
+from fctd.model.operations import SteadyRates, rates_of_all
 from fctd.results.attrs import attrs_of
 from fctd.results.profile import JOINT, edges_of
 from fctd.steady.equilibrium import Solver
@@ -119,7 +119,7 @@ def casing_wear(
             raise InputError(" or ".join(TURNING), key="operation", value=operation)
         casings = casings_of(case)
         depths = depths_of(bit_depths, case, "bit_depths")
-        rates = steady_rates(case, operation, rpm=rpm)
+        rates = rates_of_all(case, [operation], rpm=rpm)[operation]
         time = _times(depths, duration, penetration)
         every = argument(step, LENGTH, "step")
         if not case.wellbore.intervals[-1].to_md / MOST_ROWS < every < np.inf:

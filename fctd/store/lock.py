@@ -55,6 +55,7 @@ class FolderLock:
                     if os.write(file, text) < len(text):
                         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
                 except OSError:  # a full disk: a lock that stays would be one of a process that nobody knows
+                    (folder / NAME).unlink()
                     os.close(file)
                     raise
                 return cls(file)

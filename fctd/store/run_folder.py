@@ -54,19 +54,24 @@ class RunFolder:
     def take(cls, target: Path, key: str = "") -> Self:
         """Lock the folder for the result ``target``, and make it where there is none.
 
-        Raises InputError, which names ``key`` and the target, while another process writes there or where the system
-        refuses.
+        Raises InputError, which names ``key`` and the target, while another process writes there, where the folder
+        holds files of others, or where the system refuses.
         """
         path = run_path(target)
         try:
             while True:
                 path.mkdir(parents=True, exist_ok=True)
+                if (names := os.listdir(path)) and not {LOCK, ABOUT} & set(names):
+                    expected = f"another place (its runs are kept in {path}, and that folder holds files of others)"
+                    raise InputError(expected, key=key, value=target)
                 with suppress(FileNotFoundError):  # another process has just removed the folder
                     return cls(target, FolderLock.take(path))
         except HeldError as held:
             here = f"no other run writes to (process {held.holder.process} does, since {clock(held.holder.since)})"
             raise InputError(f"a place that {here}: wait for it, or name another", key=key, value=target) from None
         except OSError as error:
+            with suppress(OSError):
+                path.rmdir()  # where this has made it
             expected = f"a place beside which the run can be kept ({error.strerror or error})"
             raise InputError(expected, key=key, value=target) from error
 

@@ -1,12 +1,12 @@
 """Folders of results, replaced as a whole: the new one is written beside the old, then two renames swap them.
 
-``.DIR-run-PID`` is the new folder and ``.DIR-old-PID`` the one before; both are there only between the two renames.
-A process killed at any time leaves enough for ``repair`` to finish: what was written completely is put into place.
+A temporary file (scratch.py) stands for the replacement, and gives its name to two folders: NAME.run is the new one,
+NAME.old the one before; both are there only between the two renames.  A process killed at any time leaves enough for
+``repair`` to finish: what was written completely is put into place.
 """
 
 import errno
 import os
-import re
 import shutil
 import time
 from collections.abc import Callable, Collection, Iterator
@@ -15,7 +15,8 @@ from itertools import count
 from pathlib import Path
 
 from fctd.case.errors import InputError
-from fctd.store.whole_file import check_new, left_by_dead
+from fctd.store.scratch import left_over, scratch_file, scratch_name
+from fctd.store.whole_file import check_new
 
 Own = Callable[[Path], Collection[str]]
 """Names of what a new folder replaces; all else is the user's and stays."""
@@ -33,18 +34,19 @@ def whole_folder(folder: Path, own: Own = os.listdir) -> Iterator[Path]:
     system refuses; where it refuses the swap alone, the message says where the new files are.
     """
     target = check_folder(folder)
-    new, old = _beside(target, os.getpid())
     try:
         repair(target, own)
-        _finish(target, os.getpid(), own)  # an earlier process of this id may have been killed
-        new.mkdir(parents=True)
-        try:
-            yield new
-            if target.is_dir():
-                shutil.copymode(target, new)
-            _swap(new, target, old, own)
-        finally:
-            _finish(target, os.getpid(), own)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        with scratch_file(_stand_in(target)) as scratch:
+            new, old = _beside(scratch)
+            new.mkdir()
+            try:
+                yield new
+                if target.is_dir():
+                    shutil.copymode(target, new)
+                _swap(new, target, old, own)
+            finally:
+                _finish(target, scratch, own)
     except OSError as error:
         raise InputError(f"a folder that can be written ({error.strerror or error})", value=folder) from error
 
@@ -63,7 +65,7 @@ def check_folder(folder: Path, key: str = "") -> Path:
         inside = [target / name for name in os.listdir(target)] if target.exists() else []
         if any(os.path.ismount(place) for place in (target, *inside)):
             raise InputError(f"{advice} (this one is or contains a mount point)", key=key, value=folder)
-        check_new(_beside(target, os.getpid())[0])
+        check_new(scratch_name(_stand_in(target)))
     except OSError as error:
         reason = error.strerror or str(error)
         here = f"{advice} (beside this one nothing can be written: {reason})"
@@ -75,15 +77,19 @@ def check_folder(folder: Path, key: str = "") -> Path:
 def repair(folder: Path, own: Own) -> None:
     """Complete or undo the replacements of a folder that killed processes left unfinished, as far as possible."""
     folder = Path(os.path.realpath(folder))
-    left = left_by_dead(folder.parent, rf"\.{re.escape(folder.name)}-(?:run|old)-PID")
-    for process in {process for _, process in left}:
-        with suppress(OSError):  # another process repairs it too, or the folder cannot be written and stays as it is
-            _finish(folder, process, own)
+    for scratch in left_over(_stand_in(folder)):
+        with suppress(OSError):  # the folder cannot be written and stays as it is
+            _finish(folder, scratch, own)
 
 
-def _beside(folder: Path, process: int) -> tuple[Path, Path]:
-    """Where a process keeps the new folder and the one before."""
-    return folder.with_name(f".{folder.name}-run-{process}"), folder.with_name(f".{folder.name}-old-{process}")
+def _stand_in(folder: Path) -> Path:
+    """The path beside which the temporary file of a replacement lies."""
+    return folder.with_name(f"{folder.name}.lock")
+
+
+def _beside(scratch: Path) -> tuple[Path, Path]:
+    """The new folder and the one before."""
+    return scratch.with_suffix(".run"), scratch.with_suffix(".old")
 
 
 def _swap(new: Path, folder: Path, old: Path, own: Own) -> None:
@@ -96,15 +102,17 @@ def _swap(new: Path, folder: Path, old: Path, own: Own) -> None:
     except OSError as error:
         if old.is_dir():
             raise
-        kept = folder.with_name(f"{folder.name}-{os.getpid()}")  # a name that no repair removes
+        kept = folder.with_name(f"{folder.name}.new")  # a name that no repair removes
+        while os.path.lexists(kept):
+            kept = kept.with_name(f"{kept.name}.new")
         new.rename(kept)
         expected = f"a folder that can be renamed ({error.strerror or error}); the new files are in {kept}"
         raise InputError(expected, value=folder) from error
 
 
-def _finish(folder: Path, process: int, own: Own) -> None:
-    """Complete or undo the replacement that an ended process began, whatever step it reached."""
-    new, old = _beside(folder, process)
+def _finish(folder: Path, scratch: Path, own: Own) -> None:
+    """Complete or undo a replacement, whatever step it reached."""
+    new, old = _beside(scratch)
     if old.is_dir():
         if new.is_dir():  # between the two renames: the new folder is complete
             if not _rename_over(new, folder) and not own(folder):
@@ -114,6 +122,7 @@ def _finish(folder: Path, process: int, own: Own) -> None:
         _hand_over(old, folder, own)
     if new.is_dir():
         shutil.rmtree(new)
+    scratch.unlink()  # last: what is left is found by it
 
 
 def _rename_over(new: Path, folder: Path) -> bool:

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from fctd.case.errors import InputError
+from fctd.case.input_file import LARGEST_FILE, check_regular, read_text
 from fctd.mechanics.compile_cache import hash_of_sources
 from fctd.store.limits import cores
 
@@ -137,10 +138,13 @@ def address_of(choice: ClusterChoice) -> str:
     key, value, address = "--scheduler", str(choice.scheduler), str(choice.scheduler)
     if choice.scheduler_file is not None:
         key, value = "--scheduler-file", str(choice.scheduler_file)
+        expected = "the file that a running scheduler has written"
+        with suppress(OSError):
+            check_regular(choice.scheduler_file, key)
         try:
-            address = str(json.loads(choice.scheduler_file.read_text(encoding="utf-8"))["address"])
-        except (OSError, ValueError, KeyError, TypeError, IndexError, RecursionError):
-            raise InputError("the file that a running scheduler has written", key=key, value=value) from None
+            address = str(json.loads(read_text(choice.scheduler_file, LARGEST_FILE, expected))["address"])
+        except (ValueError, KeyError, TypeError, IndexError, RecursionError):
+            raise InputError(expected, key=key, value=value) from None
     found = ADDRESS.fullmatch(address)
     if found is None or not 0 < int(found["port"]) < 65536:
         raise InputError("a scheduler's address such as tcp://host:8786", key=key, value=value)

@@ -14,6 +14,7 @@ from fctd.case.message import within
 from fctd.model.depths import depth_of, depths_of
 from fctd.model.operations import rates_of_all
 from fctd.results.columns import LOADS
+from fctd.results.doing import does
 from fctd.results.notes import codes_of
 from fctd.simulation.simulate import Simulation
 from fctd.steady.refine import refine
@@ -92,7 +93,7 @@ def equilibrium(case: Case, task: Task, tick: Tick) -> list[Row]:
         point = solver.solve_string(kind, rates[kind], laid)
         tick()
         none = float("nan")
-        row: dict[str, Any] = {"operation": kind, "bit_depth_m": task.depths[0]}
+        row: dict[str, Any] = {"operation": kind, "bit_depth_m": task.depths[0], **does(case, kind, rates[kind])}
         row |= {load.name: load.value(point) if point.answered else none for load in LOADS}
         extremes = {"min_effective_tension_N": none, "max_contact_force_N": none, "max_von_mises_Pa": none}
         if point.answered:

@@ -23,7 +23,7 @@ def chart() -> fctd.Chart:
 
 
 def test_its_table_is_that_of_torque_drag_whose_docstring_has_each_column(chart: fctd.Chart) -> None:
-    told = re.findall("^- ([a-zA-Z_]+): .", fctd.torque_drag.__doc__ or "", re.M)
+    told = re.findall(r"^- (\w+): .", fctd.torque_drag.__doc__ or "", re.M)
     assert told == list(chart.rows) == [column.name for column in TABLES["chart"]]
     profile = list(fctd.equilibrium(chart.case, "trip_in", "td").profile)
     assert profile == [column.name for column in TABLES["profile"] if column.name in profile]
@@ -56,6 +56,10 @@ def test_it_draws_itself(chart: fctd.Chart, tmp_path: Path) -> None:
     assert "bit depth, ft" in texts
     assert picture._repr_png_().startswith(b"\x89PNG")
     assert picture.save(tmp_path / "chart.svg") == [tmp_path / "chart.svg"]
+    for name in ("chart.html", "chart"):
+        with pytest.raises(fctd.InputError, match=r"expected a file name that ends in \.png, \.svg or \.pdf"):
+            picture.save(tmp_path / name)
+    assert [path.name for path in tmp_path.iterdir()] == ["chart.svg"]
 
 
 def test_units_and_loads_that_nobody_knows_are_refused(chart: fctd.Chart) -> None:

@@ -130,6 +130,13 @@ def test_too_many_stations_and_segments_are_refused(tmp_path: Path) -> None:
         from_upload("survey.csv", survey, "si", tmp_path)
     with pytest.raises(InputError, match=f"at most {MOST_STATIONS} stations"):
         SourceCase(source(TEXT.replace('"900 m"', '"500 m"').replace('"880 m"', '"400 m"'), survey=survey), tmp_path)
+    more = survey * 3  # beyond what a file may have, too: the page has the one limit
+    for read in (
+        lambda: from_upload("survey.csv", more, "si", tmp_path),
+        lambda: SourceCase(source(survey=more), tmp_path),
+    ):
+        with pytest.raises(InputError, match=rf"^survey\.csv: expected at most {MOST_STATIONS} stations$"):
+            read()
     with pytest.raises(InputError, match=r"^expected a string of at most 2000 segments in the hole, here about \d+$"):
         SourceCase(source(TEXT.replace('"25 m"', '"0.4 m"')), tmp_path)
 

@@ -91,10 +91,11 @@ def test_processes_that_do_not_start_are_told_of(tmp_path: Path, monkeypatch: py
 
 
 def test_scratch_of_a_pool_that_was_killed_goes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (tmp_path / "work-9999999" / "x").mkdir(parents=True)
+    (tmp_path / "work" / "x").mkdir(parents=True)
     with scripted(tmp_path, monkeypatch, size=2) as pool:
         pool.ask("hello")
         assert [path.name for path in tmp_path.iterdir()] == [pool.folder.name]
+        assert not (pool.folder / "x").exists()
 
 
 @pytest.mark.slow

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import http.client
 import json
+import os
 import socket
 import threading
 import tomllib
@@ -17,7 +18,7 @@ import pytest
 
 from fctd.app.downloads import FILES
 from fctd.app.home import Home
-from fctd.app.sessions import Session
+from fctd.app.sessions import MOST_SESSIONS, Session
 from fctd.case.errors import InputError
 from fctd.model.first_runs import to_paste
 from tests.app.made import NAME, SURVEY, TEXT, InProcess, source
@@ -309,6 +310,15 @@ def test_a_run_begins_where_the_sliders_stand(server: AppServer, monkeypatch: py
     assert [tomllib.loads(text)["mud"]["density"] for text in begun] == [1300.0]
 
 
+def test_new_pages_drop_none_with_a_run(server: AppServer, monkeypatch: pytest.MonkeyPatch) -> None:
+    key = server.sessions.new().key
+    os.utime(server.home.folder / "sessions" / key, (0, 0))
+    monkeypatch.setattr(server.runs, "running", lambda: {key})
+    for _ in range(MOST_SESSIONS + 1):
+        assert ask(server, f"{server.home.prefix}new").status == 302
+    assert ask(server, f"{server.home.prefix}s/{key}/").status == 200
+
+
 def test_operations_are_added_to_those_of_a_case(server: AppServer, monkeypatch: pytest.MonkeyPatch) -> None:
     session, begun = server.sessions.new(), list[str]()
     session.put(source())
@@ -325,7 +335,7 @@ def test_operations_are_added_to_those_of_a_case(server: AppServer, monkeypatch:
     run("")
     more, own = (tomllib.loads(text).get("operations", []) for text in begun)
     assert more == [*own, {"kind": "rotate_off_bottom", "at_md": "900 m", "duration": "60 s", "rpm": 60}]
-    for wrong in ('[wellbore]\nsurvey = "/etc/passwd"', "[[operations]", 'name = "x"'):
+    for wrong in ('[wellbore]\nsurvey = "/etc/passwd"', "[[operations]", 'name = "x"', "a." * 40_000 + "a = 1"):
         assert "operations" in str(run(wrong)["run-told"])
     assert len(begun) == 2
 

@@ -58,3 +58,15 @@ def test_the_oldest_sessions_go(tmp_path: Path) -> None:
     assert newest is not None
     assert newest.key == keys[-1]
     assert sessions.get(keys[0]) is None
+
+
+def test_a_session_whose_run_goes_on_stays(tmp_path: Path) -> None:
+    sessions = Sessions(tmp_path)
+    first = sessions.new().key
+    os.utime(tmp_path / first, (0, 0))
+    for _ in range(MOST_SESSIONS + 5):
+        sessions.new({first})
+    assert sessions.get(first) is not None
+    assert len(sessions.folders()) == MOST_SESSIONS
+    sessions.new()
+    assert sessions.get(first) is None

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from fctd.app.case_text import SourceCase
 from fctd.app.sliders import changes, rates_at, sliders_of
 from fctd.case.errors import InputError
+from fctd.case.operations import KINDS
 from fctd.model.operations import rad_per_s, steady_rates
 from tests.app.made import TEXT, source
 from tests.cases import make_case, pipe
@@ -69,6 +70,9 @@ def test_every_slider_changes_its_keys(read: SourceCase) -> None:
     assert steady_rates(turned, "trip_in").spin == 0
     assert steady_rates(turned, "back_ream").speed == pytest.approx(-0.1)  # the kind's own
     assert {steady_rates(turned, kind).flow for kind in ("back_ream", "trip_in", "drill_sliding")} == {0.03}
+    pumped = read.changed({"operations[0].flow": "1800 L/min"})
+    slower = rates_at(pumped, 30)  # a rotation that is moved leaves the flows as they were
+    assert all(steady_rates(slower, kind).flow == steady_rates(pumped, kind).flow for kind in KINDS)
 
 
 def test_flow_has_a_slider_where_the_case_says_how_its_mud_flows(read: SourceCase) -> None:

@@ -5,6 +5,7 @@ import io
 import json
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 from typing import Any
 from unittest.mock import Mock
@@ -45,6 +46,14 @@ def test_a_case_that_cannot_be_used_is_refused(text: str, tmp_path: Path) -> Non
     assert set(found) == {"refused"}
     assert "root:" not in found["refused"]
     json.dumps(found)
+
+
+def test_operations_to_add_are_read_in_this_process(tmp_path: Path) -> None:
+    """Whose memory and time have limits, as those of the server have not."""
+    wells, asked = Wells(tmp_path), request("text", source()) | {"given": {"values": {}, "more": "a." * 40_000 + "a=1"}}
+    assert "operations in TOML (line 1 has a key of more than 16 parts)" in answer(wells, asked)["refused"]
+    asked["given"]["more"] = "[[operations]]\nkind = 'trip_in'"
+    assert tomllib.loads(answer(wells, asked)["found"]["text"])["operations"][-1] == {"kind": "trip_in"}
 
 
 def test_a_defect_and_a_lack_of_memory_are_answers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -66,3 +66,23 @@ def test_a_depth_below_the_hole_is_refused(tmp_path: Path) -> None:
         InputError, match=r'row 2, depth_m = "9000": expected a depth in the hole, which ends at 2000 m'
     ):
         read_measured(written(tmp_path, rows.format(9000)), CASE)
+
+
+@pytest.mark.parametrize(
+    ("rows", "expected"),
+    [
+        ("1000,trip_in,340\n1000,trip_out,104\n1000,rotate_off_bottom,205\n",
+         "a slack-off weight of 340 kN above the rotating weight of 205 kN at 1000 m: swapped or misread?"),
+        ("900,trip_in,300\n900,trip_out,100\n1000,trip_in,340\n1000,trip_out,104\n",
+         "a slack-off weight of 300 kN above the pick-up weight of 100 kN at 900 m: swapped or misread? "
+         "(and at 1 more depth)"),
+        ("900,trip_in,100\n900,trip_out,340\n1000,trip_in,104\n1000,trip_out,103\n", None),  # within the noise
+        ("900,trip_in,340\n1000,trip_out,104\n", None),  # of two depths
+    ],
+)  # fmt: skip
+def test_swapped_pick_up_and_slack_off_are_told(rows: str, expected: str | None, tmp_path: Path) -> None:
+    found: list[str] = []
+    read_measured(written(tmp_path, "depth_m,operation,hookload_kN\n" + rows), CASE, None, found.append)
+    assert found == ([] if expected is None else [expected])
+    read_measured(written(tmp_path, "depth_m,operation,hookload_kN\n" + rows), CASE, "field", found.append)
+    assert expected is None or "klbf at" in found[-1]

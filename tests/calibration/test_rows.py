@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import fctd
 from fctd.calibration.measured_file import OPERATIONS
 from fctd.calibration.rows import Range, read_rows
 from fctd.case.errors import InputError
@@ -64,6 +65,30 @@ def test_a_prediction_needs_no_loads(tmp_path: Path) -> None:
     assert rows[0].hookload is None
     assert rows[0].torque is None
     assert Range(1.0, 3.0).middle == 2.0
+
+
+DRILLED = {"kind": "drill_rotating", "from_md": 1490, "to_md": 1500, "speed": 0.01, "rpm": 120, "flow": 0.04}
+
+
+@pytest.mark.parametrize(
+    ("operation", "pumps", "flow", "acts"),
+    [
+        ("rotate_off_bottom", "", "", 0.04),
+        ("rotate_off_bottom", "off", "", 0.0),
+        ("rotate_off_bottom", "on", "1800", 0.03),
+        ("trip_out", "", "", 0.0),
+        ("trip_out", "on", "", 0.04),
+        ("trip_in", "", "1800", 0.03),
+    ],
+)
+def test_a_row_pumps_what_it_says_else_the_flow_of_the_case(
+    tmp_path: Path, operation: str, pumps: str, flow: str, acts: float
+) -> None:
+    case = fctd.load_case(well(mud={"density": 1200.0, "viscosity": 0.03}), {"operations": [DRILLED]})
+    text = f"bit_depth_m,operation,hookload_kN,pumps,flow_L_min\n900,{operation},500,{pumps},{flow}\n"
+    (row,), _ = read_rows(written(tmp_path, text), case, {}, measured=True)
+    assert row.rates.flow == pytest.approx(acts)
+    assert row.does(case)["flow_m3_s"] == pytest.approx(acts)
 
 
 def test_what_a_report_says_beside_its_readings(tmp_path: Path) -> None:

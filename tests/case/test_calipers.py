@@ -1,7 +1,9 @@
 """Calipers: tables and files, what their arms stand for, and what is refused."""
 
+import re
 from pathlib import Path
 from typing import Any
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -75,6 +77,42 @@ def test_a_log_in_las_is_read(tmp_path: Path) -> None:
     )
     found = written(tmp_path, text, "log.las")
     np.testing.assert_allclose(found.radii[:, 0], 0.5 * INCH * np.array([8.6, np.nan, 8.7]))
+
+
+LAS = (
+    "~Version\nVERS. 2.0:\nWRAP. NO:\n~Well\nSTRT.M 520:\nSTOP.M 521:\nSTEP.M 0.5:\nNULL. -999.25:\n{}"
+    "~Curve\nDEPT.M :\nHCAL.IN :\n{}~ASCII\n{}520 8.6\n521 8.7\n"
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (LAS.format("".join(f"P{k}.M 1:\n" for k in range(300_000)), "", ""), "at most 1,000 lines of header"),
+        (LAS.format("X.M " + "9" * 10_000_000 + ":\n", "", ""), "lines of header of at most 1,000 characters"),
+        (LAS.format("", "".join(f"C{k}.IN :\n" for k in range(20_000)), ""), "at most 1,000 lines of header"),
+        (LAS.format("", "GR.API :\n" * 500, ""), 'at most 10 lines of one name (there are 500 of "GR")'),
+        (LAS.format("", "", "1 " * 500 + "\n"), "as many values in a row as curves (500 values, 2 curves)"),
+    ],
+    ids=["lines", "value", "curves", "name", "values"],
+)
+def test_a_log_that_would_take_minutes_is_refused_at_once(
+    text: str, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """By its size: the package that reads LAS takes the square or cube of it."""
+    lasio = pytest.importorskip("lasio")
+    monkeypatch.setattr(lasio, "read", Mock(side_effect=AssertionError))
+    (tmp_path / "log.las").write_text(text)
+    with pytest.raises(InputError, match=re.escape(words)):
+        _ = bent_case("sampled", caliper={"log": tmp_path / "log.las"}).wellbore.calipers
+
+
+def test_what_a_log_says_beside_its_curves_is_left_out(tmp_path: Path) -> None:
+    """Parameters and remarks of any number; a log of wireline has thousands of them, many of one name."""
+    pytest.importorskip("lasio")
+    beside = "~Parameter\n" + "RMF.OHMM 0.2: of mud\n" * 3000 + "~Other\n" + "remark\n" * 3000
+    found = written(tmp_path, LAS.format(beside, "", ""), "log.las")
+    np.testing.assert_allclose(found.radii[:, 0], 0.5 * INCH * np.array([8.6, 8.7]))
 
 
 @pytest.mark.parametrize(

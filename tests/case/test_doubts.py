@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from fctd.case.doubts import warnings_of
-from fctd.case.friction import FrictionSet
+from fctd.case.friction import FrictionSet, Pair
 from fctd.case.load import Case, load_case
 from fctd.case.operations import KINDS
 from tests.cases import case_files, make_case, pipe
@@ -37,9 +37,15 @@ def test_all_cases_are_looked_at() -> None:
     assert len(CASES) >= 9
 
 
-def hole(*rows: tuple[float, float], friction: float = 0.2, kind: str | None = None) -> dict[str, Any]:
+def hole(
+    *rows: tuple[float, float], friction: float = 0.2, around: float | None = None, kind: str | None = None
+) -> dict[str, Any]:
     """A hole of lower ends and diameters [m]."""
-    return {"intervals": [{"to_md": to, "diameter": size, "friction": friction, "kind": kind} for to, size in rows]}
+    factors = {"friction": friction, "rotational_friction": around}
+    return {"intervals": [{"to_md": to, "diameter": size, "kind": kind, **factors} for to, size in rows]}
+
+
+TURNING = {"rpm": 60, "duration": 10}
 
 
 CASED = {"to_md": 1000, "casing": "9 5/8 in 47 N-80", "friction": 0.2}
@@ -113,6 +119,37 @@ CASED = {"to_md": 1000, "casing": "9 5/8 in 47 N-80", "friction": 0.2}
             {"components": [pipe(1000, 20, linear_mass=2.49 * 69.23)]},
             {"components": [pipe(1000, 20, linear_mass=2.51 * 69.23)]},
         ),
+        (  # tool joints add to the body, and a spiral collar lacks some of it
+            "linear_mass",
+            {"components": [pipe(1000, 20, linear_mass=0.99 * 69.23, contact_diameter=0.168)]},
+            {"components": [pipe(1000, 20, linear_mass=0.97 * 69.23, contact_diameter=0.168)]},
+        ),
+        (
+            "short_string",
+            {"components": [pipe(1, 1, name="bit"), pipe(999, 20)]},
+            {"components": [pipe(1, 1, name="bit"), pipe(998, 20)]},
+        ),
+        (  # the operations, and not the hole, say how far the string has to reach
+            "short_string",
+            {"components": [pipe(500, 20)], "operations": [{"kind": "rotate_off_bottom", "at_md": 500, **TURNING}]},
+            {"components": [pipe(500, 20)], "operations": [{"kind": "rotate_off_bottom", "at_md": 501, **TURNING}]},
+        ),
+        (
+            "outside_the_hole",
+            {"components": [pipe(999, 20), pipe(None, 1, name="pipe")]},
+            {"components": [pipe(1000, 20), pipe(None, 1, name="pipe")]},
+        ),
+        (
+            "friction_pair",
+            {"wellbore": hole((1000, 0.3), friction=1e-3, around=1.0)},
+            {"wellbore": hole((1000, 0.3), friction=0.9e-3, around=1.0)},
+        ),
+        (
+            "friction_pair",
+            {"wellbore": hole((1000, 0.3), friction=0.0)},
+            {"wellbore": hole((1000, 0.3), friction=0.0, around=0.2)},
+        ),
+        ("rig_load", {"rig": {"stand_length": "94 ft"}}, {"rig": {"stand_length": 94}}),
         (
             "no_tool_joints",
             {"components": [{"pipe": "5 in 19.5 S-135 NC50", "segments": 20}]},
@@ -275,6 +312,8 @@ def test_a_bare_length_among_feet(length: str, told: bool, tmp_path: Path) -> No
     keys = [warning.key for warning in load_case(path).warnings if warning.code == "bare_length"]
     assert keys == (["string.components[0].length"] if told else [])
     assert load_case(path, {"string.components[0].length": "930 ft"}).warnings == ()
+    bare_stand = load_case(path, {"string.components[0].length": "930 ft", "rig.stand_length": 28}).warnings
+    assert [warning.key for warning in bare_stand] == ["rig.stand_length"]
     path.write_text(FIELD.format(length="'930 ft'").replace('"9000 ft", 0', "9000, 0"))
     assert [warning.key for warning in load_case(path).warnings] == ["wellbore.stations"]
 
@@ -293,5 +332,43 @@ def test_rates_and_friction_that_are_asked_for() -> None:
         assert codes(case_of(), kind, **rates) == expected
     assert codes(case_of(bit={"weight_on_bit": 5e4}), "trip_in", "drill_sliding", speed=0.2) == {"speed"}
     assert codes(case_of(), frictions=[FrictionSet(cased=0.2, open=0.7)]) == {"friction"}
+    assert codes(case_of(), frictions=[FrictionSet(every=Pair(0.0, 0.2))]) == {"friction_pair"}
     rough = case_of(wellbore=hole((1000, 0.3), friction=0.9))
     assert codes(rough, frictions=[FrictionSet(every=0.2)]) == set()  # the case's own factor is not used
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "si", "field"),
+    [
+        # What has its unit is quoted with one, and looks like no other.
+        ("rig.hoist_capacity", "10 kN", "a hoist capacity of 10 kN", "a hoist capacity of 10 kN: "),
+        ("rig.hoist_capacity", 450, "a hoist capacity of 450 N (450 looks like '450 kN')", "101.2 lbf (450 looks"),
+        ("mud.density", 10.4, "a mud of 10.4 kg/m^3 (10.4 looks like '10.4 ppg')", "0.08679 ppg (10.4 looks"),
+        ("wellbore.intervals[0].diameter", "63 in", "a hole of 63 in", "a hole of 63 in: write"),
+        ("mud.density", "2.7 sg", "a mud of 2.7 sg", "a mud of 2.7 sg: check it; usual is 5.007"),
+    ],
+)  # fmt: skip
+def test_a_value_out_of_its_range_is_told_as_it_was_written(
+    key: str, value: object, si: str, field: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "a.toml"
+    path.write_text(FIELD.format(length="'930 ft'"))
+    (warning,) = load_case(path, {key: value}).warnings
+    assert warning.text == si
+    assert field in warning.told("field")
+    assert ("looks like" in warning.text) == isinstance(value, int | float)
+
+
+def test_both_flows_of_a_motor_have_the_units_of_the_reader() -> None:
+    """2000 and 1500 L/min are 528.3 and 396.3 gpm (3.785411784 L to the gallon)."""
+    drilling = {"kind": "drill_sliding", "from_md": 900.0, "to_md": 950.0, "speed": 0.01, "flow": "2000 L/min"}
+    motor = {"flow": "1500 L/min", "revolutions_per_liter": 0.1}
+    case = case_of(operations=[drilling], bit={"weight_on_bit": 5e4, "motor": motor})
+    (warning,) = [warning for warning in case.warnings if warning.code == "motor_flow"]
+    assert "528.3 gpm, where bit.motor.flow turns the motor with 396.3 gpm" in warning.told("field")
+
+
+def test_a_usual_range_has_the_units_of_the_reader() -> None:
+    (warning,) = case_of(mud={"density": 599.0}).warnings
+    assert warning.remedy == "write it with its unit; usual is 600 to 2600 kg/m^3"
+    assert warning.told("field").endswith("usual is 5.007 to 21.7 ppg")  # 8.345404 lb/gal is 1 g/cm³

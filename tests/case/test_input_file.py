@@ -3,6 +3,7 @@
 import os
 from collections.abc import Callable
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 
@@ -109,3 +110,29 @@ def test_a_toml_file_is_read_with_its_mark_and_line_ends(tmp_path: Path) -> None
     path = tmp_path / "setup.toml"
     path.write_bytes(b"\xef\xbb\xbfx = 1\r\n[y]\r\nz = [2]\r\n")
     assert read_toml(path, "a setup") == {"x": 1, "y": {"z": [2]}}
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a" + ".a" * 40_000 + " = 1", "[a" + ' . "a"' * 20_000 + "]", "x = {a" + ".'b'" * 20_000 + " = 1}",
+        "\n".join(f"k{number}.a = 1" for number in range(100_000)),
+        "\n".join(f"[a.k{number}]" for number in range(100_000)),
+    ],
+    ids=["dotted", "header", "inline", "keys", "tables"],
+)  # fmt: skip
+def test_keys_that_would_take_minutes_are_refused_at_once(
+    text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Before they are parsed: a reader of TOML keeps every beginning of a dotted key, 4 GiB of 80 kB."""
+    monkeypatch.setattr("tomllib.loads", Mock(side_effect=AssertionError))
+    path = tmp_path / "case.toml"
+    path.write_text(text)
+    with pytest.raises(InputError, match=r"in TOML \(.* has a key of more than 16 parts|at most 50,000 keys"):
+        load_case(path)
+
+
+def test_as_many_stations_as_a_case_may_have_are_read(tmp_path: Path) -> None:
+    path = tmp_path / "case.toml"
+    path.write_text("# 1.2.3. etc. etc.\nrows = [\n" + "[1.5, 2.5, 0.5],\n" * 10_000 + "]\n")
+    assert len(read_toml(path, "a case file")["rows"]) == 10_000

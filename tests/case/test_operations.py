@@ -16,9 +16,9 @@ def written(kind: str, first: float, last: float) -> dict[str, object]:
     return {"kind": kind, "from_md": first, "to_md": last, "speed": 0.1, **rotation}
 
 
-def test_the_six_kinds_stand_in_the_order_of_the_guides() -> None:
+def test_the_kinds_stand_in_the_order_of_the_guides() -> None:
     assert list(KINDS) == [
-        "trip_in", "trip_out", "rotate_off_bottom", "back_ream", "drill_rotating", "drill_sliding",
+        "trip_in", "trip_out", "rotate_off_bottom", "back_ream", "ream_in", "drill_rotating", "drill_sliding",
     ]  # fmt: skip
 
 

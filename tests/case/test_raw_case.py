@@ -95,6 +95,10 @@ def test_friction_by_kind_sets_the_intervals_of_that_kind(case_file: Path) -> No
     kinds = {"wellbore.intervals[0].kind": "cased", "wellbore.intervals[1].kind": "open"}
     hole = load_case(case_file, kinds | {"friction": {"open": 0.4}}).wellbore
     assert [interval.friction for interval in hole.intervals] == [0.2, 0.4]
+    # Casing of the catalogue is cased without being told so.
+    of_casing = {"wellbore.intervals[0].casing": "13 3/8 in 68 N-80", "wellbore.intervals[1].kind": "open"}
+    hole = load_case(case_file, of_casing | {"friction": {"cased": 0.15, "open": 0.4}}).wellbore
+    assert [interval.friction for interval in hole.intervals] == [0.15, 0.4]
     error = refusal(case_file, {"friction": {"open": 0.4}})
     assert (error.key, error.expected) == (
         "wellbore.intervals[0].kind", '"cased" or "open", since friction is given by kind',

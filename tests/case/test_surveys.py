@@ -103,6 +103,7 @@ FILES = {
         )
         for separator in (";", "\t", "|", " ")
     },
+    "byte order mark": ("\ufeff" + text("MD (ft),Inc,Azi"), FOOT),
     "blanks in numbers": ("MD (m);Inc;Azi\n0;0;0\n500;0;90\n1\u202f000;30,5;90\n1 500;45;91\n2\u00a0000,0;60;92,25", 1),
     **{
         headers: (text(headers, "  "), 1)

@@ -7,29 +7,29 @@ DOUBTED: Final[list[tuple[str, Any, str]]] = [
     (
         "mud.density",
         10.4,
-        "a mud of 10.4 kg/m^3 (10.4 looks like '10.4 ppg'): write it with its unit; usual is 0.6 to 2.6 sg",
+        "a mud of 10.4 kg/m^3 (10.4 looks like '10.4 ppg'): write it with its unit; usual is 600 to 2600 kg/m^3",
     ),
     (
         "mud.density",
         1.25,
-        "a mud of 1.25 kg/m^3 (1.25 looks like '1.25 sg'): write it with its unit; usual is 0.6 to 2.6 sg",
+        "a mud of 1.25 kg/m^3 (1.25 looks like '1.25 sg'): write it with its unit; usual is 600 to 2600 kg/m^3",
     ),
     (
         "mud.density",
         "1.25 kg/m3",
-        "a mud of 1.25 kg/m^3 (1.25 looks like '1.25 sg'): write it with its unit; usual is 0.6 to 2.6 sg",
+        "a mud of 1.25 kg/m3 (1.25 looks like '1.25 sg'): check it; usual is 600 to 2600 kg/m^3",
     ),
     (
         "mud.density",
         75,
-        "a mud of 75 kg/m^3 (75 looks like '75 lb/ft^3'): write it with its unit; usual is 0.6 to 2.6 sg",
+        "a mud of 75 kg/m^3 (75 looks like '75 lb/ft^3'): write it with its unit; usual is 600 to 2600 kg/m^3",
     ),
     (
         "wellbore.intervals[1].diameter",
         3.5,
         "a hole of 3.5 m (3.5 looks like '3.5 in'): write the diameter with its unit",
     ),
-    ("wellbore.intervals[1].diameter", "8.5 mm", "a hole of 0.0085 m: write the diameter with its unit"),
+    ("wellbore.intervals[1].diameter", "8.5 mm", "a hole of 8.5 mm: write the diameter with its unit"),
     (
         "wellbore.intervals[1].friction",
         0.9,
@@ -41,7 +41,7 @@ DOUBTED: Final[list[tuple[str, Any, str]]] = [
         80,
         "a weight on bit of 80 N (80 looks like '80 kN' or '80 klbf'): write it with its unit; usual is 1 to 2000 kN",
     ),
-    ("bit.weight_on_bit", "80 MN", "a weight on bit of 8e+07 N: write it with its unit; usual is 1 to 2000 kN"),
+    ("bit.weight_on_bit", "80 MN", "a weight on bit of 80 MN: check it; usual is 1 to 2000 kN"),
     (
         "bit.torque",
         4,
@@ -53,7 +53,7 @@ DOUBTED: Final[list[tuple[str, Any, str]]] = [
         "a block weight of 250 N (250 looks like '250 kN' or '250 klbf'): write it with its unit; usual is 1 to "
         "5000 kN",
     ),
-    ("rig.block_weight", "250e3 kN", "a block weight of 2.5e+08 N: write it with its unit; usual is 1 to 5000 kN"),
+    ("rig.block_weight", "250e3 kN", "a block weight of 250e3 kN: check it; usual is 1 to 5000 kN"),
     (
         "rig.torque_offset",
         0.5,
@@ -161,7 +161,7 @@ DOUBTED_TOGETHER: Final[list[tuple[dict[str, Any], dict[str, str], str]]] = [
     (
         {"string.components[2].density": "65 kg/m3", "mud": {"density": 0}},
         {},
-        "string.components[2].density: a pipe of 65 kg/m^3: write it with its unit; usual is 1.2 to 20 g/cm^3",
+        "string.components[2].density: a pipe of 65 kg/m3: check it; usual is 1.2 to 20 g/cm^3",
     ),
     (
         {"operations": None},

@@ -16,8 +16,8 @@ from tests.cli.tiny import CASE, FOOT, LBF, SOFT_BELOW, settings
 from tests.commands import Command
 
 CHART_COLUMNS = [
-    "operation", "friction", "rotational_friction", "friction_label", "bit_depth_m", "hookload_N", "surface_torque_N_m",
-    "weight_indicator_N",
+    "operation", "friction", "rotational_friction", "friction_label", "bit_depth_m", "speed_m_s", "rpm", "flow_m3_s",
+    "weight_on_bit_N", "hookload_N", "surface_torque_N_m", "weight_indicator_N",
     "drive_torque_N_m", "total_contact_force_N", "buckling", "buckled_from_md_m", "buckled_to_md_m", "shape",
     "hookload_low_N", "hookload_high_N", "slack_off_spent_at", "locked_up_at", "status", "iterations", "notes",
     "reason",
@@ -59,10 +59,9 @@ def test_a_chart_is_the_one_of_the_library_with_its_origin_beside_it(
     out = tmp_path / "new" / "chart.csv"
     given = ("--operation", "trip_in, rotate_off_bottom", "--operation", "trip_in")
     factors = ("--friction", "0.1", "--friction", "0.3")
-    assert (
-        "16 rows: 16 converged\n"
-        in cli("chart", case_file, *given, *factors, "--depths", "700:850:50", "--rpm", "80", "--out", out).out
-    )
+    said = cli("chart", case_file, *given, *factors, "--depths", "700:850:50", "--rpm", "80", "--out", out).out
+    assert "16 rows: 16 converged\n" in said
+    assert said.splitlines()[:2] == ["tiny", "mud none (air); slacking off 0.3 m/s; rotating off bottom 80 rev/min"]
     table = pd.read_csv(out, dtype={"friction_label": str})
     assert list(table.columns) == CHART_COLUMNS
     kinds, depths = ["trip_in", "rotate_off_bottom"], [700, 750, 800, 850]
@@ -70,10 +69,9 @@ def test_a_chart_is_the_one_of_the_library_with_its_origin_beside_it(
     pd.testing.assert_frame_equal(table, expected, check_dtype=False)
     origin = json.loads((tmp_path / "new" / "chart.csv.json").read_text())
     assert origin["case"]["name"] == "tiny"
-    assert origin["rates"]["trip_in"] == {
-        "speed_m_s": 0.3,
-        "spin_rad_s": pytest.approx(80 * np.pi / 30),
-        "flow_m3_s": 0.0,
+    assert origin["rates"] == {
+        "trip_in": {"speed_m_s": 0.3, "spin_rad_s": 0.0, "flow_m3_s": 0.0},
+        "rotate_off_bottom": {"speed_m_s": 0.0, "spin_rad_s": pytest.approx(80 * np.pi / 30), "flow_m3_s": 0.0},
     }
     assert {"fctd", "numpy", "numba", "python"} <= origin["versions"].keys()
 
@@ -111,7 +109,7 @@ def test_field_units_in_columns_and_names(case_file: Path, tmp_path: Path, cli: 
     assert "2600.0" in screen
     table = pd.read_parquet(out)
     si = fctd.torque_drag(fctd.load_case(case_file), list(table["operation"].unique()), [609.6, 701.04, 792.48])
-    assert table["bit_depth_ft"].tolist() == [2000, 2300, 2600] * 6
+    assert table["bit_depth_ft"].tolist() == [2000, 2300, 2600] * 7
     for field, column, factor in (
         ("hookload_klbf", "hookload_N", 1000 * LBF),
         ("total_contact_force_klbf", "total_contact_force_N", 1000 * LBF),

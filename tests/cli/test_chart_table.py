@@ -16,7 +16,7 @@ def rows(**changes: Any) -> list[dict[str, Any]]:
 
 
 def test_runs_of_rows_have_a_line_each(capsys: pytest.CaptureFixture[str]) -> None:
-    print_chart(rows(status="max_iterations", reason="no steady shape"), "well", "si", "string")
+    print_chart(rows(status="max_iterations", reason="no steady shape"), "si", "string")
     seen = capsys.readouterr()
     assert "trip_in: max_iterations at 700 to 710 m (2 of 60): no steady shape" in seen.err
     assert "trip_in: max_iterations at 900 m (1 of 60)" in seen.err
@@ -27,7 +27,7 @@ def test_runs_of_rows_have_a_line_each(capsys: pytest.CaptureFixture[str]) -> No
 
 
 def test_notes_come_with_their_remedy(capsys: pytest.CaptureFixture[str]) -> None:
-    print_chart(rows(notes="yield"), "well", "field", "string")
+    print_chart(rows(notes="yield"), "field", "string")
     line = next(line for line in capsys.readouterr().err.splitlines() if "note yield at 2296.59 to" in line)
     assert "yield strength" in line
 
@@ -35,7 +35,7 @@ def test_notes_come_with_their_remedy(capsys: pytest.CaptureFixture[str]) -> Non
 def test_the_load_is_named_and_has_the_block_where_that_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
     of = rows(weight_indicator_N=123456.0)[30:31]
     for load, heading, value in (("string", "hook load", of[0]["hookload_N"]), ("indicator", "indicator", 123456.0)):
-        print_chart(of, "well", "si", load)  # type: ignore[arg-type]
+        print_chart(of, "si", load)  # type: ignore[arg-type]
         seen = capsys.readouterr().out
         assert heading in seen
         assert f" {value / 1e3:.1f} " in seen

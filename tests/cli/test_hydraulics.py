@@ -45,3 +45,16 @@ def test_pictures(cli: Command, tmp_path: Path, depths: str, suffix: str) -> Non
     picture = tmp_path / f"flow.{suffix}"
     cli("hydraulics", WELL, "--depths", depths, "--plot", picture)
     assert picture.stat().st_size > 10_000
+
+
+def test_the_names_of_a_case_are_no_formulas(cli: Command, tmp_path: Path) -> None:
+    parts = tmp_path / "parts.csv"
+    cli("hydraulics", WELL, "--set", 'string.components[0].name="=1+1"', "--parts", parts)
+    assert {"'=1+1"} == {name for name in pd.read_csv(parts)["name"].dropna() if "=" in name}
+
+
+def test_two_tables_are_two_files(cli: Command, tmp_path: Path) -> None:
+    one = tmp_path / "t.csv"
+    for command, other in (("hydraulics", "--parts"), ("surge", "--trips")):
+        assert "a file of its own for each table" in cli(command, WELL, "--out", one, other, one, code=2).err
+    assert not one.exists()

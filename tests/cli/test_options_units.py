@@ -9,6 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 import fctd
+from fctd.case.errors import InputError
 from fctd.case.load import load_case, read_raw
 from fctd.cli.main import COMMANDS, app
 from fctd.model.new_case import from_template
@@ -85,6 +86,24 @@ def test_a_command_has_the_units_of_its_case(name: str, well: Path, monkeypatch:
     well.write_text(CASE)
     assert units_of(name, monkeypatch=monkeypatch) == "si"
     assert units_of(name, "--units", "field", monkeypatch=monkeypatch) == "field"
+
+
+@pytest.mark.parametrize(("word", "system"), [("metric", "si"), ("SI", "si"), (" Field ", "field")])
+def test_the_key_takes_the_words_of_the_option(
+    word: str, system: str, well: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert units_of("check", "--units", word, monkeypatch=monkeypatch) == system
+    well.write_text(FIELD.replace('"field"', f'"{word}"'))
+    assert units_of("check", monkeypatch=monkeypatch) == system
+    assert load_case(well).system == system
+    with pytest.raises(InputError, match='units = "imperial": expected "si" or "metric"'):
+        load_case(well, {"units": "imperial"})
+
+
+def test_units_below_a_table_are_sent_to_the_top(well: Path) -> None:
+    well.write_text(CASE + '\nunits = "field"\n')
+    with pytest.raises(InputError, match=r'units = "field": expected it above the first table of the case file$'):
+        load_case(well)
 
 
 def test_most_commands_take_units() -> None:

@@ -5,6 +5,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, get_type_hints
 
+import numpy as np
 import pytest
 from typer.models import OptionInfo
 from typer.testing import CliRunner
@@ -68,13 +69,14 @@ def spellings(option: QuantityOption) -> Iterator[tuple[str, System, str | None]
 def test_a_spelling_is_one_value_or_is_refused(command: str, option: QuantityOption) -> None:
     for text, units, wanted in spellings(option):
         given = option.parse(text)
-        if wanted is None:
+        number, _, unit = (wanted or "").partition(" ")
+        value = float(number) * option.kind.dimension.factor(unit) if wanted else np.nan
+        if wanted is None or value > (option.at_most or np.inf):
             with pytest.raises(InputError) as refused:
                 given.si(units)
             assert refused.value.key == option.name, text
             continue
-        number, _, unit = wanted.partition(" ")
-        assert given.si(units) == pytest.approx(float(number) * option.kind.dimension.factor(unit), rel=1e-12), text
+        assert given.si(units) == pytest.approx(value, rel=1e-12), text
         assert several([given], units) == [given.si(units)]
 
 

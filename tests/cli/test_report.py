@@ -52,7 +52,8 @@ def test_the_chart_is_that_of_fctd_chart(case_file: Path, cli: Command, tmp_path
     cli("report", case_file, *SHORT, "--units", "field", "--friction", "0.2,0.3", "--out", report)
     cli("chart", case_file, *SHORT[:-1], "--units", "field", "--friction", "0.2,0.3", "--out", chart)
     heads, *rows = sheet(chart, "table")
-    _, given, *found = sheet(report, "Torque and drag")
+    (line, *_), _, _, given, *found = sheet(report, "Torque and drag")
+    assert line.startswith("mud none (air); picking up ")
     names = [name for name in given if str(name).endswith(("(ft)", "(klbf)", "(kft·lbf)"))]
     assert len(names) == 4
     for name in names:

@@ -16,6 +16,7 @@ from fctd.results.tables import TABLES, SimulationResult
 from fctd.simulation.simulate import Simulation
 from tests.cli.tiny import SMALL
 from tests.commands import Command
+from tests.left_over import left_folders
 
 
 def test_simulate_writes_tables_with_metadata(small_file: Path, tmp_path: Path, cli: Command) -> None:
@@ -101,8 +102,9 @@ def test_a_case_in_its_own_result_folder_stays(small_file: Path, cli: Command) -
     case = small_file.rename(out / "energy.toml")
     cli("simulate", case, "--out", out, "--csv", "--quiet")
     first = open_result(out)
-    out.rename(out.with_name(".out-old-4194304"))
-    first.save(out.with_name(".out-run-4194304"))
+    new, old = left_folders(out)
+    out.rename(old)
+    first.save(new)
     cli("simulate", case, "--out", out, "--quiet")
     assert case.read_text() == SMALL
     assert open_result(out).identity != first.identity

@@ -197,6 +197,8 @@ REFUSED_TOGETHER: Final[list[tuple[dict[str, Any], dict[str, str], str]]] = [
     (
         {"string.components[2].length": "500 m"},
         {},
+        "warning: well.toml: string.components: all components together are 600.3 m long: with the bit at 1010 m they "
+        "do not reach string.top_md: check their lengths, or leave out that of the last one, which then reaches it\n"
         "well.toml: string.components = 600.3 m of string: expected enough to reach from the bit at "
         "1000 m to string.top_md, or no length of the last component, which then reaches it",
     ),

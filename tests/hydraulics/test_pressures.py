@@ -58,6 +58,25 @@ def test_each_part_loses_what_its_closed_form_says() -> None:
     assert np.isnan(summary["jet_speed_m_s"])
 
 
+def test_tool_joints_that_are_laid_out_narrow_annulus_and_bore_as_components_of_their_size_do() -> None:
+    """Forty joints of 12 m, the tool joint of each below its body; coarse pipe has none."""
+    joint = {"length": 12.0, "tool_joint_diameter": 0.168, "tool_joint_inner": 0.05, "tool_joint_length": 0.6}
+    laid = pipe(None, None, joint=joint, joint_segments=2)
+    written = [
+        pipe(length, None, outer=outer, inner=inner, segment_length=length, contact="sleeve")
+        for _ in range(40)
+        for length, outer, inner in ((0.6, 0.168, 0.05), (11.4, 0.127, 0.07))
+    ]
+    fine, coarse, same = (
+        circulation(well(components=of), FLOW, 480.0)
+        for of in ([laid], [pipe(None, None, joint=joint, segment_length=6.0)], written)
+    )
+    assert fine.summary()["annulus_drop_Pa"] == pytest.approx(same.summary()["annulus_drop_Pa"], rel=1e-9)
+    assert fine.bores.sum() == pytest.approx(same.bores.sum(), rel=1e-9)
+    assert fine.standpipe == pytest.approx(same.standpipe, rel=1e-9)
+    assert fine.standpipe > 1.02 * coarse.standpipe
+
+
 def test_a_published_bit() -> None:
     """Three nozzles of 12/32 in at 400 gpm of 12 ppg: 156.5 Q² W/(ΣN²)², 1610 psi; jets of Q/A, force ρ Q v."""
     bit = {"nozzles": [12 / 32 * INCH] * 3}

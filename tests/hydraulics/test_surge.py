@@ -3,6 +3,7 @@
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from fctd.case.errors import InputError
@@ -119,3 +120,9 @@ def test_a_heavier_column_above_a_closed_end_is_tripped() -> None:
 def test_a_window_is_asked_for() -> None:
     with pytest.raises(InputError, match=r"wellbore.window is missing: expected rows of tvd, pore and fracture"):
         fastest_trips(well(wellbore={}))
+
+
+def test_one_speed_as_a_text_is_one_speed() -> None:
+    """Its letters were speeds: "expected a speed ... speeds = '.'"."""
+    for one in ("0.5 m/s", 0.5):
+        pd.testing.assert_frame_equal(surge_pressures(well(), one), surge_pressures(well(), [0.5]))

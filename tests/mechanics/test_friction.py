@@ -159,7 +159,7 @@ def test_friction_opposes_sliding_and_at_most_stops_it(law, limit: float) -> Non
     set_body(S, 1, 400.0, 3000.0, 1.0)
     S[state.RADIUS + 1], S[state.ARM_CONTACT + 1] = 0.06, 5.0
     motion = np.array([0.0, 0.3, 0.7, 0.0, 0.0, -4.0])  # across, along and spinning
-    change = np.array(law(S, 1, *motion, 1.0, 0.0, 0.0, limit, None))
+    change = np.array(law(S, 1, 0.06, 1.0, *motion, 1.0, 0.0, 0.0, limit, None))
     after = motion + change
 
     def kinetic(m: np.ndarray) -> float:
@@ -189,7 +189,7 @@ def test_a_turning_body_on_the_axis_of_its_hole_touches_nothing(offset):
     penetration, *normal = friction.wall_normal(S, 1)
     assert penetration == pytest.approx(-0.95)
     assert np.linalg.norm(normal) <= 1 + 1e-12
-    change = coulomb.impulse(S, 1, 0.0, 0.0, 0.0, 0.0, 0.0, 6.28, *normal, 0.0, None)
+    change = coulomb.impulse(S, 1, 0.05, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 6.28, *normal, 0.0, None)
     assert change == (0.0,) * 6
 
 

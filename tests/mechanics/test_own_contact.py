@@ -102,8 +102,23 @@ def test_the_starting_force_acts_also_where_the_liner_hangs_on_the_axis() -> Non
     assert equilibrium(of, "trip_out", DEPTH).hookload - weight == pytest.approx(count * 800.0, rel=1e-6)
     assert equilibrium(of, "trip_in", DEPTH).hookload - weight == pytest.approx(-count * 800.0, rel=1e-6)
     turned = equilibrium(of, "rotate_off_bottom", DEPTH)
-    assert turned.surface_torque == pytest.approx(count * 800.0 * 0.135, rel=1e-6)
+    assert turned.surface_torque == pytest.approx(count * 800.0 * 0.5 * BORE, rel=1e-6)  # they slide on the wall
     assert turned.hookload == pytest.approx(weight, rel=1e-6)
+
+
+@pytest.mark.parametrize("diameter", [0.2, 0.25, 0.27, 0.4])
+def test_bows_turn_the_pipe_by_the_arms_of_the_wall_whatever_they_measure_free(diameter: float) -> None:
+    """The preload drags all round at R; the spring's F = k e drags where the pipe leans, R − e from its axis."""
+    bows = BOWS | {"diameter": diameter, "stiffness": 2e5}
+    profile = equilibrium(case(centralisers=bows), "rotate_off_bottom", DEPTH).profile
+    middle = np.flatnonzero(contacts(case(centralisers=bows)))[3:-3]
+    force, pulls = profile["contact_force_N"].to_numpy()[1:][middle], diameter > BORE
+    sag = force / 2e5 + (GAP if pulls else 0.5 * (BORE - diameter))
+    per_bow = 0.3 * force * (0.5 * BORE - sag) + 800.0 * 0.5 * BORE * pulls
+    assert (sag > 0.03 * BORE).all()
+    torque = profile["torque_N_m"].to_numpy()
+    lost = torque[middle] - torque[middle + 2]  # from the pipe above to the pipe below, which touch nowhere
+    np.testing.assert_allclose(lost, per_bow, rtol=1e-3)
 
 
 @pytest.mark.slow  # it compiles what nothing else here needs
@@ -123,7 +138,7 @@ def test_bows_that_the_hole_does_not_compress_have_no_starting_force() -> None:
     )
     history = simulate(turning).history
     torque = history["surface_torque_N_m"][history["time_s"] > 4].mean()
-    assert torque == pytest.approx(below * 800.0 * 0.135, rel=0.05)
+    assert torque == pytest.approx(below * 800.0 * 0.5 * BORE, rel=0.05)
 
 
 def test_bows_that_the_hole_does_not_compress_press_where_they_touch() -> None:
@@ -145,6 +160,20 @@ def test_no_torque_passes_a_swivel_and_what_hangs_below_does_not_turn() -> None:
     assert equilibrium(case(swivel=True), "trip_out", DEPTH).hookload == pytest.approx(
         equilibrium(case(), "trip_out", DEPTH).hookload, rel=1e-6
     )
+
+
+def test_what_hangs_below_a_swivel_has_no_friction_by_a_pair_of_factors_either() -> None:
+    """It stands still, so the factor along the hole changes nothing; its points are pressed with up to 70 kN."""
+    heavy = {"swivel": True, "inner_diameter": 0.05, "segment_length": 60.0}
+    single = case(friction=0.2, **heavy)
+    sizes = [{"to_md": 400, "diameter": BORE, "friction": 0.3, "rotational_friction": 0.2}]
+    pair = Case.model_validate(single.model_dump(exclude_defaults=True) | {
+        "wellbore": single.wellbore.model_dump(exclude_defaults=True) | {"intervals": sizes}})  # fmt: skip
+    one, two = (equilibrium(of, "rotate_off_bottom", DEPTH) for of in (single, pair))
+    assert one.profile["contact_force_N"].max() > 6e4
+    assert two.answered
+    assert two.surface_torque == pytest.approx(one.surface_torque, rel=1e-6)
+    assert two.hookload == pytest.approx(one.hookload, rel=1e-9)
 
 
 FITTED: dict[str, dict[str, Any]] = {

@@ -64,6 +64,8 @@ def test_the_hole_of_a_caliper_is_that_around_a_segment() -> None:
     assert found == pytest.approx([0.15, 0.175, 0.2, 0.2], abs=1e-3)
     assert hole_radius(hole, 0.0, np.array([490.0])) == pytest.approx(0.15)
     assert hole_radius(hole, 990.0, np.array([5.0, 5.0])) == pytest.approx(0.5 * BORE)  # below the log
+    # Pipe above the rotary table, wholly and in part, is as if the hole went on there.
+    assert hole_radius(hole, -30.0, np.array([20.0, 20.0, 10.0])) == pytest.approx(0.15)
     viscous = case.model_copy(update={"mud": case.mud.model_copy(update={"density": 1200.0, "viscosity": 0.03})})
     string = lay_out(viscous, 740.0)
     around = resistance(string.of("outer"), hole_radius(hole, 0.0, string.length), 0.03)

@@ -97,9 +97,11 @@ def test_the_torque_reading_has_an_offset_and_a_part_that_grows_with_the_rotatio
 def test_documented_kinds() -> None:
     assert {name: (kind.direction, kind.default_speed, kind.default_rpm) for name, kind in KINDS.items()} == {
         "trip_in": (1, 0.3, 0.0), "trip_out": (-1, 0.3, 0.0), "rotate_off_bottom": (0, 0.0, 60.0),
-        "back_ream": (-1, 0.1, 60.0), "drill_rotating": (1, 0.003, 120.0), "drill_sliding": (1, 0.003, 0.0),
+        "back_ream": (-1, 0.1, 60.0), "ream_in": (1, 0.1, 60.0), "drill_rotating": (1, 0.003, 120.0),
+        "drill_sliding": (1, 0.003, 0.0),
     }  # fmt: skip
-    assert {name for name, kind in KINDS.items() if kind.turns} == {"rotate_off_bottom", "back_ream", "drill_rotating"}
+    turning = {"rotate_off_bottom", "back_ream", "ream_in", "drill_rotating"}
+    assert {name for name, kind in KINDS.items() if kind.turns} == turning
     assert {name for name, kind in KINDS.items() if not kind.may_turn} == {"drill_sliding"}
     assert {name for name, kind in KINDS.items() if kind.on_bottom} == {"drill_rotating", "drill_sliding"}
 
@@ -114,18 +116,57 @@ def test_rates_of_a_kind_are_its_own() -> None:
 
 
 def test_given_rates_apply_to_the_kinds_that_have_them() -> None:
-    rates = rates_of_all(make_case(), ["trip_in", "rotate_off_bottom", "back_ream"], speed=0.7, rpm=30)
+    """A rotation to those that rotate by their name: a trip beside them slides."""
+    kinds = ["trip_in", "trip_out", "rotate_off_bottom", "back_ream", "ream_in", "drill_sliding"]
+    rates = rates_of_all(make_case(), kinds, speed=0.7, rpm=30)
     found = {kind: (rate.speed, rate.spin) for kind, rate in rates.items()}
     half = pytest.approx(0.5 * TURN)
-    assert found == {"trip_in": (0.7, half), "rotate_off_bottom": (0.0, half), "back_ream": (-0.7, half)}
+    assert found == {
+        "trip_in": (0.7, 0.0), "trip_out": (-0.7, 0.0), "rotate_off_bottom": (0.0, half), "back_ream": (-0.7, half),
+        "ream_in": (0.7, half), "drill_sliding": (0.7, 0.0),
+    }  # fmt: skip
 
 
-def test_a_rate_that_applies_to_no_kind_is_refused() -> None:
-    assert rates_of_all(make_case(), ["trip_in", "drill_sliding"], rpm=30)["drill_sliding"].spin == 0.0
-    with pytest.raises(InputError, match="rpm = 30: expected rev/min of 0 for drill_sliding"):
-        rates_of_all(make_case(), ["drill_sliding"], rpm=30)
-    with pytest.raises(InputError, match=r"speed = 0\.7: expected a speed of 0 for rotate_off_bottom"):
-        rates_of_all(make_case(), ["rotate_off_bottom"], speed=0.7)
+@pytest.mark.parametrize(
+    ("kinds", "given", "expected"),
+    [
+        (["drill_sliding"], {"rpm": 30}, "rpm = 30: expected rev/min of 0 for drill_sliding"),
+        (["trip_in"], {"rpm": 30}, "rpm = 30: expected rev/min of 0 for trip_in: ream_in turns as it moves that way"),
+        (["trip_out", "trip_in"], {"rpm": 30}, "for trip_out: back_ream turns as it moves that way"),
+        (["rotate_off_bottom"], {"speed": 0.7}, r"speed = 0\.7: expected a speed of 0 for rotate_off_bottom"),
+    ],
+)
+def test_a_rate_that_applies_to_no_kind_is_refused(kinds: list[str], given: dict[str, Any], expected: str) -> None:
+    with pytest.raises(InputError, match=expected):
+        rates_of_all(make_case(), kinds, **given)
+
+
+TRIP, TURNED, DRILLED = trip(100, 150, 0.4), rotation(150, 10, 90), {"kind": "drill_rotating", "from_md": 150,
+    "to_md": 160, "speed": 0.01, "rpm": 120}  # fmt: skip
+ALL = ("trip_in", "trip_out", "rotate_off_bottom", "back_ream", "ream_in", "drill_rotating", "drill_sliding")
+
+
+@pytest.mark.parametrize(
+    ("operations", "given", "flows"),
+    [
+        ([DRILLED | {"flow": 0.04}], None, (0.0, 0.0, 0.04, 0.04, 0.04, 0.04, 0.04)),
+        # The kind's own operation decides, also one without flow; the largest serves the others.
+        ([TURNED | {"flow": 0.03}, DRILLED | {"flow": 0.04}], None, (0.0, 0.0, 0.03, 0.04, 0.04, 0.04, 0.04)),
+        ([TURNED, DRILLED | {"flow": 0.04}], None, (0.0, 0.0, 0.0, 0.04, 0.04, 0.04, 0.04)),
+        ([TRIP | {"flow": 0.02}, DRILLED], None, (0.02, 0.0, 0.02, 0.02, 0.02, 0.0, 0.02)),
+        # A flow that is asked for is that of all, as none is.
+        ([DRILLED | {"flow": 0.04}], 0.03, (0.03,) * 7),
+        ([DRILLED | {"flow": 0.04}], 0.0, (0.0,) * 7),
+        ([DRILLED], None, (0.0,) * 7),
+    ],
+)
+def test_the_flow_of_a_case_serves_all_that_drill_rotate_or_ream(
+    operations: list[dict[str, Any]], given: float | None, flows: tuple[float, ...]
+) -> None:
+    case = make_case(operations=operations)
+    rates = rates_of_all(case, ALL, flow=given)
+    assert tuple(rates[kind].flow for kind in ALL) == flows
+    assert all(rates_of_all(case, [kind], flow=given) == {kind: rates[kind]} for kind in ALL)
 
 
 OWN_RATES = [

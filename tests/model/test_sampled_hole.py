@@ -12,7 +12,7 @@ from fctd.mechanics import contact, sampled
 from fctd.model.frames import hole_frame
 from fctd.model.sampled_hole import in_cells, turns, wall_around
 from fctd.model.wellbore import build_wellbore
-from tests.calipers import BORE, FIRST, LAST, bent_case, bent_hole, rough, sampled_hole
+from tests.calipers import BORE, FIRST, LAST, SIZES, bent_case, bent_hole, rough, sampled_hole
 
 
 @pytest.mark.slow
@@ -64,6 +64,37 @@ def test_casing_and_gaps_keep_the_size_of_their_interval() -> None:
     hole = build_wellbore(bent_case("sampled", caliper={"rows": sorted(rows)}))
     wall = hole.walls(hole.at(np.array([480.0, 560.0, 950.0]))[0])
     np.testing.assert_allclose(wall.radius, [0.15, 0.13, 0.5 * BORE], atol=1e-9)
+
+
+@pytest.mark.parametrize("borders", [[630.0], [600.03, 600.04, 700.0], [560.0, 1000.0 - 1e-3]])
+def test_equal_intervals_are_one_however_many_a_case_writes(borders: list[float]) -> None:
+    """Measured hole in pieces has the cells of the whole, and friction that differs later begins at the border."""
+    md = np.arange(FIRST, LAST + 1e-9, 0.5)
+    measured = {"rows": np.column_stack([md, rough(3)(md)]).tolist(), "values": "radius"}
+    cased, whole = SIZES
+    split = [cased, *(whole | {"to_md": border} for border in borders), whole]
+    one, cut = (build_wellbore(bent_case("sampled", caliper=measured, intervals=of)) for of in (SIZES, split))
+    within = [of.pieces[of.pieces[:, sampled.AROUND_CELLS] > 0] for of in (one, cut)]
+    np.testing.assert_allclose(within[1], within[0], rtol=1e-12, atol=1e-12)
+    unlike = cut.with_friction([0.2, 0.3, *(0.4 for _ in borders)])
+    near = unlike.walls(unlike.at(borders[0] + np.array([-0.3, 0.3]))[0])
+    np.testing.assert_allclose(near.friction / near.friction[0], [1.0, 4 / 3], rtol=1e-6)
+
+
+@pytest.mark.parametrize("cell", [0.1, 0.25])
+@pytest.mark.parametrize("shift", [2e-10, -2e-10])
+def test_depths_that_a_unit_rounds_leave_the_cells_as_they_are(shift: float, cell: float) -> None:
+    """Rows and borders lie on ends of cells, with a gap between rows; some move by rounding, others do not."""
+
+    def hole(moved: float) -> Array:
+        md = np.array([*np.arange(FIRST, 600.0, 0.5), *np.arange(610.0, LAST + 1e-9, 0.5)])
+        rows = np.column_stack([md, rough(5)(md)])
+        rows[md == 605.0 - 5.0, 1:] = np.nan
+        rows[0, 0], rows[-1, 0], rows[100, 0] = rows[0, 0] - moved, rows[-1, 0] + moved, rows[100, 0] + moved
+        given = {"rows": rows.tolist(), "values": "radius"}
+        return build_wellbore(bent_case("sampled", cell=cell, caliper=given)).pieces
+
+    np.testing.assert_allclose(hole(shift), hole(0.0), atol=1e-7)
 
 
 def test_cells_have_the_mean_of_the_rows_in_them() -> None:

@@ -7,6 +7,8 @@ import pytest
 import fctd
 from fctd.case.errors import InputError
 from fctd.monitoring.monitor import Monitor, result_of
+from fctd.monitoring.synthetic import over_time, steady_readings
+from tests.cases import make_case, pipe
 from tests.monitoring.made import BLOCK, STEP_AT, readings, series, shared_chart, well
 
 
@@ -70,3 +72,22 @@ def test_no_rows_and_one_row() -> None:
 def test_wrong_arguments_are_named(wrong: dict[str, object]) -> None:
     with pytest.raises(InputError, match=next(iter(wrong))):
         fctd.monitor(well(), readings(), **wrong)  # type: ignore[arg-type]
+
+
+@pytest.mark.slow
+def test_slack_off_of_an_extended_reach_well_is_no_slips(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The wall carries most of the string that slides in: its load is below the half of its rotating weight."""
+    monkeypatch.undo()
+    stations = [[0.0, 0, 0], [300, 0, 0], [800, 75, 0], [3000, 75, 0]]
+    intervals = [{"to_md": 3000.0, "diameter": 0.2159, "friction": 0.35}]
+    case = make_case(
+        stations, [pipe(None, None, inner_diameter=0.1086)], mud={"density": 1200.0}, rig={"block_weight": BLOCK},
+        wellbore={"intervals": intervals, "geometry": "arcs", "survey_method": "minimum_curvature"},
+    )  # fmt: skip
+    at_depth = steady_readings(case, [2960.0, 2985.0])
+    turning, _, down = at_depth["weight_indicator_N"].iloc[-3:] - BLOCK
+    assert down < turning / 2
+    found = fctd.monitor(case, over_time(at_depth, np.random.default_rng(0), BLOCK)).stretches
+    assert found["mode"].value_counts().to_dict() == dict.fromkeys(("rotating", "pick_up", "slack_off", "in_slips"), 2)
+    factors = found.loc[found["mode"] == "slack_off", "friction"].to_numpy(float)
+    np.testing.assert_allclose(factors, 0.35, atol=0.02)

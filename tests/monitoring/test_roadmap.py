@@ -6,12 +6,13 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from fctd import torque_drag
+from fctd import equilibrium, load_case, torque_drag
 from fctd.case.friction import FrictionSet
 from fctd.model.operations import weight_indicator
 from fctd.monitoring.friction import Apparent
 from fctd.monitoring.monitor import Monitor
 from fctd.monitoring.roadmap import FAN, LOADS, Roadmap, roadmap
+from fctd.monitoring.stretches import OF_KIND
 from fctd.monitoring.synthetic import steady_readings
 from tests.monitoring.made import chart, readings, series, shared_chart, well
 
@@ -45,6 +46,35 @@ def test_readings_of_a_factor_lie_on_its_curve(watch: Monitor) -> None:
         np.testing.assert_allclose(both[load], both[f"{load}_curve"], rtol=1e-9)
     turning = both["operation"] == "rotate_off_bottom"
     np.testing.assert_allclose(both["surface_torque_N_m"], both["surface_torque_N_m_curve"].where(turning), rtol=1e-9)
+
+
+@pytest.mark.slow
+def test_readings_with_pumps_on_lie_on_the_curve_of_mud_at_rest() -> None:
+    """The flow lifts each load by more than 2 kN, and sheaves of 0.97 show it by more or less than that."""
+    mud, rig = {"density": 1250.0, "viscosity": 0.03}, {"block_weight": 2e5, "sheave_efficiency": 0.97}
+    case = load_case(well(), {"mud": mud, "rig": rig})
+    watch = Monitor(case)
+    rows = []
+    for kind in OF_KIND:
+        point = equilibrium(case, kind, 900.0, flow=0.03)
+        rows.append(
+            {
+                "bit_depth_m": 900.0, "operation": kind, "weight_indicator_N": point.weight_indicator,
+                "drive_torque_N_m": point.drive_torque, "rpm": 60.0 if point.rates.spin else 0.0, "flow_m3_s": 0.03,
+            }
+        )  # fmt: skip
+    of = found(watch, pd.DataFrame(rows))
+    drawn = roadmap(watch.chart, [800.0, 900.0], [FrictionSet(open=0.3)])
+    both = drawn.points(of).merge(drawn.rows, on=["operation", "bit_depth_m"], suffixes=("", "_curve"))
+    assert len(both) == 3
+    pumped = pd.DataFrame(rows)["weight_indicator_N"].to_numpy()
+    assert (both["weight_indicator_N"].to_numpy() > pumped + 2e3).all()
+    for load in LOADS[:2]:
+        np.testing.assert_allclose(both[load], both[f"{load}_curve"], rtol=1e-9)
+    turning = both["operation"] == "rotate_off_bottom"
+    np.testing.assert_allclose(both["surface_torque_N_m"], both["surface_torque_N_m_curve"].where(turning), rtol=1e-9)
+    assert [reading.factor for reading in of] == pytest.approx([0.3] * 3, abs=5e-3)
+    assert "3 readings with the pumps on, drawn as with mud at rest" in drawn.told(of)
 
 
 def test_the_curves_are_those_of_a_chart_with_mud_at_rest() -> None:

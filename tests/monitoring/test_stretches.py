@@ -12,8 +12,8 @@ DEPTH = 1000.0  # settling 5 s and three round trips of 0.64 s: 6.9 s
 class Plain:
     """100 kN of block, a string of 400 kN, 0.5 m of stretch at reversal, 10 kN m of torque."""
 
-    def slips_below(self, depth: np.ndarray) -> np.ndarray:
-        return np.full(len(depth), 300e3)
+    def slips_below(self, depth: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return np.full(len(depth), 140e3), np.full(len(depth), 300e3)
 
     def reversal(self, depth: float) -> float:
         return 0.5
@@ -43,13 +43,23 @@ def found(table: pd.DataFrame) -> list[Stretch]:
         (rows(0.1, rpm=0.0), "pick_up"),
         (rows(-0.1, rpm=5.0), "slack_off"),
         (rows(rpm=0.0, weight_indicator_N=120e3), "in_slips"),
+        # The wall carries most of an extended-reach string while it slacks off: its bit moves with the block.
+        (
+            rows(-0.1, rpm=0.0, weight_indicator_N=200e3).assign(bit_depth_m=DEPTH - 15 + 0.4 * np.arange(20)),
+            "slack_off",
+        ),
+        (rows(rpm=60.0, weight_indicator_N=200e3), "rotating"),
+        # The block fetches a stand, which hangs from it, and the bit stands still.
+        (rows(0.1, rpm=0.0, weight_indicator_N=150e3), "in_slips"),
+        (rows(-0.1, rpm=0.0, weight_indicator_N=250e3), "in_slips"),
     ],
-)
+)  # fmt: skip
 def test_modes(table: pd.DataFrame, mode: str) -> None:
     (one,) = found(table)
     assert one.mode == mode
-    # The first row has no speed before it, which slips do not need.
-    assert (one.first_row, one.last_row) == (2 if mode == "in_slips" else 3, 21)
+    # The first row has no speed before it, which the load of the block does not need.
+    by_load = table["weight_indicator_N"].iloc[0] < 140e3
+    assert (one.first_row, one.last_row) == (2 if by_load else 3, 21)
     assert one.left_out == ""
 
 

@@ -1,6 +1,7 @@
 """Logos: what is drawn, and what is refused with one message."""
 
 import io
+import os
 import struct
 import zlib
 from pathlib import Path
@@ -50,3 +51,10 @@ def test_a_missing_file_or_a_folder_is_refused(tmp_path: Path) -> None:
     for path in (tmp_path / "none.png", tmp_path):
         with pytest.raises(InputError, match="that can be read"):
             read_logo(path)
+
+
+@pytest.mark.parametrize("place", ["/dev/zero", "pipe"])
+def test_a_device_or_a_pipe_is_refused_at_once(place: str, tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(InputError, match=r"--logo = .*: expected a regular file \(this is a pipe"):
+        read_logo(tmp_path / place)

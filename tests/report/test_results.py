@@ -8,7 +8,7 @@ from fctd.case.load import load_case
 from fctd.plots.loads import ChartLook
 from fctd.report import results
 from fctd.report.answers import Answers, Asked, answer
-from fctd.report.parts import Report, Text
+from fctd.report.parts import Picture, Report, Text
 from fctd.results.columns import LOADS
 from fctd.results.shown_tables import NONE, Table
 from fctd.results.unit_systems import System, shown
@@ -48,7 +48,8 @@ def test_numbers_are_those_of_the_answers(
 
 def test_a_picture_names_its_limits_and_the_table_has_them(answers: Answers) -> None:
     section = results.loads(answers, ChartLook(margins=answers.lines), "si")
-    assert section.parts[0].caption == "Loads over bit depth with limits"  # type: ignore[union-attr]
+    captions = [part.caption for part in section.parts if isinstance(part, Picture)]
+    assert captions == ["Loads over bit depth with limits"]
 
 
 def test_rows_that_are_not_converged_are_notes_with_their_depths_and_remedies() -> None:

@@ -97,9 +97,17 @@ def test_assumptions_say_where_they_are_from(well: Case) -> None:
     _, model, table, warnings = assumptions(well, rates, {"speed": None}, "9 segments", ["at 984 ft"], "field").parts
     assert ["friction law", "coulomb", "default"] in texts(model)
     assert ["segments", "9 segments", "case"] in texts(model)
+    stiffness = well.wellbore.stiffness or 0.0
+    # A newton a metre is 0.3048/4.4482216152605 pounds-force a foot (NIST SP 811).
+    pounds = f"{stiffness * 0.3048 / 4.4482216152605:.0f} lbf/ft at a contact"
+    assert ["stiffness of the wall", pounds, "default"] in texts(model)
     assert texts(table) == [
-        ["picking up", "59.1", "0.0", "0", "default"], ["rotating off bottom", "0.0", "60.0", "476", "case"],
-    ]  # fmt: skip
+        ["picking up", "59.1", "0.0", "0", "0.0", "default"],
+        ["rotating off bottom", "0.0", "60.0", "476", "0.0", "case"],
+    ]
+    assert isinstance(table, Table)
+    (note,) = table.notes
+    assert note.endswith("pumps stand in picking up; 475.5 gpm in rotating off bottom")
     assert texts(warnings) == [["at 984 ft"]]
     (*_, none) = assumptions(well, rates, {"speed": 0.1}, "", (), "si").parts
     assert none == Text("No warnings.")

@@ -15,6 +15,7 @@ from typer.testing import CliRunner
 
 from reports import __main__ as command_line
 from reports import page, results, sections
+from tests.left_over import left_folders
 from tests.reports.pages import BLANK, finished, judged, missing, study_page, words_of
 from validation.harness import store, study
 from validation.harness.store import Judged
@@ -306,8 +307,7 @@ def test_a_long_table_is_folded_and_a_short_one_open(render, tmp_path):
 def test_an_interruption_leaves_the_pages_before(render, tmp_path, monkeypatch):
     render((replace(BLANK, checks=(judged(0.0),)), {}), studies=["overlap"])
     before = {path: path.read_bytes() for path in (tmp_path / "out").rglob("*") if path.is_file()}
-    left = tmp_path / ".out-run-4194304"  # of a process that has ended: beyond the ids that Linux gives
-    left.mkdir()
+    left_folders(tmp_path / "out")[0].mkdir()
     monkeypatch.setattr("reports.page._write_pages", Mock(side_effect=KeyboardInterrupt))
     with pytest.raises(KeyboardInterrupt):
         render(studies=["overlap"])

@@ -2,7 +2,7 @@
 
 from fctd.case.load import load_case
 from fctd.model.summary import summarise
-from fctd.results.case_facts import fitting_facts, flow_curves, load_facts, path_facts
+from fctd.results.case_facts import fitting_facts, flow_curves, load_facts, path_facts, string_table
 from fctd.results.shown_tables import Table
 from tests.cases import make_case, pipe
 
@@ -28,3 +28,9 @@ def test_flow_curves() -> None:
     (curve, rule) = texts(flow_curves(load_case("examples/pumped_well.toml").mud, "si"))
     assert curve == ["flow curve of the mud", "2.04", "Pa yield stress, consistency 0.345 Pa·sⁿ, index 0.637"]
     assert rule[:2] == ["by RP 13D's rule", "-1.0"]
+
+
+def test_a_string_too_short_for_its_hole_says_where_the_bit_is() -> None:
+    whole, short = (summarise(make_case(components=[pipe(length, 20)])) for length in (1000, 800))
+    assert string_table(whole, "si").heads[0].words == "string, the bit at the bottom"
+    assert string_table(short, "field").heads[0].words == "string, the bit at 2624.7 ft"

@@ -141,10 +141,11 @@ def test_a_note_is_shown_everywhere(
 def test_every_code_is_raised() -> None:
     # tests/steady/test_wave_force.py, tests/results/test_hanging_body.py, tests/model/test_connection.py,
     # tests/results/test_notes.py, tests/model/test_fluids.py, tests/steady/test_steady_string.py,
-    # tests/steady/test_several_balances.py
+    # tests/steady/test_several_balances.py, tests/steady/test_equilibrium_assemblies.py
     of_steady_strings = {
         "homogenised",
         "several_balances",
+        "bent",
         "tool_joints",
         "body",
         "make_up",

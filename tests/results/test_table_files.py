@@ -9,6 +9,7 @@ import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
+from fctd.case.errors import InputError
 from fctd.results.table_files import write_table
 
 TABLE = pd.DataFrame({"time_s": [1.0, 2.5], "operation": ["trip_in", "trip_in"]})
@@ -36,6 +37,7 @@ def test_a_workbook_on_a_full_disk_is_refused_in_a_line(limit: int, tmp_path: Pa
     script = f"""
 import resource, signal, pandas as pd
 from pathlib import Path
+from fctd.case.errors import InputError
 from fctd.results.table_files import write_table
 frame = pd.DataFrame({{"a": [k * 0.1 for k in range(20_000)]}})
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
@@ -49,3 +51,22 @@ except Exception as error:
     assert done.stdout.startswith("InputError "), done.stdout
     assert "expected a file that can be written (File too large)" in done.stdout
     assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("earlier", [False, True])
+@pytest.mark.parametrize("full", ["t.csv", "t.csv.json"])
+def test_a_full_disk_leaves_table_and_metadata_as_they_were(full: str, earlier: bool, tmp_path: Path) -> None:
+    """Both or neither, whichever of the two finds no room, and the message names that one."""
+    resource = pytest.importorskip("resource")
+    path, about = tmp_path / "t.csv", {"case": "x" * (2000 if full.endswith("json") else 10)}
+    before = write_table(TABLE, path, {"case": "earlier"}) if earlier else []
+    kept = {file: file.read_bytes() for file in before}
+    rows = [{"time_s": float(number)} for number in range(2 if full.endswith("json") else 2000)]
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1000, hard))
+    try:
+        with pytest.raises(InputError, match=rf'/{full}": expected a file that can be written \(File too large\)'):
+            write_table(rows, path, about)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+    assert {file: file.read_bytes() for file in tmp_path.iterdir()} == kept

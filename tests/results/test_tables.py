@@ -14,6 +14,7 @@ from fctd.results import tables
 from fctd.results.tables import check_result_folder, own_files
 from fctd.store.origin import versions
 from tests.cases import make_case, rotation
+from tests.left_over import left_folders
 
 TABLE = pd.DataFrame({"time_s": [1.0, 2.5], "operation": ["trip_in", "trip_in"]})
 
@@ -101,7 +102,7 @@ def test_a_folder_for_results_is_repaired_or_refused_before(tmp_path: Path) -> N
     (tmp_path / "file").touch()
     with pytest.raises(InputError, match=r"--out = .*this is a file"):
         check_result_folder(tmp_path / "file", csv=False, key="--out")
-    left = tmp_path / ".out-run-4194304"  # of a process that has ended
+    left, _ = left_folders(tmp_path / "out")
     left.mkdir()
     check_result_folder(tmp_path / "out", csv=False)
     assert not left.exists()

@@ -222,3 +222,20 @@ def test_the_mean_of_a_trip_is_that_of_a_whole_stroke() -> None:
     case = make_case(BUILD, STRING, [trip(171.0, 231.0, speed=0.5, ramp=4.0)], mud=MUD, rig=RIG)
     (row,) = simulate(case).operations.to_dict("records")
     assert 50 < row["hookload_periods"] * row["hookload_period_s"] <= 53
+
+
+@pytest.mark.slow
+def test_a_caliper_with_a_flow_curve_is_run_in_stands_as_its_round_hole_is() -> None:
+    """Segments of 3 m, some wholly above the rotary table; a caliper of the hole's own diameter changes nothing."""
+    caliper = {"rows": [[10.0, 0.3], [300.0, 0.3], [990.0, 0.3]]}
+    interval = {"to_md": 1000.0, "diameter": 0.3, "friction": 0.3}
+    ends = []
+    for hole in ({"geometry": "arcs"}, {"geometry": "sampled", "caliper": caliper}):
+        case = make_case(
+            BUILD, [pipe(None, None, segment_length=3.0)], [trip(160.0, 160.5, ramp=1.0)],
+            wellbore={"intervals": [interval], **hole}, mud={"density": 1200.0, "viscosity": 0.05}, rig=RIG,
+        )  # fmt: skip
+        run = simulate(case)
+        assert run.status == "completed"
+        ends.append(run.history[["hookload_N", "bit_md_m"]].iloc[-1].to_numpy(float))
+    np.testing.assert_allclose(ends[1], ends[0], rtol=1e-4)

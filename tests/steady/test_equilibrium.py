@@ -285,7 +285,10 @@ def test_the_rates_of_a_call_are_those_of_the_loads() -> None:
     ("call", "expected"),
     [
         ({"operation": "trip_up"}, 'operation = "trip_up": expected the kind trip_'),
-        ({"operation": "dance"}, "expected one of the kinds trip_in, trip_out, rotate_off_bottom, back_ream, drill"),
+        (
+            {"operation": "dance"},
+            "expected one of the kinds trip_in, trip_out, rotate_off_bottom, back_ream, ream_in",
+        ),
         ({"bit_depth": 1301.0}, 'bit_depth = "1301 m": expected a depth below string.top_md, 0 m, within survey'),
         ({"bit_depth": 0.0}, 'bit_depth = "0 m": expected a depth below'),
         ({"bit_depth": math.nan}, "expected a depth below"),
@@ -299,8 +302,8 @@ def test_the_rates_of_a_call_are_those_of_the_loads() -> None:
         ({"speed": "0.2 m"}, 'speed = "0.2 m": expected a speed such as'),
         ({"rpm": "60 kg"}, 'rpm = "60 kg": expected a rotation such as'),
         (
-            {"operation": "trip_in", "rpm": 1e5},
-            "rpm = 100000.0: expected rev/min at least 0 and at most 10000 for trip_in",
+            {"operation": "ream_in", "rpm": 1e5},
+            "rpm = 100000.0: expected rev/min above 0 and at most 10000 for ream_in",
         ),
         ({"operation": "trip_in", "speed": 1e5}, "speed = 100000.0: expected a speed above 0 and at most 10 m/s"),
     ],

@@ -91,3 +91,30 @@ def test_the_torque_of_a_motor_converges_with_its_segments() -> None:
     coarse, fine, finest = (torque_of(motor_case(2.0, segments=count)) for count in (4, 8, 16))
     assert abs(finest / fine - 1) < 0.01
     assert abs(finest - fine) < abs(fine - coarse)
+
+
+def test_the_torque_that_holds_a_bend_is_nothing_on_the_mean_of_a_turn() -> None:
+    """Over a turn the drive puts in what wall, mud and bit take; at each toolface a note says what the bend has.
+
+    Nearly: the wall also rubs on what the bend moves across the hole, which a string at one toolface does not do.
+    """
+    case = motor_case(2.0, segments=4, segment_length=None)
+    case = case.model_copy(update={"bit": case.bit.model_copy(update={"torque": 500.0})})
+    case = case.model_copy(update={"mud": case.mud.model_copy(update={"rotational_damping": 0.05})})
+    motor, *others = case.string.components
+    found, lost = [], []
+    for toolface in np.arange(8) * 0.25 * np.pi:
+        parts = (motor.model_copy(update={"toolface": float(toolface)}), *others)
+        of = case.model_copy(update={"string": case.string.model_copy(update={"components": parts})})
+        point = fctd.equilibrium(of, "drill_rotating", 1300.0, rpm=60.0)
+        mud = 0.05 * 2 * np.pi * 1300.0
+        found.append(point.surface_torque)
+        lost.append(point.sum_r_ft + 500.0 + mud)
+        note = next((note for note in point.notes if note.code == "bent"), None)
+        assert (note is not None) == (abs(found[-1] / lost[-1] - 1) > 0.01)
+        if note is not None:
+            assert f"take {lost[-1] / 1e3:.3g} kN·m" in str(note)
+    swing = max(found) - min(found)
+    assert swing > 500.0
+    assert np.mean(found) == pytest.approx(np.mean(lost), abs=0.15 * swing)
+    assert "bent" not in [note.code for note in fctd.equilibrium(case, "trip_out", 1300.0).notes]

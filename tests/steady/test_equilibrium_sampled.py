@@ -14,12 +14,15 @@ from tests.cases import make_case, pipe
 BORE, RADIUS, LENGTH = 0.2159, 0.0635, 120.0
 
 
-def level_case(rows: Array, segment: float, friction: float = 0.0, cell: float = 0.1) -> Case:
-    """Pipe in a level hole with a caliper of radii [m]."""
+def level_case(
+    rows: Array, segment: float, friction: float = 0.0, cell: float = 0.1, around: float | None = None
+) -> Case:
+    """Pipe in a level hole with a caliper of radii [m]; around : friction factor around the string."""
+    pair = {} if around is None else {"rotational_friction": around}
     hole = {
         "stations": [[0, 90, 0], [LENGTH + 10, 90, 0]], "geometry": "sampled", "cell": cell,
         "stiffness_per_length": 1e9,
-        "intervals": [{"to_md": LENGTH + 10, "diameter": BORE, "friction": friction}],
+        "intervals": [{"to_md": LENGTH + 10, "diameter": BORE, "friction": friction} | pair],
         "caliper": {"rows": rows.tolist(), "values": "radius"},
     }  # fmt: skip
     parts = [pipe(None, None, segment_length=segment)]
@@ -32,27 +35,71 @@ def solved(case: Case, operation: str) -> Equilibrium:
     return point
 
 
-@pytest.mark.parametrize(("long_axis", "grips"), [(0.125, False), (0.20, True), (0.25, True)])
-def test_pipe_at_rest_in_an_oval_rubs_on_two_places(long_axis: float, grips: bool) -> None:
-    """It is pressed onto both by w/2 cos β: the drag is that of a floor over cos β, closed form of an ellipse."""
-    b, a, friction = 0.5 * BORE, long_axis, 0.2
-    md = np.arange(1.0, LENGTH + 9, 5.0)
-    case = level_case(np.column_stack([md, np.full(len(md), a), np.full(len(md), b)]), 5.0, friction)
-    string = lay_out(case, LENGTH)
-    weight = float((string.weight * string.length).sum())
+def half_angle(a: float, b: float) -> float:
+    """Angle [rad] from the lower end of an oval with the half axes a (upright) and b to the normals of both places.
+
+    The disc touches both as far aside as its radius reaches: closed form of an ellipse.  0 where it touches the end.
+    """
     c = np.sqrt(a * a - b * b)
-    factor = 1.0
-    if grips:
-        x = c * np.sqrt(1 - (RADIUS / b) ** 2)
-        cosine = a * x / (c * c)
-        factor = 1 / np.cos(np.arctan2(b * np.sqrt(1 - cosine**2), a * cosine - x))
-        assert factor > 1.1
-    point = solved(case, "trip_out")
-    pressed = float(point.profile["contact_force_N"].sum())
-    assert pressed == pytest.approx(
-        weight, rel=0.1
-    )  # the drive holds pipe on the axis, metres of which do not lie down
-    assert point.hookload == pytest.approx(friction * pressed * factor, rel=0.01)
+    x = c * np.sqrt(1 - (RADIUS / b) ** 2)
+    cosine = min(a * x / (c * c), 1.0)
+    return float(np.arctan2(b * np.sqrt(1 - cosine**2), a * cosine - x))
+
+
+def of_groove(beta: float, along: float, around: float, speed: float, turning: float) -> tuple[float, float, float]:
+    """Drag, torque over radius, and force that holds a disc, all over its weight, between two walls.
+
+    beta : of the normals from the bisector, which the weight is on.  Both places slide with the same velocities along
+    and around the string, so each has the same share of its own normal force as friction: two equations for both.
+    One wall alone where the other would have to pull.
+    """
+    size = np.hypot(along * speed, around * turning)
+    f, g = along**2 * speed / size, around**2 * turning / size
+    if beta == 0 or np.tan(beta) < g:
+        return f / np.sqrt(1 + g * g), g / np.sqrt(1 + g * g), 1 / np.sqrt(1 + g * g)
+    normals = np.array([[np.sin(k * beta), np.cos(beta)] for k in (-1, 1)])
+    tangents = np.column_stack([normals[:, 1], -normals[:, 0]])
+    forces = np.linalg.solve((normals - g * tangents).T, [0.0, 1.0])
+    assert forces.min() >= 0
+    return f * forces.sum(), g * forces.sum(), float(np.linalg.norm(forces @ normals))
+
+
+SPEED, RPM = 0.2, 30.0
+MOTIONS = {"trip_out": {"speed": SPEED}, "rotate_off_bottom": {"rpm": RPM}, "back_ream": {"speed": SPEED, "rpm": RPM}}
+
+
+@pytest.mark.parametrize("operation", MOTIONS)
+@pytest.mark.parametrize(
+    ("long_axis", "short_axis", "along", "around", "places"),
+    [
+        (0.125, 0.108, 0.2, None, 1), (0.25, 0.108, 0.3, None, 2), (0.2, 0.07, 0.3, None, 2),
+        (0.2, 0.08, 0.35, 0.15, 2), (0.19, 0.108, 0.4, None, 2),
+    ],
+)  # fmt: skip
+def test_pipe_in_an_oval_rubs_on_one_place_or_two(
+    long_axis: float, short_axis: float, along: float, around: float | None, places: int, operation: str
+) -> None:
+    """In pure rotation M = μ r W/((1 + μ²) cos β) while tan β ≥ μ, else it climbs one side: M = μ r W/√(1 + μ²)."""
+    md = np.arange(1.0, LENGTH + 9, 5.0)
+    rows = np.column_stack([md, np.full(len(md), long_axis), np.full(len(md), short_axis)])
+    case = level_case(rows, 5.0, along, around=around)
+    point = fctd.equilibrium(case, operation, LENGTH, **MOTIONS[operation])
+    assert point.answered
+    beta, mu = half_angle(long_axis, short_axis), around or along
+    assert (beta > 0) == (places == 2)
+    rates = MOTIONS[operation]
+    drag, torque, held = of_groove(
+        beta, along, mu, rates.get("speed", 0.0), RADIUS * rates.get("rpm", 0.0) * np.pi / 30
+    )
+    if operation == "rotate_off_bottom":
+        more = np.sqrt(1 + mu * mu)
+        assert torque == pytest.approx(mu / (more * more * np.cos(beta) if np.tan(beta) >= mu else more))
+    # The drive holds pipe on the axis, metres of which do not lie down.
+    weight = float(point.profile["contact_force_N"].sum()) / held
+    string = lay_out(case, LENGTH)
+    assert weight == pytest.approx(float((string.weight * string.length).sum()), rel=0.1)
+    assert point.surface_torque == pytest.approx(torque * RADIUS * weight, rel=0.01, abs=1e-4 * weight)
+    assert point.hookload == pytest.approx(drag * weight, rel=0.01, abs=1e-3 * weight)
 
 
 def test_pipe_over_a_ledge_lifts_off_on_both_sides() -> None:

@@ -5,6 +5,7 @@ import pytest
 
 import fctd
 from fctd.case.errors import InputError
+from fctd.results.columns import DOES
 from fctd.steady.margin_table import COLUMNS, USUAL, limits_of
 from fctd.steady.margins import MEANINGS, Margin
 from tests.cases import make_case, pipe
@@ -14,7 +15,7 @@ CASE = make_case(rig={"hoist_capacity": 1e6, "largest_torque": 20e3, "slip_lengt
 
 def test_a_row_for_each_margin_with_the_columns_of_the_guide() -> None:
     table = fctd.limits_of(CASE, bit_depths=[500.0, "900 m"])
-    assert list(table.columns) == ["operation", "bit_depth_m", *COLUMNS.values()]
+    assert list(table.columns) == ["operation", "bit_depth_m", *(column.name for column in DOES), *COLUMNS.values()]
     assert tuple(COLUMNS) == Margin._fields
     assert list(table["bit_depth_m"].unique()) == [500.0, 900.0]
     assert set(table["operation"]) == set(USUAL)

@@ -338,3 +338,21 @@ def test_connections_that_are_not_known_are_said_and_used_is_of_the_limit_that_i
     alone = torques(make_case(components=[named], mud=MUD))["make_up"]
     assert alone.reason == "none"
     assert alone.share == pytest.approx(0.0, abs=1e-6)  # it hangs straight, and no torque is used
+
+
+@pytest.mark.parametrize("own", [0.0, 15e3, 60e3])
+def test_weight_and_torque_at_a_limit_are_those_of_the_bit_in_all(own: float) -> None:
+    """A level string without friction snakes and yields at the same loads whatever the case has on its bit."""
+    level = make_case(
+        [[0, 90, 0], [600, 90, 0]], [pipe(None, None, segment_length=10.0)], mud=MUD,
+        wellbore={"intervals": [{"to_md": 600, "diameter": 0.2159, "friction": 0.0}]},
+        rig={"block_weight": 1e6, "largest_torque": 20e3}, bit={"weight_on_bit": own, "torque": own / 10},
+    )  # fmt: skip
+    section = section_of(level.string.components[0], 1200.0)
+    onset = 2 * np.sqrt(section.EI * section.weight / (0.5 * (0.2159 - 0.127)))
+    margin = found(level, "drill_rotating", 500.0)
+    assert margin[SNAKING].force == pytest.approx(onset, rel=5e-3)
+    assert margin[SNAKING].hookload_left == pytest.approx(onset - own, abs=5e-3 * onset)
+    assert margin["drive"].torque == pytest.approx(20e3, rel=1e-6)
+    assert margin["drive"].surface_torque_left == pytest.approx(20e3 - own / 10, rel=1e-6)
+    assert (margin[SNAKING].reason == "beyond it already with 60 kN on the bit") == (own > onset)

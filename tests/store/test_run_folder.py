@@ -38,6 +38,29 @@ def test_a_second_run_is_refused_with_the_number_of_the_first(tmp_path: Path) ->
     assert writer_of(target) is None
 
 
+def test_a_full_disk_leaves_no_folder(tmp_path: Path) -> None:
+    resource = pytest.importorskip("resource")
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1, hard))
+    try:
+        with pytest.raises(InputError, match=r"--out = .*beside which the run can be kept"):
+            RunFolder.take(tmp_path / "out", "--out")
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_hidden_folder_of_the_users_stays(tmp_path: Path) -> None:
+    """Named as that of a run: it is refused, and nothing in it is removed."""
+    (tmp_path / ".out-run").mkdir()
+    (tmp_path / ".out-run" / "notes.txt").write_text("mine")
+    with pytest.raises(
+        InputError, match=r'--out = .*out": expected another place \(.*\.out-run, and that folder holds files of others'
+    ):
+        RunFolder.take(tmp_path / "out", "--out")
+    assert [path.read_text() for path in (tmp_path / ".out-run").iterdir()] == ["mine"]
+
+
 def test_what_is_described_is_there_until_it_is_cleared(tmp_path: Path) -> None:
     target = tmp_path / "out"
     assert about_of(target) is None

@@ -72,7 +72,7 @@ def test_a_disk_that_fails_costs_one_chunk(saving: Saver, tmp_path: Path, monkey
     """The message names the place and, once something is kept, the way on; nothing half written is left."""
     for kept, way_on in ((0.0, ""), (3.0, ", and go on with --resume from 3 rows")):
         with monkeypatch.context() as patched:
-            patched.setattr(whole_file, "open_file", lambda path, mode: Failing(path, "wb"))
+            patched.setattr(whole_file, "open_file", lambda path: Failing(path, "wb"))
             with pytest.raises(InputError) as refused:
                 saving.write(9.0, lambda: PARTS)
             saving.report(1.0, 10.0, now=True)  # which a full disk does not stop

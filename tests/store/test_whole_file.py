@@ -8,7 +8,8 @@ import pytest
 
 from fctd.case.errors import InputError
 from fctd.store import whole_file as whole_file_module
-from fctd.store.whole_file import check_file, left_overs, whole_file
+from fctd.store.whole_file import check_file, whole_file
+from tests.left_over import left_beside
 
 
 def test_the_new_file_takes_the_place_of_the_old(tmp_path: Path) -> None:
@@ -52,13 +53,9 @@ def test_a_symlink_stays_one(tmp_path: Path) -> None:
 
 
 def test_what_a_killed_process_left_is_removed(tmp_path: Path) -> None:
-    """Only where that process has ended, and the name is one that ``whole_file`` gives."""
-    ended = 4_194_304  # beyond the ids that Linux gives
-    ours = tmp_path / f".chart-{ended}.csv"
-    others = [f".chart-{os.getppid()}.csv", f".chart-{ended}.parquet", f".Chart-{ended}.csv", f"chart-{ended}.csv",
-              f".chart-0{ended}.csv", ".chart-0.csv", f".my.chart-{ended}.csv", f".chart-{10**30}.csv"]  # fmt: skip
-    for path in (ours, *(tmp_path / name for name in others)):
-        path.touch()
+    """Only the file that was to become this one."""
+    left_beside(tmp_path / "chart.csv")
+    others = [left_beside(tmp_path / name).name for name in ("chart.parquet", "Chart.csv", "my.chart.csv", "chart")]
     with whole_file(tmp_path / "chart.csv") as scratch:
         scratch.write_text("text")
     assert {path.name for path in tmp_path.iterdir()} == {*others, "chart.csv"}
@@ -66,19 +63,10 @@ def test_what_a_killed_process_left_is_removed(tmp_path: Path) -> None:
 
 def test_what_a_killed_process_left_may_be_gone_meanwhile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Another process that writes the same file removes it too."""
-    monkeypatch.setattr(whole_file_module, "left_overs", lambda path: [path.with_name("gone")])
+    monkeypatch.setattr(whole_file_module, "left_over", lambda path: [path.with_name("gone")])
     with whole_file(tmp_path / "chart.csv") as scratch:
         scratch.write_text("text")
     assert [path.name for path in tmp_path.iterdir()] == ["chart.csv"]
-
-
-def test_what_another_users_process_writes_is_left_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse(process: int, number: int) -> None:
-        raise PermissionError
-
-    (tmp_path / ".chart-77.csv").touch()
-    monkeypatch.setattr(os, "kill", refuse)
-    assert left_overs(tmp_path / "chart.csv") == []
 
 
 def is_folder(path: Path) -> None:

@@ -11,13 +11,13 @@ import pytest
 
 from fctd import open_result
 from fctd.case.errors import InputError
-from fctd.results.tables import TABLES
+from fctd.results.tables import TABLES, own_files
 from fctd.store import whole_folder as whole_folder_module
 from fctd.store.whole_folder import check_folder, whole_folder
 from tests.killed_saves import FOREIGN, earlier, result
+from tests.left_over import left_folders
 
 ROOT = Path(__file__).parents[2]
-ENDED = 4_194_304  # no process: beyond the ids that Linux gives
 
 
 def value(folder: Path) -> float:
@@ -71,7 +71,8 @@ def test_killed_at_every_step_it_is_the_old_or_the_new_one(tmp_path: Path) -> No
 
 def test_what_the_user_made_meanwhile_is_kept(tmp_path: Path) -> None:
     """Killed between the renames; then the user makes the folder again and writes notes into it."""
-    folder, old, new = tmp_path / "out", tmp_path / f".out-old-{ENDED}", tmp_path / f".out-run-{ENDED}"
+    folder = tmp_path / "out"
+    new, old = left_folders(folder)
     earlier(old)
     result(2.0).save(new)
     folder.mkdir()
@@ -83,7 +84,8 @@ def test_what_the_user_made_meanwhile_is_kept(tmp_path: Path) -> None:
 
 
 def test_a_result_of_another_process_that_came_between_is_kept(tmp_path: Path) -> None:
-    folder, old, new = tmp_path / "out", tmp_path / f".out-old-{ENDED}", tmp_path / f".out-run-{ENDED}"
+    folder = tmp_path / "out"
+    new, old = left_folders(folder)
     earlier(old)
     result(2.0).save(new)
     result(3.0).save(folder)
@@ -93,26 +95,38 @@ def test_a_result_of_another_process_that_came_between_is_kept(tmp_path: Path) -
     assert [path.name for path in tmp_path.iterdir()] == ["out"]
 
 
-@pytest.mark.parametrize("process", [ENDED, os.getpid()], ids=["ended", "own"])
-def test_a_new_result_completes_what_a_killed_process_began(process: int, tmp_path: Path) -> None:
-    """Also one that had the id of this process."""
-    earlier(tmp_path / f".out-old-{process}")
-    result(2.0).save(tmp_path / f".out-run-{process}")
+def test_a_new_result_completes_what_a_killed_process_began(tmp_path: Path) -> None:
+    new, old = left_folders(tmp_path / "out")
+    earlier(old)
+    result(2.0).save(new)
     result(3.0).save(tmp_path / "out")
     assert value(tmp_path / "out") == 3.0
     check_foreign(tmp_path / "out")
     assert [path.name for path in tmp_path.iterdir()] == ["out"]
 
 
+@pytest.mark.parametrize("name", [".out-run-2024", ".out-old-2024", ".out-2024.run", ".out-2024.old"])
+def test_a_hidden_folder_of_the_users_stays(name: str, tmp_path: Path) -> None:
+    (tmp_path / name).mkdir()
+    (tmp_path / name / "notes.txt").write_text("mine")
+    for number in (1.0, 2.0):
+        result(number).save(tmp_path / "out")
+        assert value(tmp_path / "out") == number
+    assert (tmp_path / name / "notes.txt").read_text() == "mine"
+    assert {path.name for path in tmp_path.iterdir()} == {"out", name}
+
+
 def test_where_the_new_folder_is_lost_the_old_one_comes_back(tmp_path: Path) -> None:
-    earlier(tmp_path / f".out-old-{ENDED}")
+    earlier(left_folders(tmp_path / "out")[1])
     assert value(tmp_path / "out") == 1.0
     check_foreign(tmp_path / "out")
 
 
 def test_a_symlink_is_repaired_where_it_leads(tmp_path: Path) -> None:
-    earlier(tmp_path / "far" / f".real-old-{ENDED}")
-    result(2.0).save(tmp_path / "far" / f".real-run-{ENDED}")
+    (tmp_path / "far").mkdir()
+    new, old = left_folders(tmp_path / "far" / "real")
+    earlier(old)
+    result(2.0).save(new)
     (tmp_path / "out").symlink_to("far/real")
     assert value(tmp_path / "out") == 2.0
     check_foreign(tmp_path / "out")
@@ -124,9 +138,9 @@ def test_another_process_puts_its_own_between_the_two_renames(tmp_path: Path, mo
 
     def meanwhile(source: Path, target: Path) -> None:
         rename(source, target)
-        if Path(target).name.startswith(".out-old-"):
+        if Path(target).suffix == ".old":
             monkeypatch.setattr(os, "rename", rename)
-            other = tmp_path / f".out-run-{os.getppid()}"
+            other = tmp_path / "other"
             result(3.0).save(other)
             rename(other, folder)
 
@@ -159,11 +173,10 @@ def test_what_the_user_keeps_waits_for_another_process_between_its_renames(
 
 
 def test_a_process_that_lives_is_left_alone(tmp_path: Path) -> None:
-    writing = tmp_path / f".out-run-{os.getppid()}"
-    writing.mkdir()
     earlier(tmp_path / "out")
-    assert value(tmp_path / "out") == 1.0
-    assert writing.is_dir()
+    with whole_folder(tmp_path / "out", own_files) as writing:
+        assert value(tmp_path / "out") == 1.0
+        assert writing.is_dir()
 
 
 @pytest.mark.parametrize("failure", [OSError(28, "No space left on device"), KeyboardInterrupt(), SystemExit(1)])
@@ -179,7 +192,7 @@ def test_a_failure_leaves_the_old_or_the_new_one(
 
     def fail_between(source: Path, target: Path) -> None:
         rename(source, target)
-        if Path(target).name.startswith(".out-old-"):
+        if Path(target).suffix == ".old":
             monkeypatch.setattr(os, "rename", rename)
             raise failure
 
@@ -210,7 +223,7 @@ def test_where_the_swap_is_refused_the_message_says_where_the_files_are(
     monkeypatch.setattr(os, "rename", refuse)
     with pytest.raises(InputError) as caught:
         result(2.0).save(folder)
-    kept = tmp_path / f"out-{os.getpid()}"
+    kept = tmp_path / "out.new"
     assert f"a folder that can be renamed (Operation not permitted); the new files are in {kept}" in str(caught.value)
     assert value(kept) == 2.0
     assert not replaced or value(folder) == 1.0

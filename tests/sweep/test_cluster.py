@@ -194,6 +194,13 @@ def test_a_file_that_no_scheduler_wrote_is_answered(content: str | None, tmp_pat
         address_of(ClusterChoice(scheduler_file=tmp_path / "cluster.json"))
 
 
+@pytest.mark.parametrize("place", ["/dev/zero", "pipe"])
+def test_a_device_or_a_pipe_is_refused_at_once(place: str, tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(InputError, match=r"--scheduler-file = .*: expected a regular file \(this is a pipe"):
+        address_of(ClusterChoice(scheduler_file=tmp_path / place))
+
+
 @pytest.mark.slow
 def test_a_sweep_runs_on_an_encrypted_cluster(tmp_path: Path) -> None:
     """The commands of the guide, with certificates of our own; no warning."""

@@ -124,7 +124,7 @@ def failing_disk(ground: Ground) -> Tried:
             return super().write(content) or 0
 
     def failing() -> None:
-        vars(whole_file)["open_file"] = lambda path, mode: Failing(path, "wb")
+        vars(whole_file)["open_file"] = lambda path: Failing(path, "wb")
 
     fault = "disk that fails halfway"
     tried = ground.judge(

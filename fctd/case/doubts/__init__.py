@@ -7,7 +7,14 @@ from collections.abc import Sequence
 
 from fctd.case.doubts.caliper import measured_size
 from fctd.case.doubts.flow import of_flow
-from fctd.case.doubts.hole import casing_bore, hole_size, rough_wall, shoe_below_td, wider_below
+from fctd.case.doubts.hole import (
+    casing_bore,
+    hole_size,
+    rough_wall,
+    shoe_below_td,
+    smooth_along,
+    wider_below,
+)
 from fctd.case.doubts.rig import no_bit_load, no_block, no_mud, rates, sheaves_and_drive
 from fctd.case.doubts.string import (
     bent_along_gauge,
@@ -15,6 +22,7 @@ from fctd.case.doubts.string import (
     does_not_drift,
     light_string,
     no_tool_joints,
+    reach,
     unlike_pipe,
 )
 from fctd.case.doubts.usual import Well, bare_lengths, unusual
@@ -40,16 +48,18 @@ def warnings_of(
     return (
         *case.wellbore.survey_warnings,
         *shoe_below_td(case.wellbore, float(stations[-1, 0])),
-        *hole_size(case.wellbore),
+        *hole_size(case),
         *wider_below(case.wellbore),
         *casing_bore(case.wellbore),
         *rough_wall(case.wellbore, frictions),
+        *smooth_along(case.wellbore, frictions),
         *measured_size(case.wellbore, float(stations[-1, 0])),
         *no_mud(case.mud, float(stations[-1, 0])),
         *unusual(case),
         *light_string(case.string, case.mud),
         *no_tool_joints(case.string),
         *unlike_pipe(case.string),
+        *reach(case.string, [max(of.start_md, of.end_md) for of in case.operations], case.depths[1]),
         *bit_size(case.string, case.wellbore, float(stations[-1, 0])),
         *bent_along_gauge(case.string, case.wellbore),
         *does_not_drift(case.string, case.wellbore, min(float(stations[-1, 0]), case.wellbore.intervals[-1].to_md)),

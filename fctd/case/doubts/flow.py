@@ -41,6 +41,6 @@ def of_flow(mud: MudSpec, bit: BitSpec, operations: Sequence[Operation], flow: f
         if bit.motor is not None and one and abs(bit.motor.flow - one) > 1e-3 * one:
             text = (
                 f"{quantity(6e4 * one, 'L/min', '.0f')}, where bit.motor.flow turns the motor with "
-                f"{6e4 * bit.motor.flow:.0f}"
+                f"{quantity(6e4 * bit.motor.flow, 'L/min', '.0f')}"
             )
             yield InputWarning("motor_flow", where, text, "give one flow to both")

@@ -3,14 +3,15 @@
 from collections.abc import Sequence
 from typing import Final
 
-from fctd.case.doubts.usual import Doubts
-from fctd.case.friction import FrictionSet
+from fctd.case.doubts.usual import Doubts, Well, as_given
+from fctd.case.friction import Factor, FrictionSet, Pair, pairs_of
 from fctd.case.hole import WellboreSpec
 from fctd.case.input_warnings import InputWarning
 from fctd.case.message import quantity, span
 from fctd.case.pipes.filling import casing_named
-from fctd.case.units import LikelyUnit, unit_hint
+from fctd.case.units import LikelyUnit
 
+SMOOTH: Final = 1e-3  # of the factor around the hole: below, balances of a trip are none or false
 ROUGH: Final = 0.6  # steel on rock without lubrication; casing has 0.15 to 0.3, open hole 0.2 to 0.5
 NARROWEST, WIDEST = 0.05, 1.5  # [m]: coiled tubing in slim hole, conductor pipe
 UNDERREAMED: Final = 1.5  # an under-reamer opens the hole below a shoe to some 1.3 times its diameter
@@ -34,16 +35,14 @@ def shoe_below_td(hole: WellboreSpec, td: float) -> Doubts:
             )  # fmt: skip
 
 
-def hole_size(hole: WellboreSpec) -> Doubts:
+def hole_size(case: Well) -> Doubts:
     """A hole so wide or narrow that its diameter is probably in another unit."""
     inches = (LikelyUnit(WIDEST, 5, " in"),)
-    for i, interval in enumerate(hole.intervals):
+    for i, interval in enumerate(case.wellbore.intervals):
         if not NARROWEST <= interval.diameter <= WIDEST:
-            yield InputWarning(
-                "hole_size", f"wellbore.intervals[{i}].diameter",
-                f"a hole of {quantity(interval.diameter, 'm')}" + unit_hint(interval.diameter, inches),
-                "write the diameter with its unit",
-            )  # fmt: skip
+            key = f"wellbore.intervals[{i}].diameter"
+            text = f"a hole of {as_given(case, key, interval.diameter, 'm', inches)}"
+            yield InputWarning("hole_size", key, text, "write the diameter with its unit")
 
 
 def wider_below(hole: WellboreSpec) -> Doubts:
@@ -90,3 +89,21 @@ def rough_wall(hole: WellboreSpec, frictions: Sequence[FrictionSet]) -> Doubts:
             f"a friction factor of {factors[key]:g}, where casing has 0.15 to 0.3 and open hole 0.2 to 0.5",
             "check it; 30 % is written 0.3",
         )  # fmt: skip
+
+
+def smooth_along(hole: WellboreSpec, frictions: Sequence[FrictionSet]) -> Doubts:
+    """A factor along the hole near 0 beside one around it, in those asked for, or without them in the case."""
+    found: list[tuple[str, Factor | None]] = [
+        (f"wellbore.intervals[{i}].friction", pair) for i, pair in enumerate(pairs_of(hole.intervals))
+    ]
+    if frictions:
+        found = [("friction", pair) for one in frictions for pair in (one.every, *one.by_kind.values())]
+    for key, pair in found:
+        if isinstance(pair, Pair) and pair.along < SMOOTH * pair.around:
+            yield InputWarning(
+                "friction_pair", key,
+                f"a factor of {pair.along:g} along the hole beside {pair.around:g} around it: strings that slide "
+                "along it may find no balance, or a false torque",
+                f"give a factor along the hole of at least {SMOOTH * pair.around:g}, or the same one around it",
+            )  # fmt: skip
+            return

@@ -1,6 +1,7 @@
 """Probable mistakes in the string: its masses and sizes, and where it cannot have passed."""
 
 import re
+from collections.abc import Sequence
 from itertools import accumulate
 from typing import Final
 
@@ -16,6 +17,10 @@ from fctd.case.rig import MudSpec
 from fctd.case.string import ComponentSpec, StringSpec
 
 LIGHT, HEAVY = 0.85, 2.5  # mass over that of the pipe body: spiral collars have 0.95, tool joints add up to 0.6
+SAME_DEPTH: Final = 1e-6  # [m]: one depth written in two units
+JOINTED: Final = 0.98  # of its body: pipe with tool joints has more, and tables are rounded
+ONE_JOINT: Final = 14.0  # [m]: pipe that is longer and touches wider than its body has tool joints
+PIPE_BORE: Final = 0.55  # of the outer diameter: heavy-weight pipe has 0.59, collars 0.45 and less
 IN_GAUGE: Final = 0.9  # of the hole's diameter: a bit that drilled the hole, or runs in it
 
 
@@ -34,7 +39,7 @@ def light_string(string: StringSpec, mud: MudSpec) -> Doubts:
                 f"{quantity(displaced, 'kg/m', '.4g')}"
             )
             yield InputWarning("floating_string", key, text, _REMEDY_OF_MASS)
-        elif not LIGHT * body <= mass <= HEAVY * body:
+        elif not (JOINTED if _has_joints(part) else LIGHT) * body <= mass <= HEAVY * body:
             text = (
                 f"{_name(part)} weighs {quantity(mass, 'kg/m', '.4g')}, its body alone {quantity(body, 'kg/m', '.4g')}"
             )
@@ -81,6 +86,31 @@ def unlike_pipe(string: StringSpec) -> Doubts:
 
 
 _REMEDY_OF_MASS: Final = "write linear_mass with its unit, such as '19.5 lb/ft', and check diameters and density"
+
+
+def reach(string: StringSpec, ends: Sequence[float], deepest: float) -> Doubts:
+    """A string too short for the hole, and components that lie above it.
+
+    ends [m] : greatest bit depths of the operations; deepest [m] : of the hole.
+    """
+    lengths = [np.inf if part.length is None else part.length for part in string.components]
+    asked, long = max(ends, default=deepest) - string.top_md, sum(lengths)
+    if long < asked - SAME_DEPTH:
+        yield InputWarning(
+            "short_string", "string.components",
+            f"all components together are {quantity(long, 'm')} long: with the bit at "
+            f"{quantity(asked + string.top_md, 'm')} they do not reach string.top_md",
+            "check their lengths, or leave out that of the last one, which then reaches it",
+        )  # fmt: skip
+    for i, (part, below) in enumerate(zip(string.components, accumulate(lengths, initial=0.0), strict=False)):
+        if below >= deepest - string.top_md:
+            yield InputWarning(
+                "outside_the_hole", f"string.components[{i}]",
+                f"{_name(part)} begins {quantity(below, 'm')} above the bit, and the hole is "
+                f"{quantity(deepest, 'm')} deep: no row has it in the hole",
+                "check the lengths of the components below it",
+            )  # fmt: skip
+            return  # those above it do not enter either
 
 
 def bit_size(string: StringSpec, hole: WellboreSpec, td: float) -> Doubts:
@@ -148,6 +178,13 @@ def does_not_drift(string: StringSpec, hole: WellboreSpec, deepest: float) -> Do
                 f"{quantity(1e3 * tight.diameter, 'mm', '.6g')} above {quantity(tight.to_md, 'm')}",
                 "check both diameters; of a tool that opens below a shoe only the rows below are meant",
             )  # fmt: skip
+
+
+def _has_joints(part: ComponentSpec) -> bool:
+    """Whether tool joints repeat along a component, which a whole assembly as one component has not."""
+    wider = part.contact_diameter > part.outer_diameter and part.fittings is None
+    of_pipe = part.inner_diameter > PIPE_BORE * part.outer_diameter
+    return part.joint is not None or (wider and of_pipe and (part.length is None or part.length > ONE_JOINT))
 
 
 def _name(component: ComponentSpec) -> str:

@@ -8,7 +8,7 @@ from typing import Final, NamedTuple, Protocol
 from fctd.case.drilling import BitSpec
 from fctd.case.hole import WellboreSpec
 from fctd.case.input_warnings import InputWarning
-from fctd.case.message import span
+from fctd.case.message import quantity, span
 from fctd.case.operations import Operation
 from fctd.case.rig import MudSpec, RigSpec
 from fctd.case.solver import SolverSpec
@@ -34,6 +34,9 @@ class Well(Protocol):
     def operations(self) -> tuple[Operation, ...]: ...
     @property
     def bare_lengths(self) -> Sequence[str]: ...
+    @property
+    def depths(self) -> tuple[float, float]: ...
+    def text_of(self, key: str) -> str | None: ...
 
 
 class Usual(NamedTuple):
@@ -57,7 +60,7 @@ IN_MUD: Final = Usual("damping", "a damping", "N*s/m^2", 0, 1e4, "up to 10 kN*s/
 IN_JOINTS: Final = Usual("damping", "a damping", "s", 0, 0.1, "up to 100 ms", (LikelyUnit(0.1, 100, " ms"),))
 # Foam and the lightest oil to mud weighted with barite or galena.
 MUD: Final = Usual(
-    "mud_density", "a mud", "kg/m^3", 600, 2600, "0.6 to 2.6 sg",
+    "mud_density", "a mud", "kg/m^3", 600, 2600, span(600, 2600, "kg/m^3"),
     (LikelyUnit(0.6, 2.6, " sg"), LikelyUnit(5, 22, " ppg"), LikelyUnit(37, 165, " lb/ft^3")),
 )  # fmt: skip
 WINDOW: Final = Usual(
@@ -66,7 +69,7 @@ WINDOW: Final = Usual(
     "kg/m^3",
     500,
     3000,
-    "0.5 to 3 sg",
+    span(500, 3000, "kg/m^3"),
     (LikelyUnit(0.5, 3, " sg"), LikelyUnit(5, 25, " ppg")),
 )
 A_TURN: Final = Usual("angle", "an angle", "rad", 0, 2 * math.pi, "up to a turn", (LikelyUnit(6.28, 360, " deg"),))
@@ -83,10 +86,11 @@ USUAL: Final = {
     "solver.shape_damping": IN_JOINTS,
     # Composite, aluminium, titanium, steel; tungsten weights.
     "string.components.density": Usual(
-        "pipe_density", "a pipe", "kg/m^3", 1200, 20_000, "1.2 to 20 g/cm^3", (LikelyUnit(1.2, 20, " g/cm^3"),)
+        "pipe_density", "a pipe", "kg/m^3", 1200, 20_000, span(1.2, 20, "g/cm^3"),
+        (LikelyUnit(1.2, 20, " g/cm^3"),)
     ),
     "string.components.youngs_modulus": Usual(
-        "youngs_modulus", "a modulus", "Pa", 10e9, 450e9, "10 to 450 GPa",
+        "youngs_modulus", "a modulus", "Pa", 10e9, 450e9, span(10, 450, "GPa"),
         (LikelyUnit(10, 450, " GPa"), LikelyUnit(10e3, 450e3, " MPa")),
     ),
     "string.components.yield_strength": Usual(
@@ -120,6 +124,10 @@ USUAL: Final = {
     "rig.slip_length": Usual(
         "rig_load", "a length of slips", "m", 0.1, 1.5, span(0.1, 1.5, "m"), (LikelyUnit(4, 40, " in"),)
     ),
+    # Singles of range 1 to stands of four joints of range 3.
+    "rig.stand_length": Usual(
+        "rig_load", "a stand", "m", 5, 60, span(5, 60, "m"), (LikelyUnit(60, 200, " ft"),)
+    ),
     "rig.guide_friction": Usual(
         "rig_load", "friction of the guides", "N", 100, 200e3, span(0.1, 200, "kN"), (LikelyUnit(0.1, 99, " kN"),)
     ),
@@ -127,7 +135,7 @@ USUAL: Final = {
         "rig_load", "a torque offset", "N*m", 5, 50e3, span(0.005, 50, "kN·m"), (LikelyUnit(0.1, 4.99, " kN*m"),)
     ),
     "rig.surface_bore": Usual(
-        "surface_bore", "a bore of surface lines", "m", 0.03, 0.25, "1.5 to 10 in", (LikelyUnit(1.5, 10, " in"),)
+        "surface_bore", "a bore of surface lines", "m", 0.03, 0.25, span(30, 250, "mm"), (LikelyUnit(1.5, 10, " in"),)
     ),
     "string.components.pressure_drop": Usual(
         "pressure_drop", "a pressure drop of a tool", "Pa", 1e4, 5e7, span(0.1, 500, "bar"),
@@ -148,9 +156,19 @@ def unusual(case: Well) -> Doubts:
         for place, holder in holders:
             value = abs(getattr(holder, name, None) or 0.0)  # there may be no rock, damping or caliper
             if value != 0 and not usual.low <= value <= usual.high:
-                text = f"{usual.what} of {value:g} {usual.unit}{unit_hint(value, usual.likely_units)}"
-                remedy = f"write it with its unit; usual is {usual.words}"
-                yield InputWarning(usual.code, f"{place}.{name}", text, remedy)
+                key = f"{place}.{name}"
+                said = as_given(case, key, value, usual.unit, usual.likely_units)
+                remedy = f"{'check it' if case.text_of(key) else 'write it with its unit'}; usual is {usual.words}"
+                yield InputWarning(usual.code, key, f"{usual.what} of {said}", remedy)
+
+
+def as_given(case: Well, key: str, value: float, unit: str, likely_units: Sequence[LikelyUnit]) -> str:
+    """A value [SI] as the user wrote it, for an f-string, with the units that its number may be in."""
+    written = case.text_of(key)
+    if written is None:
+        return quantity(value, unit) + unit_hint(value, likely_units)
+    of_si = written.startswith(f"{value:g}")  # its number is the one in SI
+    return written + (unit_hint(value, likely_units) if of_si else "")
 
 
 def bare_lengths(keys: Sequence[str]) -> Doubts:

@@ -7,19 +7,19 @@ where it takes most energy (maximum dissipation): F = −N (μ_a² v_a, μ_r² v
 import numpy as np
 
 from fctd.mechanics.dual import reciprocal, root
-from fctd.mechanics.friction import FLAT, Law, against, along_wall, ellipse, resisting, sliding
+from fctd.mechanics.friction import FLAT, ON_AXIS, Law, against, along_wall, ellipse, resisting, sliding
 from fctd.mechanics.jit import inlined
 from fctd.mechanics.joints import cross
 from fctd.mechanics.state import TINY
 
 
 @inlined
-def impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit, around):
+def impulse(S, j, radius, net, u, v, w, a, b, c, nx, ny, nz, limit, around):
     """The impulse that stops the sliding where μ × normal impulse allows it, else one against what is left of it.
 
     It acts at T + r_ds·normal, hence gives force and torque; see ``Law``.
     """
-    p, shape = sliding(S, j, u, v, w, a, b, c, nx, ny, nz), ellipse(limit, around)
+    p, shape = sliding(S, j, radius, net, u, v, w, a, b, c, nx, ny, nz), ellipse(limit, around)
     f, g, _ = resisting(p, shape, shape.largest, shape.largest, around)
     return against(S, j, f, g, p, nx, ny, nz)
 
@@ -47,7 +47,8 @@ def opposite(limit, around, sx, sy, sz, cx, cy, cz):
     along, across = lx * lx + ly * ly + lz * lz, rx * rx + ry * ry + rz * rz
     # Friction of one direction alone would turn a rounding error of the sliding in it into all of its limit.
     least = FLAT * FLAT * (limit * limit + around * around) * (along + across)
-    share = reciprocal(root(limit * limit * along + around * around * across + least) + TINY)
+    # Of a point at rest the share is finite still when it is multiplied by the square of a limit.
+    share = reciprocal(root(limit * limit * along + around * around * across + least) + ON_AXIS)
     a, r = -share * limit * limit, -share * around * around
     return a * lx + r * rx, a * ly + r * ry, a * lz + r * rz
 

@@ -7,16 +7,16 @@ import numpy as np
 
 from fctd.mechanics.friction import Law, turning_limit
 from fctd.mechanics.jit import inlined
-from fctd.mechanics.state import INVERSE_JA, INVERSE_MASS, J_AXIAL, MASS, RADIUS
+from fctd.mechanics.state import INVERSE_JA, INVERSE_MASS, J_AXIAL, MASS
 
 
 @inlined
-def impulse(S, j, u, v, w, a, b, c, nx, ny, nz, limit, around):
+def impulse(S, j, radius, net, u, v, w, a, b, c, nx, ny, nz, limit, around):
     """Axial drag and a couple about the axis; each may stop its motion but not reverse it; see ``Law``."""
     m, ja, im, ia = S[MASS + j], S[J_AXIAL + j], S[INVERSE_MASS + j], S[INVERSE_JA + j]
     sliding, spinning = np.sqrt(w * w), np.sqrt(c * c)
     drag = limit if limit < m * sliding else m * sliding
-    couple = S[RADIUS + j] * turning_limit(limit, around)
+    couple = radius * turning_limit(limit, around)
     couple = couple if couple < ja * spinning else ja * spinning
     dw = drag * im if w < 0 else -drag * im
     dc = couple * ia if c < 0 else -couple * ia

@@ -60,14 +60,14 @@ def _with_cake_around(S, j, around):
 
 
 @inlined
-def impulse(kinetic, S, j, u, v, w, a, b, c, nx, ny, nz, limit, around):
+def impulse(kinetic, S, j, radius, net, u, v, w, a, b, c, nx, ny, nz, limit, around):
     """The impulse that stops the sliding where the limit allows it, else one against the sliding; see ``Law``.
 
     The limit is static for a point that stuck in the last step, and else ``kinetic``, ``at_once`` or ``gradually``.
     Mud cake changes it by its own factor.
     """
     limit, around = with_cake(limit, S[CAKE_IMPULSE + j]), with_cake_around(S, j, around)
-    p, shape = sliding(S, j, u, v, w, a, b, c, nx, ny, nz), ellipse(limit, around)
+    p, shape = sliding(S, j, radius, net, u, v, w, a, b, c, nx, ny, nz), ellipse(limit, around)
     excess = S[EXCESS + j] * shape.largest
     moving = kinetic(S, j, p, shape, excess)
     holding = shape.largest + excess if S[STUCK + j] > 0 else moving
@@ -77,15 +77,15 @@ def impulse(kinetic, S, j, u, v, w, a, b, c, nx, ny, nz, limit, around):
 
 
 @inlined
-def sticking(S, j, u, v, w, a, b, c, nx, ny, nz, limit, around):
+def sticking(S, j, radius, net, u, v, w, a, b, c, nx, ny, nz, limit, around):
     """``impulse`` of law ``karnopp``."""
-    return impulse(at_once, S, j, u, v, w, a, b, c, nx, ny, nz, limit, around)
+    return impulse(at_once, S, j, radius, net, u, v, w, a, b, c, nx, ny, nz, limit, around)
 
 
 @inlined
-def weakening(S, j, u, v, w, a, b, c, nx, ny, nz, limit, around):
+def weakening(S, j, radius, net, u, v, w, a, b, c, nx, ny, nz, limit, around):
     """``impulse`` of law ``stribeck``."""
-    return impulse(gradually, S, j, u, v, w, a, b, c, nx, ny, nz, limit, around)
+    return impulse(gradually, S, j, radius, net, u, v, w, a, b, c, nx, ny, nz, limit, around)
 
 
 KARNOPP = Law(sticking, steady_load, shares)

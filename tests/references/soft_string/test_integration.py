@@ -335,3 +335,26 @@ def test_fittings_and_swivels_are_refused(key: str) -> None:
     with pytest.raises(InputError, match="none, for the soft string") as refusal:
         soft_string(make_case(components=[lower, pipe(None, None, segment_length=20.0)]), "trip_in", 900.0)
     assert refusal.value.key == f"string.components[0].{key}"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("every", "off", "torque", "pick_up"), [(30, 0.0, -0.7, -0.2), (30, 1.0, -12, -3.6), (10, 0.5, -29, -9.9)]
+)
+def test_wiggles_cost_a_soft_string_torque_that_a_stiff_one_with_clearance_lacks(
+    every: int, off: float, torque: float, pick_up: float
+) -> None:
+    """The shares that docs/calibrate.md states, in percent; seeds differ by a tenth of them."""
+    md = np.arange(0.0, 3451.0, every)
+    azimuth = 40 + off * np.random.default_rng(9200002).standard_normal(len(md))
+    stations = np.column_stack((md, np.interp(md, [300, 900], [0, 30]), azimuth)).tolist()
+    collar = pipe(150, None, 0.165, 0.071, contact_diameter=0.1683)
+    string = [collar, pipe(None, None, 0.127, 0.1086, contact_diameter=0.1683, linear_mass=32.0)]
+    hole = {"intervals": [{"to_md": 3450.0, "diameter": 0.2159, "friction": 0.25}], "geometry": "arcs",
+            "survey_method": "minimum_curvature", "stiffness_per_length": 2e7}  # fmt: skip
+    case = make_case(stations, string, mud={"density": 1200.0}, wellbore=hole)
+    turning, out = (equilibrium(case, kind, 3450.0) for kind in ("rotate_off_bottom", "trip_out"))
+    soft = soft_string(case, "rotate_off_bottom", 3450.0, rpm=60.0)
+    assert 100 * (turning.surface_torque / soft.surface_torque - 1) == pytest.approx(torque, rel=0.15, abs=0.1)
+    share = out.hookload / soft_string(case, "trip_out", 3450.0).hookload - 1
+    assert 100 * share == pytest.approx(pick_up, rel=0.15, abs=0.1)
