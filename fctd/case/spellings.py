@@ -139,7 +139,8 @@ def factor(
     weight, −1 where a weight stands for its mass, else 0.  listed : whether only these words are units.  back : how
     many of the unit one target unit is.  Raises ValueError for a unit that is unknown or of another dimension.
     """
-    known_words = [words.get(_BLANKS.sub("", unit).lower(), "")] if listed else _in_pints_words(unit, words)
+    plain = unit if listed else _HUNDREDS.sub("/hsqft", unit)
+    known_words = [words.get(_BLANKS.sub("", unit).lower(), "")] if listed else _in_pints_words(plain, words)
     for known in filter(None, known_words):
         for expression in (known, *([f"({known})*standard_gravity**{gravity}"] if gravity else [])):
             try:

@@ -1,13 +1,23 @@
 """Ctrl-C, and the signals with which a system or a closing terminal ends a program."""
 
+import atexit
 import gc
 import os
 import signal
 import sys
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from types import FrameType
+from typing import Final
+
+# Code that must not be left for a signal: Python drops what is raised in finalizers and in functions that C calls, and
+# the lock around calls to LLVM would stay taken.
+FINALIZERS: Final = ("__del__", "weakref.py")
+GUARDED: Final = (f"{os.sep}llvmlite{os.sep}", os.path.join("numba", "core", "event.py"))
+# Time until a signal comes once more that such code has got [s].
+PAUSE: Final = 0.02
+_LATER: Final[list[int]] = []  # such signals
 
 
 @contextmanager
@@ -16,7 +26,8 @@ def as_interrupts() -> Iterator[None]:
 
     Later ones are ignored: a terminal that closes sends several, and they must not stop the writing of the results
     after the first one.  A shell ignores Ctrl-C for what a script starts in the background; it stops a command there
-    too, and the processes that the command starts, and what has been computed is kept.  Does nothing outside the main
+    too, and the processes that the command starts, and what has been computed is kept.  No signal is lost: where the
+    interrupted code would drop the exception, the signal comes once more a moment later.  Does nothing outside the main
     thread.
     """
     if threading.current_thread() is not threading.main_thread():
@@ -24,24 +35,64 @@ def as_interrupts() -> Iterator[None]:
         return
     numbers = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
     ours = [number for number in numbers if signal.getsignal(number) == signal.SIG_DFL]
+    keyboard, drops = signal.getsignal(signal.SIGINT), sys.unraisablehook
 
     def interrupt(number: int, frame: FrameType | None) -> None:
-        for each in ours:
-            signal.signal(each, signal.SIG_IGN)
+        if _waits(number, frame):
+            return
+        if number in ours:
+            for each in ours:
+                signal.signal(each, signal.SIG_IGN)
         raise KeyboardInterrupt
+
+    def dropped(what: "sys.UnraisableHookArgs") -> None:
+        if not issubclass(what.exc_type, KeyboardInterrupt) or not _again(signal.SIGINT):
+            drops(what)
 
     for number in ours:
         signal.signal(number, interrupt)
-    ignored = signal.getsignal(signal.SIGINT) == signal.SIG_IGN
-    if ignored:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+    if keyboard in (signal.SIG_IGN, signal.default_int_handler):
+        signal.signal(signal.SIGINT, interrupt)
+    sys.unraisablehook = dropped
     try:
         yield
     finally:
-        if ignored:
-            signal.signal(signal.SIGINT, signal.SIG_IGN)
+        sys.unraisablehook = drops
+        signal.signal(signal.SIGINT, keyboard)
         for number in ours:
             signal.signal(number, signal.SIG_DFL)
+
+
+def _waits(number: int, frame: FrameType | None) -> bool:
+    """Whether a signal has come to code that must not be left; it then comes once more."""
+    while frame is not None:
+        code = frame.f_code
+        if (
+            code.co_name in FINALIZERS
+            or code.co_filename.endswith(FINALIZERS)
+            or any(part in code.co_filename for part in GUARDED)
+        ):
+            return _again(number)
+        frame = frame.f_back
+    return False
+
+
+def _again(number: int) -> bool:
+    """Send this process a signal a moment later; False where the system cannot, or outside the main thread."""
+    if not hasattr(signal, "setitimer") or threading.current_thread() is not threading.main_thread():
+        return False
+    if not _LATER:
+        before = signal.getsignal(signal.SIGALRM)
+
+        def send(_: int, frame: FrameType | None) -> None:
+            signal.signal(signal.SIGALRM, before)
+            first, _LATER[:] = _LATER[0], []
+            signal.raise_signal(first)
+
+        signal.signal(signal.SIGALRM, send)
+        signal.setitimer(signal.ITIMER_REAL, PAUSE)
+    _LATER.append(number)
+    return True
 
 
 def listens() -> None:
@@ -75,7 +126,27 @@ def deferred() -> Iterator[None]:
 
 def leave(number: int, frame: FrameType | None) -> None:
     """What Ctrl-C does before the commands begin: it ends the program with exit code 130."""
-    sys.exit(130)
+    if not _waits(number, frame):
+        sys.exit(130)
+
+
+@contextmanager
+def ends_at_once() -> Iterator[None]:
+    """Inside, a program that was interrupted ends without the end of Python.
+
+    That takes from threads that still compute what they need, and waits for those that never end.
+    """
+    try:
+        yield
+    except SystemExit as ended:
+        if ended.code != 130:
+            raise
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        atexit._run_exitfuncs()
+        for stream in (sys.stdout, sys.stderr):
+            with suppress(OSError, ValueError):  # a closed terminal
+                stream.flush()
+        os._exit(130)
 
 
 def is_fctd() -> bool:

@@ -47,15 +47,17 @@ Speed = Annotated[
 ]
 Rpm = Annotated[
     Given | None,
-    quantity(RPM_OPTION, "N", f"Rev/min; default: the case's, else {_defaults('default_rpm')}."),
+    quantity(
+        RPM_OPTION, "N", f"Rev/min of what rotates by its name; default: the case's, else {_defaults('default_rpm')}."
+    ),
 ]
 Flow = Annotated[
     Given | None,
     quantity(
         FLOW_OPTION,
         "Q",
-        "Flow of the pumps, '2000 L/min' or '500 gpm', bare in L/min, with --units field in gpm; default: the "
-        "case's, or 0.",
+        "Flow of the pumps in all operations, '2000 L/min' or '500 gpm', bare in L/min, with --units field in gpm; "
+        "default: the case's, in what drills, rotates or reams.",
     ),
 ]
 DEPTHS_HELP = (

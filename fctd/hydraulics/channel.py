@@ -200,14 +200,15 @@ def channel_of(case: Case, string: String, hole: Wellbore, eccentricity: float |
     return Channel(
         string.above_bit, length, wet, _table(n, around), _table(n, within),
         _tools(string, densities[0]), (case.bit.nozzle_area or np.inf, case.bit.discharge**-2),
-        "plugged" if any(row.plug for row in case.mud.inside) else case.end, _heavier(string, hole),
+        "plugged" if any(row.plug for row in case.mud.inside) else case.end,
+        _heavier(string, hole, case.mud.packer_bore is not None),
         0.0 if string.fluids is None else string.fluids.inside.surface,
     )  # fmt: skip
 
 
-def _heavier(string: String, hole: Wellbore) -> float:
+def _heavier(string: String, hole: Wellbore, packed: bool) -> float:
     """Pressure outside less that inside at the end of a string, of mud at rest [Pa]."""
-    if string.fluids is None:
+    if string.fluids is None or packed:  # a packer keeps both sides apart
         return 0.0
     inside, outside = string.fluids.at_end(hole, string.bit_depth)
     return outside - inside

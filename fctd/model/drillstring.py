@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -83,6 +84,18 @@ class String:
     def segments(self) -> int:
         """Number of segments."""
         return len(self.length)
+
+    @cached_property
+    def bodies(self) -> NDArray[np.int64]:
+        """Of each segment the number of its section (n,), as ``component``; neighbours of one section are one body.
+
+        A component that is written as two has the stresses of the one.
+        """
+        first = list(range(len(self.sections)))
+        for k, (below, here) in enumerate(pairwise(self.sections), start=1):
+            if not here.point and not here.swivel and here == below:
+                first[k] = first[k - 1]
+        return np.array(first)[self.component]
 
     @property
     def origin(self) -> NDArray[np.int64]:

@@ -371,7 +371,9 @@ def _cylinder_ends(hole: WellboreSpec, stations: Array, ends: Array) -> Array:
             f"at most the length of a cylinder, here {quantity(wanted.min(), 'm', '.3g')}", key="wellbore.overlap",
             value=quantity(hole.overlap, "m"),
         )  # fmt: skip
-    breaks = np.union1d(stations[:, 0], ends)
+    # An interval that ends at a station, but for rounding, ends there: the direction of a shorter piece is not known.
+    apart = np.abs(np.subtract.outer(ends, stations[:, 0])).min(axis=1) > SAME_LENGTH
+    breaks = np.union1d(stations[:, 0], ends[apart])
     course = np.searchsorted(stations[:, 0], breaks[:-1], side="right") - 1
     counts = np.maximum(np.ceil(np.diff(breaks) / wanted[course] - 1e-9), 1)
     if counts.sum() > MOST_CYLINDERS:

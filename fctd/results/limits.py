@@ -29,6 +29,10 @@ from fctd.results.profile import von_mises, von_mises_pressed
 # of a stabiliser's small clearance is no criterion.
 SHARE_OF_CLEARANCE, LEAST_PENETRATION, MOST_PENETRATION = 0.25, 0.002, 0.010
 
+# Pressures inside and outside that differ by less are the same [Pa]: at the table columns of two fluids differ by the
+# rounding of a depth of 0.
+SAME_PRESSURE: Final = 1.0
+
 
 class Place(NamedTuple):
     """What the limits look at in one place, the top of a string or a contact point.
@@ -183,7 +187,7 @@ LIMITS: Final[tuple[Limit, ...]] = (
         "tensile_capacity", "the hook load exceeds the capacity of the uppermost pipe",
         "check friction factor, bends and yield_strength", "N",
         # Where pressures differ, the stress says how much of the strength is used.
-        lambda at, section: at.hookload if at.excess == 0 else 0.0,
+        lambda at, section: at.hookload if abs(at.excess) < SAME_PRESSURE else 0.0,
         lambda at, section: section.yield_strength * np.pi * (section.worn_outer**2 - section.inner**2),
         lambda share, at, section, where: (
             f"the hook load is {quantity(at.hookload / 1e3, 'kN', '.0f')}, the uppermost pipe yields at "

@@ -75,7 +75,7 @@ def hanging_along(hole: Wellbore, string: String, loads: Loads, md: Array, in_ho
     md, tension, bending = (np.ascontiguousarray(values) for values in (md, loads.tension, loads.bending))
     find_hanging(
         hole.bends, float(string.top_md), md, in_hole, tension, float(loads.bit_tension), bending, string.length,
-        string.mid_contact(), string.component, string.table, string.body_weight, rows,
+        string.mid_contact(), string.bodies, string.table, string.body_weight, rows,
     )  # fmt: skip
     return rows
 

@@ -149,7 +149,7 @@ class Guards(Restorable):
     def _constants(self) -> tuple[bool, NDArray[np.bool_], NDArray[np.int64], Array, Array]:
         run, string = self.run, self.run.string
         excess = run.excess_pressure()
-        return run.case.contact.enabled, string.mid_contact(), string.component, string.table, excess
+        return run.case.contact.enabled, string.mid_contact(), string.bodies, string.table, excess
 
     def of_the_ledger(self) -> Note | None:
         """The note on a ledger that is off so far, as far as the run has turned over energy."""

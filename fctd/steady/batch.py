@@ -71,7 +71,8 @@ class Row(NamedTuple):
 class Strings(NamedTuple):
     """Strings of a case, one after the other.
 
-    first (m + 1,) : of their segments in length [m] and component (N,); long_segment (m,); bit_depth (m,) [m];
+    first (m + 1,) : of their segments in length [m], component and bodies (N,), see ``String``; long_segment (m,);
+    bit_depth (m,) [m];
     sections : a row for each component; weights (3, N) : of ``String.weights``; damping (N, 3), squeeze (N,), given
     (N,), per_metre : see ``fill_rows``; excess (N + m,) : pressure inside less that outside [Pa], at the top and the
     contact points of each string.
@@ -80,6 +81,7 @@ class Strings(NamedTuple):
     first: NDArray[np.int64]
     length: Array
     component: NDArray[np.int64]
+    bodies: NDArray[np.int64]
     long_segment: NDArray[np.bool_]
     bit_depth: Array
     top_md: float
@@ -189,6 +191,7 @@ def _pack(case: Case, laid: Sequence[LaidString]) -> Strings:
         first,
         _joined([string.length for string in strings]),
         _joined([string.component for string in strings]),
+        _joined([string.bodies for string in strings]),
         np.array([string.long_segment for string in strings]),
         np.array([string.bit_depth for string in strings], float),
         float(case.string.top_md),
@@ -230,7 +233,7 @@ def solve_rows(hole, strings, which, loads, w, answers, joints, contacts, walls)
         pipe = Pipe(stiffness[:n], strings.weights[2][first:last], clearing[:n], length, middle[:n])
         solve_row(
             w, n, kinks, hole.pieces[which[r, 1]], hole, pipe, radius[:n], fed, length[0] if long_segment else 0.0,
-            strings.top_md, strings.bit_depth[k], strings.sections, component, body_weight,
+            strings.top_md, strings.bit_depth[k], strings.sections, strings.bodies[first:last], body_weight,
             strings.excess[first + k : last + k + 1], loads[r], answers[r], joints[r, : n + 1],
             contacts[r, : n + 1], walls[r, 1 : n + 1],
         )  # fmt: skip

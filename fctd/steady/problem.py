@@ -302,7 +302,7 @@ class Problem:
         walls = np.empty((n, WALL_COLUMNS))
         read_shape(
             hole.pieces, hole.geometry, self.case.contact.enabled, hole.bends, float(string.top_md), self.laid.pipe,
-            string.contact_radius(), string.table, string.component, string.body_weight, self.laid.excess,
+            string.contact_radius(), string.table, string.bodies, string.body_weight, self.laid.excess,
             self.bit_tension(), self.bit_torque,
             found.hookload, self.work.owner[1 : n + 1], found.joints, found.contacts, walls, numbers[SHAPE:],
         )  # fmt: skip

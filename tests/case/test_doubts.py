@@ -188,6 +188,11 @@ CASED = {"to_md": 1000, "casing": "9 5/8 in 47 N-80", "friction": 0.2}
             {"components": [{"pipe": "5 in 19.5 S-135 NC50", "segments": 20, "inner_diameter": "3 in"}]},
         ),
         (
+            "unlike_pipe",
+            {"components": [{"pipe": "5 in 19.5 S-135 NC50, premium", "segments": 20, "outer_diameter": "4.86 in"}]},
+            {"components": [{"pipe": "5 in 19.5 S-135 NC50, premium", "segments": 20, "outer_diameter": "4.8 in"}]},
+        ),
+        (
             "floating_string",
             {"components": [pipe(1000, 20, linear_mass=10.7)]},
             {"components": [pipe(1000, 20, linear_mass=10.5)]},

@@ -94,6 +94,16 @@ def test_another_dimension_is_refused_with_the_accepted_units(text: str, dimensi
     assert caught.value.expected.endswith(f"({dimension.accepted})")
 
 
+def test_the_factor_of_a_unit_is_what_one_of_it_is_read_as() -> None:
+    """Tables of results and the text that a calibration writes take the factor, a case file the text."""
+    dimensions = [value for value in vars(units).values() if isinstance(value, units.Dimension)]
+    for dimension in dimensions:
+        for unit in dimension.units:
+            one = units.Quantity(dimension=dimension).read(f"1 {unit}")
+            assert dimension.factor(unit) == pytest.approx(one, rel=1e-12), unit
+            assert dimension.factor(unit, back=True) == pytest.approx(1 / one, rel=1e-12), unit
+
+
 def test_every_accepted_unit_is_accepted() -> None:
     dimensions = [value for value in vars(units).values() if isinstance(value, units.Dimension)]
     assert len(dimensions) > 12

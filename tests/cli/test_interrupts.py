@@ -1,11 +1,13 @@
 """SIGTERM and SIGHUP end a program as Ctrl-C does: results so far are written, exit code 130, no temporary files."""
 
+import ctypes
 import os
 import pty
 import signal
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 from pathlib import Path
@@ -135,6 +137,76 @@ def test_results_are_written_after_the_terminal_has_closed(small_file: Path, tmp
     os.close(leader)  # the system sends SIGHUP
     started.wait(HANG)
     assert open_result(tmp_path / "out").status == "interrupted"
+
+
+class Finalized:
+    """Its finalizer gets a signal, as those of compiled code do, which Python runs where it drops them."""
+
+    def __init__(self, number: int) -> None:
+        self.number = number
+
+    def __del__(self) -> None:
+        os.kill(os.getpid(), self.number)
+
+
+def in_finalizer(number: int) -> None:
+    Finalized(number)
+
+
+def in_callback(number: int) -> None:
+    """As LLVM calls the cache of numba."""
+    ctypes.CFUNCTYPE(None)(lambda: os.kill(os.getpid(), number))()
+
+
+def in_llvm_lock(number: int) -> None:
+    """Its holder would never give it back."""
+    from llvmlite.binding import ffi
+
+    lock = ffi._LLVMLock()
+    lock.register(lambda: os.kill(os.getpid(), number), lambda: None)
+    try:
+        with lock:
+            pass
+    finally:
+        assert not lock._lock._is_owned()
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+@pytest.mark.parametrize("place", [in_finalizer, in_callback, in_llvm_lock])
+def test_a_signal_is_not_lost(
+    place: Callable[[int], None], number: int, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where Python drops an exception, it comes once more, a moment later; nothing is printed."""
+    monkeypatch.setattr(sys, "unraisablehook", sys.__unraisablehook__)  # pytest has its own
+    handlers = [signal.getsignal(each) for each in (*SIGNALS, signal.SIGALRM)]
+
+    def go_on() -> None:
+        with as_interrupts():
+            place(number)
+            end = time.monotonic() + 10.0
+            while time.monotonic() < end:
+                pass
+
+    with pytest.raises(KeyboardInterrupt):
+        go_on()
+    assert capfd.readouterr().err == ""
+    assert [signal.getsignal(each) for each in (*SIGNALS, signal.SIGALRM)] == handlers
+    assert sys.unraisablehook is sys.__unraisablehook__
+
+
+@pytest.mark.slow
+def test_an_interrupted_command_ends_at_once(tmp_path: Path) -> None:
+    """Whatever threads still do: the end of Python would take what they need away from them."""
+    code = (
+        "import os, signal, sys, threading, time\nimport fctd.__main__ as program, fctd.cli.schema as schema\n"
+        "def check(*_):\n"
+        "    threading.Thread(target=time.sleep, args=(3600,)).start()\n"
+        "    os.kill(os.getpid(), signal.SIGINT); time.sleep(3600)\n"
+        "schema.check_target = check\nprogram.main()\n"
+    )
+    arguments = ["schema", "--out", str(tmp_path / "s.json")]
+    done = subprocess.run([sys.executable, "-c", code, *arguments], cwd=ROOT, capture_output=True, timeout=HANG)
+    assert (done.returncode, done.stderr) == (130, b"")
 
 
 @pytest.mark.parametrize(("block", "inside"), [(deferred, []), (as_interrupts, [signal.SIGTERM])])

@@ -128,6 +128,16 @@ def test_stations_a_hair_apart_have_a_cylinder_between_them() -> None:
     np.testing.assert_allclose(hole.md, [0, 25, 50, 50 + 1e-8, 75 + 5e-9, 100], rtol=1e-12)
 
 
+@pytest.mark.parametrize("end", [np.nextafter(891.0, 0.0), 891.0 - 1e-9])
+def test_an_interval_that_ends_at_a_station_but_for_rounding_has_no_cylinder_of_its_own(end: float) -> None:
+    """Feet for metres are such an end: between it and the station lies no length that has a direction."""
+    stations = [[0, 0, 0], [528, 46.3, 102.0], [891.0, 39.4, 105.6]]
+    interval = {"diameter": 0.1524, "friction": 0.0}
+    rounded, exact = (hole_of(stations, intervals=[{"to_md": md, **interval}]) for md in (end, 891.0))
+    np.testing.assert_allclose(rounded.directions, exact.directions, atol=1e-9)
+    assert np.degrees(rounded.inclination(np.array([895.0]))[0]) == pytest.approx(39.4, abs=0.1)
+
+
 def test_cylinders_of_straight_hole_are_no_longer_than_thirty_metres() -> None:
     np.testing.assert_allclose(np.diff(hole_of([[0, 0, 0], [1000, 0, 0]]).md), 1000 / 34)
 

@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from fctd import equilibrium
 from fctd.mechanics.query import WALL_COLUMNS, Walls, walls_in
 from fctd.model.drillstring import String, lay_out
 from fctd.results.hanging_body import HANGING_COLUMNS, MOMENT
@@ -16,6 +17,7 @@ from tests.cases import make_case, pipe
 PARTS = [pipe(2, 1, outer=0.165, contact_diameter=0.2, contact="point"), pipe(58, 4), pipe(None, 1, outer=0.11)]
 STRING = lay_out(make_case(components=PARTS), 100.0)
 N = STRING.segments
+TENSILE = [limit.code for limit in LIMITS].index("tensile_capacity")
 
 
 def walls_of(string: String, depths: np.ndarray, hole: float = 0.108) -> Walls:
@@ -124,6 +126,28 @@ def test_pressures_count_where_they_are() -> None:
     stress = stress_along(STRING, *at_contacts(STRING, loads), hanging_of(STRING, loads)[:, MOMENT], excess)
     strengths = np.append(STRING.of("yield_strength")[0], STRING.of("yield_strength"))
     assert share["yield"][SHARE] == pytest.approx((stress / strengths).max(), rel=1e-12)
+
+
+@pytest.mark.parametrize("length", [28.6046511627907, 19.7, 13.3, 31.1])
+def test_the_hook_load_counts_at_the_table_where_both_columns_begin_without_pressure(length: float) -> None:
+    """Fluids that differ have one pressure at the depth 0, which segments add up to but for rounding."""
+    interval = {"to_md": 1000.0, "diameter": 0.2159, "friction": 0.2}
+    case = make_case(
+        components=[pipe(None, None, segment_length=length)],
+        mud={"density": 1466.0, "float": True, "inside": [{"density": 1030.0}]},
+        wellbore={"intervals": [interval], "geometry": "arcs"},
+    )
+    point = equilibrium(case, "trip_in", 984.0)
+    steel = np.pi / 4 * (0.127**2 - 0.07**2)
+    assert point.shares[TENSILE, SHARE] == pytest.approx(point.hookload / (931e6 * steel), rel=1e-12)
+
+
+def test_a_component_that_is_written_as_several_has_the_stress_of_one() -> None:
+    """The upper end of a weaker part is a place of its own; that of an equal part is none."""
+    stations = [[0, 0, 0], [300, 0, 0], [700, 60, 40], [1000, 60, 40]]
+    whole, several = [pipe(1000.0, 50)], [pipe(20.0, 1, contact="sleeve")] * 50
+    one, other = (equilibrium(make_case(stations, parts), "trip_out", 1000.0) for parts in (whole, several))
+    np.testing.assert_allclose(other.shares[:, SHARE], one.shares[:, SHARE], rtol=1e-9)
 
 
 def test_loads_that_are_no_numbers_are_beyond_no_limit() -> None:
