@@ -79,6 +79,8 @@ DRILL_PIPE = component("drill pipe", 1, 3100, 5, 4.276, grade="S-135", **NC50)
         (DRILL_PIPE, "5 in 19.5 S-135 NC50"),
         ({**DRILL_PIPE, "grade": "s135", "connection": {"typeThread": "4 1/2 IF"}}, "5 in 19.5 S-135 NC50"),
         ({**DRILL_PIPE, "odMx": (6.625, "in"), "wtPerLen": (23.6, "lbm/ft")}, "5 in 19.5 S-135 NC50"),
+        ({**DRILL_PIPE, "classService": "Premium"}, "5 in 19.5 S-135 NC50, premium"),
+        ({**DRILL_PIPE, "classService": "class 2", "wtPerLen": (23.6, "lbm/ft")}, "5 in 19.5 S-135 NC50, class 2"),
         ({**COLLAR, "len": (3100, "m"), **NC50}, "6 3/4 x 2 13/16 NC50 collar"),
         (component("casing", 1, 3100, 9.625, 8.681, grade="L80"), "9 5/8 in 47 L-80 casing"),
     ],
@@ -102,7 +104,7 @@ def test_pipe_is_named_where_all_agrees(part: Element, pipe: str, folder: Path) 
         {"id": (4.27, "in")},
         {"odMx": (6.5, "in")},
         {"wtPerLen": (22.6, "lbm/ft")},
-        {"classService": "premium"},
+        {"classService": "class 3"},
         {"typeMaterial": "titanium"},
     ],
 )

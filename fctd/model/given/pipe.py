@@ -7,7 +7,7 @@ from typing import Any, Final
 from fctd.case.pipes.catalogue import FOOT, POUND, SAME_DIAMETER, Pipe, connection_of, of_grade, pipes_of_size
 from fctd.case.pipes.filling import STEEL, lacks_joints
 from fctd.case.pipes.grades import drill_pipe_grade_of, grade_of
-from fctd.case.pipes.names import CASING, DRILL_PIPE, TUBING
+from fctd.case.pipes.names import CASING, CLASSES, DRILL_PIPE, TUBING
 from fctd.case.witsml.tubular import TubularPart
 
 _STEELS: Final = ("", "steel", "steel alloy", "chrome alloy", "non-magnetic steel", "unknown")
@@ -15,19 +15,22 @@ _SAME_MASS, _ROUNDED = 0.01, 0.003  # shares of a mass
 
 
 def pipe_of(part: TubularPart) -> Pipe | None:
-    """The one pipe whose body, grade, connection, tool joints and mass are those of a component, new; else None.
+    """The one pipe whose body, grade, connection, tool joints and mass are those of a component; else None.
 
     What the file does not have of diameters and mass the pipe gives; grade and connection it must have, connections of
-    casing and tubing excepted, of which the catalogue has none.
+    casing and tubing excepted, of which the catalogue has none.  Drill pipe has the class that the file tells.
     """
-    if not part.outer or not part.inner or part.service.casefold() not in ("", "new") or not is_steel(part):
+    share = CLASSES.get(part.service.casefold() or "new")
+    if share is None or (share < 1 and part.kind != DRILL_PIPE):
+        return None
+    if not part.outer or not part.inner or not is_steel(part):
         return None
     found = [
         graded
         for pipe in pipes_of_size(part.kind or "", part.outer, part.inner)
         if (graded := _graded(pipe, part.grade)) is not None and _joins(pipe, part) and _weighs(pipe, part.mass)
     ]
-    return found[0] if len(found) == 1 else None
+    return found[0]._replace(wall_share=share) if len(found) == 1 else None
 
 
 def _graded(pipe: Pipe, grade: str) -> Pipe | None:
