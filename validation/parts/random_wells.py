@@ -5,6 +5,7 @@ from typing import Any, NamedTuple
 
 from fctd.case.operations import KINDS
 from validation.parts.random_paths import path
+from validation.parts.recorded_kinds import RECORDED_KINDS
 
 
 class Pipe(NamedTuple):
@@ -102,7 +103,7 @@ def _string(rng: Random, size: float, coarse: bool) -> list[dict[str, Any]]:
 
 def _short(rng: Random, top: float, depth: float) -> dict[str, Any]:
     """An operation of a few seconds that ends at or near total depth."""
-    kind = rng.choice([kind for kind in KINDS if not KINDS[kind].on_bottom])
+    kind = rng.choice([kind for kind in RECORDED_KINDS if not KINDS[kind].on_bottom])
     operation: dict[str, Any] = {"kind": kind, "ramp_time": 2.0}
     if kind != "trip_in" and kind != "trip_out":
         operation["rpm"] = rng.choice([30, 60, 120])

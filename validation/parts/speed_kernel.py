@@ -8,7 +8,6 @@ import numpy as np
 import pandas as pd
 
 from fctd import Case
-from fctd.case.operations import KINDS
 from fctd.mechanics import topdrive
 from fctd.mechanics.faults import UnstableError
 from fctd.mechanics.topdrive import Motion
@@ -21,6 +20,7 @@ from references.timing.workloads import copy_of, fallen, find_walls, free_query,
 from validation.cases import load, rotation
 from validation.cases.wells import drilled_paper_well
 from validation.harness.study import log_slope
+from validation.parts.recorded_kinds import RECORDED_KINDS
 
 BIT = 2450.0
 # FCTD's stepper runs this long [s] before it is timed, so that the first wave has passed the string.
@@ -135,9 +135,9 @@ def steady(rounds: int) -> pd.DataFrame:
     solvers = {segments: Solver(drilled_paper_well(segments)) for segments in (61, 500)}
     actions: dict[str, Callable[[], object]] = {}
     for segments, solver in solvers.items():
-        for kind in KINDS:
+        for kind in RECORDED_KINDS:
             actions[f"{segments} {kind}"] = partial(solver.solve, kind, steady_rates(solver.case, kind), BIT)
     table = race(actions, dict.fromkeys(actions, 1), rounds, next(iter(actions))).set_index("name")["ns_least"] / 1e6
-    rows = [{"segments": n, **{f"{kind}_ms": table[f"{n} {kind}"] for kind in KINDS}} for n in solvers]
+    rows = [{"segments": n, **{f"{kind}_ms": table[f"{n} {kind}"] for kind in RECORDED_KINDS}} for n in solvers]
     rows = [row | {"slowest_ms": max(list(row.values())[1:])} for row in rows]
     return pd.DataFrame(rows)

@@ -25,6 +25,7 @@ from validation.harness.study import Check, Context, Outcome, Rows, Study, table
 from validation.parts import random_wells
 from validation.parts.buckled_pipe import OPERATION
 from validation.parts.fed_strings import scaled
+from validation.parts.recorded_kinds import RECORDED_KINDS
 from validation.parts.resolved_rows import DEPTH, WEIGHT, horizontal_well
 from validation.parts.slid_strings import slide
 
@@ -74,7 +75,7 @@ def real_rows(context: Context) -> Iterable[tuple[Case, str, float, float]]:
     for weight in weights:
         case = real_well(context, wellbore__geometry="arcs", bit__weight_on_bit=weight, **changes)
         for friction in frictions:
-            for kind in KINDS:
+            for kind in RECORDED_KINDS:
                 if weight > 0 and not KINDS[kind].on_bottom and weights[0] == 0:
                     continue
                 for depth in np.arange(STEP, DEEPEST + 1, 8 * STEP if context.quick else STEP):
@@ -86,7 +87,7 @@ def random_rows(count: int) -> Iterable[tuple[int, Case, str, float]]:
     for seed in range(count):
         case = Case.model_validate(random_wells.well(Random(seed)))
         top, bottom = case.depths
-        for kind in KINDS:
+        for kind in RECORDED_KINDS:
             for share in SHARES:
                 yield seed, case, kind, round(top + share * (bottom - top), 2)
 

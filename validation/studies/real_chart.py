@@ -6,10 +6,10 @@ from typing import Any
 import pandas as pd
 
 from fctd import torque_drag
-from fctd.case.operations import KINDS
 from fctd.results.status import SteadyStatus
 from validation.cases.wells import real_well
 from validation.harness.study import Check, Context, Outcome, Study
+from validation.parts.recorded_kinds import RECORDED_KINDS
 
 
 def run(context: Context) -> Outcome:
@@ -26,7 +26,7 @@ def run(context: Context) -> Outcome:
         case = real_well(context, wellbore__geometry=geometry, **fine)
         torque_drag(case, "trip_in", depths[:1])  # compile
         began = time.perf_counter()
-        chart = torque_drag(case, list(KINDS), depths)
+        chart = torque_drag(case, RECORDED_KINDS, depths)
         milliseconds = 1e3 * (time.perf_counter() - began) / len(chart)
         parts.append(chart.assign(geometry=geometry, mean_ms=milliseconds))
     chart = pd.concat(parts, ignore_index=True)

@@ -8,12 +8,12 @@ import numpy as np
 import pandas as pd
 
 from fctd import simulate, torque_drag
-from fctd.case.operations import KINDS
 from fctd.model.operations import steady_rates
 from fctd.steady.equilibrium import Solver
 from validation.cases import load, rotation
 from validation.cases.wells import DRILLING, drilled_paper_well
 from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
+from validation.parts.recorded_kinds import RECORDED_KINDS
 from validation.parts.windows import TRIP_WINDOW, completed, last_seconds, steady_trip
 
 DEPTHS = [float(depth) for depth in range(1750, 2451, 10)]
@@ -74,7 +74,7 @@ def cost(segments: int, repeats: int) -> dict[str, Any]:
     """Milliseconds per depth, layout included, compiled code loaded: median over repeats at 2450 m."""
     case = drilled_paper_well(segments)
     solver, row = Solver(case), {"segments": 0.0}
-    for kind in KINDS:
+    for kind in RECORDED_KINDS:
         rates = steady_rates(case, kind)
         point = solver.solve(kind, rates, 2450.0)
         row["segments"] = float(len(point.profile) - 1)
@@ -90,10 +90,10 @@ def cost(segments: int, repeats: int) -> dict[str, Any]:
 def run(context: Context) -> Outcome:
     """Chart of six operations, stepper at five depths for three of them, cost at three segment counts."""
     case = load("paper_well", **DRILLING)
-    torque_drag(case, list(KINDS), DEPTHS[:1])  # compile
+    torque_drag(case, RECORDED_KINDS, DEPTHS[:1])  # compile
     began = time.perf_counter()
-    chart = torque_drag(case, list(KINDS), DEPTHS)
-    spent = (time.perf_counter() - began) / len(KINDS)
+    chart = torque_drag(case, RECORDED_KINDS, DEPTHS)
+    spent = (time.perf_counter() - began) / len(RECORDED_KINDS)
     compared = compare(chart, COMPARED[-1:] if context.quick else COMPARED, context)
     turned = rotations()
     spread = float(np.ptp(turned["mean_kN_m"])) / float(turned["steady_kN_m"].iloc[0])

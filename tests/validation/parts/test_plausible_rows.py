@@ -3,9 +3,9 @@
 import numpy as np
 
 from fctd import Case
-from fctd.case.operations import KINDS
 from fctd.steady.equilibrium import Solver
 from validation.parts.plausible_rows import CLASSES, DEEPEST, SHALLOWEST, drawn
+from validation.parts.recorded_kinds import RECORDED_KINDS
 
 COUNT = 600
 
@@ -19,7 +19,7 @@ def test_strings_are_of_all_classes_depths_and_operations() -> None:
     strings = [drawn(14, k) for k in range(COUNT)]
     assert len(CLASSES) == 12
     assert {string.kind for string in strings} == set(CLASSES)
-    assert {kind for string in strings for kind in string.rates} == set(KINDS)
+    assert {kind for string in strings for kind in string.rates} == set(RECORDED_KINDS)
     depths = np.array([string.bit_depth for string in strings])
     assert depths.min() >= SHALLOWEST
     assert depths.max() <= DEEPEST
