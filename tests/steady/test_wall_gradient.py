@@ -8,7 +8,7 @@ from fctd.mechanics.energy import penetration
 from fctd.mechanics.jit import entry
 from fctd.mechanics.state import ARCS, CYLINDERS
 from fctd.model.wellbore import Wellbore, build_wellbore
-from fctd.steady.wall_gradient import wall_beside
+from fctd.steady.wall_gradient import Beside, wall_beside
 from tests.bodies import PLACE, TO_WALL, put
 from tests.cases import make_case, pipe
 from tests.compiled import kept
@@ -20,11 +20,12 @@ BEND = [[0, 5, 10], [300, 40, 80], [600, 80, 40]]
 # Radii [m] of a string that is nowhere near the wall, and of one that mostly touches it.
 APART, TOUCHING = -1.0, 0.15
 PT, BEYOND, STIFFNESS, FACTOR, DIRECTION, AROUND = slice(0, 3), 3, 4, 5, slice(6, 9), 9
+QUANTITIES = len(Beside._fields)
 
 
 @entry
 def fill_beside(C, i, geometry, x, y, z, radius, out):
-    """Fill out (10, 4) : values and gradients of the quantities."""
+    """Fill out (QUANTITIES, 4) : values and gradients of the quantities."""
     wall = wall_beside(C, i, geometry, x, y, z, radius)
     for k, quantity in enumerate(wall):
         for c in range(4):
@@ -32,7 +33,7 @@ def fill_beside(C, i, geometry, x, y, z, radius, out):
 
 
 def beside(hole: Wellbore, i: int, point: np.ndarray, radius: float = APART) -> np.ndarray:
-    out = np.empty((10, 4))
+    out = np.empty((QUANTITIES, 4))
     fill_beside(hole.pieces, i, hole.geometry, *point, radius, out)
     return out
 

@@ -8,7 +8,7 @@ from fctd.mechanics.contact import FACTOR, FACTOR_AROUND, STIFFNESS
 from fctd.mechanics.jit import entry
 from fctd.mechanics.law_names import CODES, NAMES
 from fctd.mechanics.rotations import turned
-from fctd.model.wellbore import build_wellbore
+from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.steady.pose import POSE
 from fctd.steady.tangent import Steady
 from fctd.steady.wall_tangent import DIRECTIONS, UNKNOWNS, add_wall, read_wall
@@ -25,6 +25,17 @@ HOLE = build_wellbore(make_case(
     },
 ))  # fmt: skip
 OWNER = int(HOLE.owners(HOLE.at(np.array([150.0]))[0])[0])
+
+
+# In its middle an oval whose ends hold a disc of this radius at two places.
+GROOVED = build_wellbore(make_case(
+    [[0, 30, 0], [300, 60, 40]], [pipe(100, 5, outer=2 * RADIUS)],
+    wellbore={
+        "geometry": "sampled",
+        "intervals": [{"to_md": 300, "diameter": 0.2159, "friction": 0.2, "rotational_friction": 0.07}],
+        "caliper": {"rows": [[140.0, 0.2, 0.1], [160.0, 0.2, 0.1]], "values": "radius"},
+    },
+))  # fmt: skip
 
 
 @entry
@@ -44,13 +55,14 @@ def laws(law: str = "coulomb", speed: float = 0.3, spin: float = 6.0, **more: fl
     return base._replace(**more)
 
 
-def body(penetration: float) -> tuple[Array, Array]:
-    """A body beside the wall in the middle of the hole, tilted against it; its point is ``penetration`` deep."""
+def body(penetration: float, hole: Wellbore = HOLE, angle: float = 1.0) -> tuple[Array, Array]:
+    """A body beside the wall in the middle of a hole, tilted against it; its point is ``penetration`` deep."""
     S, P = state.new_state(1), np.zeros((2, POSE))
     S[state.ARM_CONTACT + 1], S[state.RADIUS + 1], S[state.TRIBUTARY + 1] = ARM, RADIUS, TRIBUTARY
-    reach = float(HOLE.walls(HOLE.at(np.array([150.0]))[0], np.array([OWNER])).radius[0]) - RADIUS + penetration
-    (point,) = HOLE.off_axis(np.array([150.0]), np.array([1.0]), np.array([reach]))
-    (axis,) = HOLE.at(np.array([150.0]))[1]
+    at, beside = np.array([150.0]), np.array([angle])
+    radius = float(hole.walls(hole.off_axis(at, beside, np.array([0.01])), None, np.array([RADIUS])).radius[0])
+    (point,) = hole.off_axis(at, beside, np.array([radius - RADIUS + penetration]))
+    (axis,) = hole.at(at)[1]
     P[1, 3:7] = turned(*np.array([np.cos(0.39), -np.sin(0.39) * axis[1], np.sin(0.39) * axis[0], 0.0]), 0.02, -0.01, 0)
     P[1, 3:7] /= np.linalg.norm(P[1, 3:7])
     w, x, y, z = P[1, 3:7]
@@ -58,18 +70,25 @@ def body(penetration: float) -> tuple[Array, Array]:
     return S, P
 
 
-def found(S: Array, P: Array, of: Steady) -> tuple[Array, Array]:
+def found(S: Array, P: Array, of: Steady, hole: Wellbore = HOLE) -> tuple[Array, Array]:
     R, D = np.zeros((2, 6)), np.zeros((2, 6, 6))
-    add(S, P, HOLE.pieces, np.array([0, OWNER, 0]), of, R, D)
+    owner = int(hole.owners(hole.at(np.array([150.0]))[0])[0])
+    add(S, P, hole.pieces, np.array([0, owner, 0]), of, R, D)
     return R[1], D[1]
 
 
 @pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("more", [{}, {"at_axis": 1}, {"wall_exponent": 1.5}, {"orthotropic": True}])
+@pytest.mark.parametrize(
+    "more",
+    [{}, {"at_axis": 1}, {"wall_exponent": 1.5}, {"orthotropic": True}, {"own": True}, {"corners": True}],
+)
 def test_derivatives_are_those_of_central_differences(name: str, more: dict[str, float | None]) -> None:
-    S, P = body(2e-3)
-    of = laws(name, **more)
-    R, D = found(S, P, of)
+    """Beside round hole; with bow springs; and in a groove, in which a disc touches two places."""
+    hole = GROOVED if "corners" in more else HOLE
+    S, P = body(2e-3, hole, 0.03 if "corners" in more else 1.0)
+    S[state.BOW_STIFFNESS + 1] = 3e6 if "own" in more else 0.0
+    of = laws(name, **more)._replace(geometry=hole.geometry)
+    R, D = found(S, P, of, hole)
     assert np.linalg.norm(R[:3]) > 100
     for k in range(UNKNOWNS):
         sides = []
@@ -79,7 +98,7 @@ def test_derivatives_are_those_of_central_differences(name: str, more: dict[str,
                 Q[1, k] += h
             else:
                 Q[1, 3:7] = turned(*Q[1, 3:7], *(h * np.eye(3)[k - 3]))
-            sides.append(found(S, Q, of)[0])
+            sides.append(found(S, Q, of, hole)[0])
         np.testing.assert_allclose(D[:, k], -(sides[0] - sides[1]) / 2e-8, atol=1e-6 * np.abs(D).max())
     np.testing.assert_array_equal(D[:, UNKNOWNS:], 0.0)
 
