@@ -108,21 +108,24 @@ def apply_override(raw: dict[str, Any], key: str, value: Any) -> None:
         set_key(raw, key, value)
 
 
+def interval_kinds(raw: Mapping[str, Any]) -> list[object]:
+    """The kind of each interval, MISSING without one; casing of the catalogue is cased, as validation fills it in."""
+    intervals = look_up(raw, "wellbore", "intervals")
+    if not isinstance(intervals, list):
+        return []
+    kinds = [look_up(interval, "kind") for interval in intervals]
+    cased = [look_up(interval, "casing") is not MISSING for interval in intervals]
+    return ["cased" if kind is MISSING and of else kind for kind, of in zip(kinds, cased, strict=True)]
+
+
 def _of_intervals(raw: Mapping[str, Any], value: Any) -> Iterator[tuple[int, Any]]:
     """Index of each interval that a factor for all, or factors by kind, are of, and its factor."""
-    intervals = look_up(raw, "wellbore", "intervals")
-    count = len(intervals) if isinstance(intervals, list) else 0
+    kinds = interval_kinds(raw)
     if not isinstance(value, Mapping):
-        yield from enumerate([value] * count)
+        yield from enumerate([value] * len(kinds))
         return
-    picked = pick(value, [_kind_of(look_up(raw, "wellbore", "intervals", i)) for i in range(count)])
+    picked = pick(value, kinds)
     yield from ((i, factor) for i, factor in enumerate(picked) if factor is not None)
-
-
-def _kind_of(interval: object) -> object:
-    """The kind of an unvalidated interval, MISSING without one; casing of the catalogue is cased."""
-    kind = look_up(interval, "kind")
-    return "cased" if kind is MISSING and look_up(interval, "casing") is not MISSING else kind
 
 
 def _set_friction(raw: dict[str, Any], i: int, factor: object) -> None:

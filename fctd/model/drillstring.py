@@ -17,7 +17,7 @@ from fctd.model.default_layout import DefaultLayout
 from fctd.model.fluids import Fluids, fluids_of
 from fctd.model.joints import Kind, Part, Pieces, cut_joints, joints_in, repeat_of, sections_of, segments_in
 from fctd.model.perturbed import perturb_lengths
-from fctd.model.section import Section, buoyed, tool_joint_radii
+from fctd.model.section import Section, buoyed, same_section, tool_joint_radii
 from fctd.model.string_rows import find_contacts, find_stiffness
 
 # A long segment must be this long [m].
@@ -93,7 +93,7 @@ class String:
         """
         first = list(range(len(self.sections)))
         for k, (below, here) in enumerate(pairwise(self.sections), start=1):
-            if not here.point and not here.swivel and here == below:
+            if not here.point and not here.swivel and same_section(here, below):
                 first[k] = first[k - 1]
         return np.array(first)[self.component]
 

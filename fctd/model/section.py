@@ -71,6 +71,15 @@ class Section(NamedTuple):
     yields_earlier: float = 0.0
 
 
+# Sections that differ by no more are one, written in other units.
+SAME: Final = 1e-9
+
+
+def same_section(one: Section, other: Section) -> bool:
+    """Whether two sections are equal but for the rounding of their units."""
+    return all(a == b or abs(a - b) <= SAME * abs(b) for a, b in zip(one, other, strict=True))
+
+
 # In place of an own friction factor of 0, which would stand for that of the hole.
 FRICTIONLESS: Final = 1e-12
 

@@ -11,7 +11,7 @@ import numpy as np
 from fctd.case.errors import InputError
 from fctd.case.load import Case, make_case, read_raw
 from fctd.case.named_items import by_index
-from fctd.case.raw_case import FRICTION, apply_override, set_key, split_key
+from fctd.case.raw_case import FRICTION, apply_override, interval_kinds, set_key, split_key
 from fctd.sweep.design import Sample, Value
 from fctd.sweep.spec import SweepSpec
 from fctd.sweep.survey_errors import erred
@@ -95,7 +95,7 @@ def _base(spec: SweepSpec, raw: dict[str, Any], first: Sample) -> Case:
 def _check_apart(spec: SweepSpec, raw: Mapping[str, Any]) -> None:
     """Raise InputError for a parameter that sets a number of the case which another one sets too."""
     taken: dict[tuple[str | int, ...], str] = {}
-    kinds = [interval.get("kind") for interval in raw["wellbore"]["intervals"]]
+    kinds = interval_kinds(raw)
     for i, parameter in enumerate(spec.parameters):
         name, _, kind = parameter.key.partition(".")
         places = [tuple(split_key(by_index(raw, parameter.key)))]

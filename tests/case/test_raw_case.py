@@ -107,6 +107,14 @@ def test_friction_by_kind_sets_the_intervals_of_that_kind(case_file: Path) -> No
     assert (error.key, error.value) == ("wellbore.intervals[1].friction", "rough")
 
 
+def test_casing_of_the_catalogue_is_of_the_kind_cased(case_file: Path) -> None:
+    """Its table gives no kind; friction by kind finds it as it does in the case that is validated."""
+    upper = {"to_md": 1000.0, "casing": "9 5/8 in 47 N-80", "friction": 0.2}
+    rows = [upper, {"to_md": "3000 m", "diameter": "8.5 in", "friction": 0.3, "kind": "open"}]
+    hole = load_case(case_file, {"wellbore.intervals": rows, "friction": {"cased": 0.15, "open": 0.4}}).wellbore
+    assert [interval.friction for interval in hole.intervals] == [0.15, 0.4]
+
+
 def test_a_pair_of_friction_factors(case_file: Path) -> None:
     """One number sets both directions, a pair each, and the key of its own the one around the hole."""
 

@@ -15,6 +15,8 @@ from tests.equivalence.table import applies, statement
 FINE = 2e-4
 # Cylinders that are cut elsewhere, and shoes that are blended over the length of a cell or of an overlap.
 CUT_ELSEWHERE = 2e-3
+# The iteration comes to the place of a soft contact from another side.
+TURNED = 3e-5
 HYDRAULIC = ("standpipe", "bore", "annulus", "ecd", "pump", "lift_N")
 
 
@@ -109,7 +111,7 @@ def turned(drawn: Drawn) -> None:
         if hole.get("caliper", {}).get("reference") == "north":
             hole["caliper"]["first_arm"] = hole["caliper"].get("first_arm", 0.0) + math.radians(by)
 
-    same(drawn, changed(drawn, turn), ROUNDING)
+    same(drawn, changed(drawn, turn), TURNED)
 
 
 @statement("mirror left and right (sliding)")
@@ -128,7 +130,7 @@ def mirrored(drawn: Drawn) -> None:
             caliper["rows"] = [[row[0], row[1], *row[:1:-1]] for row in caliper["rows"]]
 
     other = Answers(changed(drawn, mirror), drawn.depth)
-    same(drawn, other, ROUNDING, kinds=kinds, but=("surface_torque", "drive_torque", "profile torque"))
+    same(drawn, other, ROUNDING, kinds=kinds, but=("surface_torque", "drive_torque", "sum_r_ft", "profile torque"))
     for kind in kinds:  # what a bend to the right turns to one side, a bend to the left turns to the other
         here, there = base(drawn)[kind], other[kind]
         if plain(here) and plain(there):

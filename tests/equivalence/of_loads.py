@@ -32,9 +32,10 @@ def frictionless(drawn: Drawn) -> None:
     """Virtual work: without friction the hook carries the weight times the height that a metre along the hole lifts it,
     less what the flow carries.
 
-    Chords of segments of h [m] in a curvature κ are short by (hκ)²/24, and lie off the axis by h²κ/8 or the clearance.
+    Chords of segments of h [m] in a curvature κ are short by (hκ)²/24, and lie off the axis by h²κ/8 or the clearance;
+    at its ends the string takes in and leaves its bending energy, EI κ²/2 a metre.
     """
-    applies(not drawn.has("axial_damping", "centralisers", "packer_bore", "tortuosity", "swivel"))
+    applies(not drawn.has("axial_damping", "caliper", "centralisers", "packer_bore", "tortuosity", "swivel"))
 
     def smooth(raw: Raw) -> None:
         for row in raw["wellbore"]["intervals"]:
@@ -52,6 +53,7 @@ def frictionless(drawn: Drawn) -> None:
     lifted = float(weight @ np.diff(hole.at(ends)[0][:, 2]))
     # Of each segment its chord, and its place in the clearance, which turns with the hole.
     bound = float(np.abs(weight) @ (string.length * turned**2 / 24 + 0.15 * turned)) + 1e-6 * answers.weight
+    bound = 2 * (bound + float(0.5 * string.of("EI").max() * (turned / string.length).max() ** 2))
     compared = 0
     for kind in KINDS:
         point, of = answers[kind], KINDS[kind]
