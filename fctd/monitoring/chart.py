@@ -66,6 +66,13 @@ def fit_of(case: Case, fit: Fit | None) -> Fit:
     return fit
 
 
+def _sliding(case: Case) -> Case:
+    """The case whose trips slide, as strokes of a series do: one that turns is read as rotation."""
+    turned = [of for of in case.operations if of.rpm and not OPERATIONS[of.kind].turns]
+    slid = [of.model_copy(update={"rpm": 0.0}) if of in turned else of for of in case.operations]
+    return case.model_copy(update={"operations": tuple(slid)}) if turned else case
+
+
 class Chart:
     """Readings of the rig for the operations of a case at any bit depth, by the friction factor of some intervals.
 
@@ -74,7 +81,7 @@ class Chart:
     """
 
     def __init__(self, case: Case, fit: Fit | None = None) -> None:
-        self.case, self.fit = case, fit_of(case, fit)
+        self.case, self.fit = (case := _sliding(case)), fit_of(case, fit)
         self.deepest = case.depths[1]
         hole = build_wellbore(case)
         intervals = case.wellbore.intervals

@@ -42,6 +42,12 @@ def test_flow_lightens_the_string_and_leaves_the_factor() -> None:
         assert found.factor == pytest.approx(0.3, abs=5e-3)
 
 
+def test_strokes_slide_also_where_the_trips_of_the_case_turn() -> None:
+    trip = {"kind": "trip_in", "from_md": 800.0, "to_md": 900.0, "speed": 0.3, "rpm": 60.0}
+    turned = Chart(load_case(well(), {"operations": [trip]}))
+    assert turned.loads("trip_in", 900.0).tolist() == chart().loads("trip_in", 900.0).tolist()
+
+
 def test_the_band_adds_what_is_held() -> None:
     one = stretch("pick_up", 890.0)
     alone = apparent(one, chart(), Uncertainty())
