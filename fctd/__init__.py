@@ -27,6 +27,11 @@ from fctd.public import offer
 if TYPE_CHECKING:  # what ``offer`` reads
     from fctd.answers.checked import CheckedCase as CheckedCase, check_case as check_case
     from fctd.answers.comparison import Comparison as Comparison, compare as compare
+    from fctd.answers.flow import (
+        fastest_trips as fastest_trips,
+        hydraulics_of as hydraulics_of,
+        surge_pressures as surge_pressures,
+    )
     from fctd.answers.rig import (
         Calibration as Calibration,
         Monitored as Monitored,
@@ -57,8 +62,6 @@ if TYPE_CHECKING:  # what ``offer`` reads
     from fctd.calibration.calibrate import predict as predict
     from fctd.case.errors import InputError as InputError
     from fctd.case.load import Case as Case, load_case as load_case
-    from fctd.hydraulics.pressures import hydraulics_of as hydraulics_of
-    from fctd.hydraulics.surge import fastest_trips as fastest_trips, surge_pressures as surge_pressures
     from fctd.model.first_case import new_case as new_case
     from fctd.model.wellbore import (
         Contacts as Contacts,

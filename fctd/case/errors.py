@@ -175,8 +175,11 @@ def known_keys(table: Mapping[Any, Any], keys: Collection[str], owner: str = "")
 
 
 def nearest(word: object, choices: Collection[str], noun: str) -> str:
-    """The accepted words in place of a wrong one: the nearest choice, or all choices when none is near."""
-    near = difflib.get_close_matches(str(word), choices, n=1)
+    """The accepted words in place of a wrong one: those that it is a part of, the nearest, or all when none is near."""
+    part = str(word).strip('"').casefold()
+    within = [choice for choice in choices if len(part) > 1 and part in choice.casefold()]
+    near = within if len(within) == 1 else difflib.get_close_matches(str(word), [] if within else choices, n=1)
+    choices = within or choices
     nouns = re.sub(r"(?<![aeiou])y$", "ie", noun) + "s"
     return f"the {noun} {near[0]}" if near else f"one of the {nouns} {', '.join(choices)}"
 

@@ -261,7 +261,10 @@ class Case(Table):
         return error
 
     def _as_written(self, key: re.Match[str]) -> str:
-        return f"{key[0]} = {show(look_up(self._written.raw, *split_key(key[0])))}"
+        for name in (key[0], key[0].replace(".diameter", ".casing")):  # a casing by name has its diameter
+            if (written := look_up(self._written.raw, *split_key(name))) is not MISSING:
+                return f"{name} = {show(written)}"
+        return key[0]
 
     def check_depths(self) -> None:
         """Raise InputError for a bit depth above the top of the string, or below the end of survey or intervals.

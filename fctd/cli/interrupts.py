@@ -9,15 +9,15 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from types import FrameType
-from typing import Final
+from typing import Any, Final
 
-# Code that must not be left for a signal: Python drops what is raised in finalizers and in functions that C calls, and
-# the lock around calls to LLVM would stay taken.
+# Code that must not be left for a signal: Python drops what is raised in finalizers and in functions that C calls, some
+# packages what is raised while they are imported, and the lock around calls to LLVM would stay taken.
 FINALIZERS: Final = ("__del__", "weakref.py")
-GUARDED: Final = (f"{os.sep}llvmlite{os.sep}", os.path.join("numba", "core", "event.py"))
+GUARDED: Final = ("<frozen importlib", f"{os.sep}llvmlite{os.sep}", os.path.join("numba", "core", "event.py"))
 # Time until a signal comes once more that such code has got [s].
 PAUSE: Final = 0.02
-_LATER: Final[list[int]] = []  # such signals
+_LATER: Final[list[tuple[int, Any]]] = []  # such a signal, and the handler of the alarm before it
 
 
 @contextmanager
@@ -61,6 +61,11 @@ def as_interrupts() -> Iterator[None]:
         signal.signal(signal.SIGINT, keyboard)
         for number in ours:
             signal.signal(number, signal.SIG_DFL)
+        if _LATER:
+            signal.setitimer(signal.ITIMER_REAL, 0.0)
+            signal.signal(signal.SIGALRM, _LATER.pop()[1])
+            _LATER.clear()
+            raise KeyboardInterrupt
 
 
 def _waits(number: int, frame: FrameType | None) -> bool:
@@ -86,12 +91,12 @@ def _again(number: int) -> bool:
 
         def send(_: int, frame: FrameType | None) -> None:
             signal.signal(signal.SIGALRM, before)
-            first, _LATER[:] = _LATER[0], []
+            first, _LATER[:] = _LATER[0][0], []
             signal.raise_signal(first)
 
         signal.signal(signal.SIGALRM, send)
         signal.setitimer(signal.ITIMER_REAL, PAUSE)
-    _LATER.append(number)
+        _LATER.append((number, before))
     return True
 
 

@@ -88,7 +88,7 @@ def lay(case: Case, bit_depth: float, eccentricity: Eccentricity = None) -> Laid
     """
     given = case.mud.eccentricity if eccentricity is None else eccentricity
     if isinstance(given, str):
-        raise InputError("a number, or fctd.lie_along, which finds where the string lies", key="eccentricity")
+        raise InputError('a number, or "string", where the string lies', key="eccentricity", value=given)
     if not callable(given):
         try:
             SHARE.parse(given)

@@ -58,9 +58,9 @@ def jar_forces(
     stuck_at: float | str | None = None,
     bit_depth: float | str = "td",
     *,
-    up: Sequence[float | str] = (),
-    down: Sequence[float | str] = (),
-    hookload: Sequence[float | str] = (),
+    up: float | str | Sequence[float | str] = (),
+    down: float | str | Sequence[float | str] = (),
+    hookload: float | str | Sequence[float | str] = (),
     friction: FrictionChoice | None = None,
 ) -> pd.DataFrame:
     """Hook loads and forces at a jar of a string that is stuck below it, a row for each load that is asked for, SI.
@@ -94,7 +94,7 @@ def jar_forces(
         solver, rows = Solver(case), list[Row]()
         strings = {way: stuck_string(solver, kind, steady_rates(case, kind), bit, stuck) for way, kind in KINDS.items()}
         for key, loads in (("up", up), ("down", down), ("hookload", hookload)):
-            for load in loads:
+            for load in [loads] if isinstance(loads, int | float | str) else loads:
                 value = argument(load, FORCE, key)
                 if not (-MOST if key == "hookload" else 0) <= value <= MOST:
                     raise InputError("a force of at least 0", key=key, value=load)

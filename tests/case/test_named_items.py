@@ -36,6 +36,8 @@ def test_a_name_is_an_index(key: str, index: str) -> None:
     ("key", "message"),
     [
         ("string.components.HWPD.length", 'string.components = "HWPD": expected the component "HWDP"'),
+        ("string.components.drill pipe.length", 'the components "5 in drill pipe, 19.5 lb/ft", "5 in drill pipe"'),
+        ("string.components.collar.length", 'expected the component "6 3/4 in collar"'),
         ("wellbore.intervals.liner.friction", 'wellbore.intervals = "liner": expected one of the intervals "9 5/8 in'),
         ("string.components.twin.length", "expected one of string.components[5], string.components[6], which all have"),
     ],

@@ -222,6 +222,13 @@ def test_a_sheet_by_name(tmp_path: Path) -> None:
     assert read(tmp_path, content, "Plan").stations[-1, 0] == pytest.approx(3000 * FOOT, rel=1e-14)
 
 
+def test_a_header_that_no_sheet_has(tmp_path: Path) -> None:
+    """The header is told of, and not the sheet: one alone has headers of a survey."""
+    content = workbook({"Cover": [["Well", "A-1"], ["Date", "3 May"]], "Survey": SHEET})
+    with pytest.raises(InputError, match=r'azi = "Azi Grid": expected the header'):
+        read(tmp_path, content, azi=Choice("Azi Grid"))
+
+
 def test_cells_that_are_text(tmp_path: Path) -> None:
     rows = [[cell.replace(".", ",") for cell in row.split(",")] for row in ROWS]
     is_the_survey(read(tmp_path, workbook({"A": [["MD (m)", "Inc", "Azi"], *rows]})))

@@ -6,11 +6,14 @@ import pty
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 from collections.abc import Callable
 from contextlib import AbstractContextManager
+from importlib import import_module
 from pathlib import Path
+from uuid import uuid4
 
 import pytest
 
@@ -171,8 +174,27 @@ def in_llvm_lock(number: int) -> None:
         assert not lock._lock._is_owned()
 
 
+def in_import(number: int) -> None:
+    """Of a package that drops whatever is raised in one that it does not need."""
+    with tempfile.TemporaryDirectory() as folder:
+        needless, package = (Path(folder, f"{name}_{uuid4().hex}.py") for name in ("needless", "package"))
+        needless.write_text(f"import os\nos.kill(os.getpid(), {int(number)})\n")
+        package.write_text(f"try:\n    import {needless.stem}\nexcept BaseException:\n    pass\n")
+        sys.path.insert(0, folder)
+        try:
+            import_module(package.stem)
+        finally:
+            sys.path.remove(folder)
+
+
+def at_the_end(number: int) -> None:
+    """Nothing comes after it."""
+    in_llvm_lock(number)
+    raise ZeroDivisionError
+
+
 @pytest.mark.parametrize("number", SIGNALS)
-@pytest.mark.parametrize("place", [in_finalizer, in_callback, in_llvm_lock])
+@pytest.mark.parametrize("place", [in_finalizer, in_callback, in_llvm_lock, in_import, at_the_end])
 def test_a_signal_is_not_lost(
     place: Callable[[int], None], number: int, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
+from fctd import equilibrium, load_case
 from fctd.case.errors import InputError
 from fctd.mechanics.state import MAX_SEGMENTS
 from fctd.model.drillstring import SHORTEST_LONG_SEGMENT, lay_out
@@ -128,6 +129,18 @@ def test_a_long_segment_hangs_within_a_degree_of_vertical(inclination: float, fi
     case = make_case([[0, inclination, 0], [1000, inclination, 0]], [pipe(900, 36), pipe(None, 1)])
     with nullcontext() if fits else pytest.raises(InputError, match=r"of up to 1\.01 deg.*within 1 deg of vertical"):
         check_fit(lay_out(case, 1000.0), build_wellbore(case), 1000.0)
+
+
+def test_a_casing_by_name_is_told_of_by_its_name() -> None:
+    """Its interval has no diameter to quote."""
+    hole = {
+        "stations": [[0, 0, 0], [1000, 0, 0]],
+        "intervals": [{"to_md": 1000, "casing": "9 5/8 in 47 N-80 casing", "friction": 0.2}],
+    }
+    wide = [pipe(1000, 20, contact_diameter=0.23)]
+    case = load_case({"name": "test", "wellbore": hole, "string": {"components": wide}})
+    with pytest.raises(InputError, match=r'mm \(wellbore\.intervals\[0\]\.casing = "9 5/8 in 47 N-80 casing"\)$'):
+        equilibrium(case, "trip_in", 900.0)
 
 
 @pytest.mark.parametrize(("depth", "fits"), [(850.0, True), (900.0, True), (900.1, False), (1000.0, False)])

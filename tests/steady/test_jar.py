@@ -93,3 +93,9 @@ def test_components_of_one_name_are_refused() -> None:
     parts = [part | {"name": "pipe"} for part in PARTS]
     with pytest.raises(InputError, match="as 3 components have that name"):
         jar_forces(make_case(components=parts, mud=MUD), "pipe", up=[1e5])
+
+
+@pytest.mark.parametrize("pull", [3e5, "300 kN", ["300 kN"]])
+def test_one_load_needs_no_list(pull: Any) -> None:
+    (row,) = jar_forces(well(), "jar", 880.0, 900.0, up=pull).itertuples()
+    assert row.force_at_jar_N == pytest.approx(3e5)

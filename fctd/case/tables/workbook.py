@@ -30,7 +30,11 @@ def read_workbook(content: bytes, form: TableForm, columns: Choices, sheet: str 
     if sheet is not None and sheet not in sheets:
         raise InputError(nearest(sheet, sheets, "sheet"), key="sheet", value=sheet)
     filled = {name: rows for name, rows in sheets.items() if rows and sheet in (None, name)}
-    fitting = {k: rows for k, rows in filled.items() if not form.lacking(find_header(rows, form, columns)[1])} or filled
+    named = {name: find_header(rows, form, columns)[1] for name, rows in filled.items()}
+    most = max(map(len, named.values()), default=0)
+    fitting = {name: rows for name, rows in filled.items() if not form.lacking(named[name])}
+    # Where no sheet has all, the one that has most of the headers says what it lacks.
+    fitting = fitting or {name: rows for name, rows in filled.items() if len(named[name]) == most}
     if len(fitting) > 1:
         raise InputError(f"{which}: {', '.join(map(show, fitting))}", key="sheet")
     return read_sheet(next(iter(fitting.values()), []), form, columns)
