@@ -11,7 +11,7 @@ import sys
 import time
 import warnings
 
-from tests.equivalence.campaign import EXCEPTED, FAILED, HELD, NOT_APPLICABLE, Tally, campaign, fast
+from tests.equivalence.campaign import EXCEPTED, EXCEPTIONS, FAILED, HELD, NOT_APPLICABLE, Tally, campaign, fast
 from tests.equivalence.draws import draw
 from tests.equivalence.table import STATEMENTS
 from tests.strategies import write_case
@@ -47,6 +47,9 @@ def show(tally: Tally, took: float) -> None:
         counts = [tally.counts[name, outcome] for outcome in (HELD, FAILED, EXCEPTED, NOT_APPLICABLE)]
         each = 1e3 * tally.took[name] / max(sum(counts[:3]), 1)
         print(f"{name:{width}} {counts[0]:7d} {counts[1]:7d} {counts[2]:9d} {counts[3]:13d} {each:8.1f}")
+    for one in EXCEPTIONS:
+        if tally.counts[one.name, EXCEPTED]:
+            print(f"excepted: {one.name}: {one.cause}")
     for seed, index, words in tally.refusals:
         print(f"refused: --seed {seed} --only {index}: {words}")
     used = sum(tally.took.values())
