@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fctd import equilibrium, hydraulics_of, lie_along, surge_pressures
+from fctd import equilibrium, hydraulics_of, lie_along
 from fctd.case.errors import InputError
 from fctd.steady.equilibrium import Solver
 from fctd.steady.lie import lie_of
@@ -51,8 +51,3 @@ def test_pressures_of_a_flow_may_be_those_of_the_string_where_it_lies() -> None:
         for eccentricity in (0.0, lie_along, 1.0)
     ]
     assert lost[0] > lost[1] > lost[2] > 0
-    for given in ({}, {"eccentricity": "string"}):  # the case's own, and by its word
-        assert float(hydraulics_of(case, 0.03, [1100.0], **given)["annulus_drop_Pa"].iloc[0]) == lost[1]
-    assert (surge_pressures(case, [0.5], [1100.0])["surge_Pa"] != 0).all()
-    with pytest.raises(InputError, match=r'eccentricity = "strnig": expected a number, or "string"'):
-        hydraulics_of(case, 0.03, eccentricity="strnig")
