@@ -3,6 +3,8 @@
 import numpy as np
 
 from fctd.arrays import Array
+from fctd.case.hole import WellboreSpec
+from fctd.case.wall import IntervalSpec
 from fctd.mechanics import contact
 from fctd.mechanics.state import CYLINDERS
 from fctd.model import survey
@@ -94,3 +96,21 @@ def _lead_into_next(pieces: Array, md: Array, middle: Array, intervals: Array, l
             change = pieces[shoe, value] - pieces[shoe[0] - 1, value]
             pieces[shoe, value] -= (1 - share) * change
             pieces[shoe, gain] = change / length
+
+
+def intervals_of(hole: WellboreSpec) -> Array:
+    """The intervals (k, INTERVAL_COLUMNS) of a hole, columns above."""
+    rows = [
+        [
+            i.to_md, 0.5 * i.diameter, _stiffness(hole, i), i.friction,
+            i.static_excess, i.decay_speed or 0.0, i.overbalance or 0.0, i.friction_around,
+        ]
+        for i in hole.intervals
+    ]  # fmt: skip
+    return np.array(rows)
+
+
+def _stiffness(hole: WellboreSpec, interval: IntervalSpec) -> float:
+    """Wall stiffness of an interval [N/m per point, or N/m/m]: the interval's, else the wellbore's."""
+    values = (interval.stiffness, interval.stiffness_per_length, hole.stiffness, hole.stiffness_per_length)
+    return next(v for v in values if v is not None)

@@ -47,12 +47,17 @@ class Sampling:
         """The same with the contact of further discs."""
         return replace(self, radii=tuple(np.union1d(self.radii, np.unique(radii)).tolist()))
 
-    def covers(self, md: Array) -> NDArray[np.bool_]:
-        """Whether depths (n,) [m] lie within a stretch of open hole that was measured, where cells cut the hole."""
-        if self.caliper is None:
-            return np.zeros(len(md), np.bool_)
-        inside = (md > self.caliper.md[0]) & (md < self.caliper.md[-1])
-        return np.asarray(inside & np.any([(md > a) & (md < b) for a, b, _ in self.open_hole], axis=0))
+    def borders(self, ends: Array, intervals: Array) -> Array:
+        """The ends of intervals (k, INTERVAL_COLUMNS) among ``ends`` (m,) [m], from the first on, that cut the hole.
+
+        Within open hole that was measured a border between equal intervals does not cut the cell that it lies in.
+        """
+        if self.caliper is None or not len(ends):
+            return ends
+        alike = np.append((intervals[1:, RADIUS:] == intervals[:-1, RADIUS:]).all(axis=1), False)[: len(ends)]
+        alike &= (ends > self.caliper.md[0]) & (ends < self.caliper.md[-1])
+        within = [(ends > top) & (ends < bottom) for top, bottom, _ in self.open_hole]
+        return ends[~(alike & np.any(within, axis=0))] if within else ends
 
     def cut(self, md: Array) -> Array:
         """Ends of pieces [m], with those of cells where open hole was measured.

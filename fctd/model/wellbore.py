@@ -14,7 +14,6 @@ from fctd.case.hole import WellboreSpec
 from fctd.case.load import Case, naming_file
 from fctd.case.message import quantity
 from fctd.case.string import ComponentSpec
-from fctd.case.wall import IntervalSpec
 from fctd.mechanics import contact
 from fctd.mechanics.query import WALL_COLUMNS, Walls, query_sampled, query_walls, walls_in
 from fctd.mechanics.sampled import AROUND_CELLS
@@ -32,6 +31,7 @@ from fctd.model.pieces import (
     arcs,
     cylinders,
     fill_wall,
+    intervals_of,
 )
 from fctd.model.sampled_hole import Sampling, has_corners, narrow_cells, sample, sampling_of, steepest, with_mean_radii
 from fctd.model.section import contact_radii
@@ -304,7 +304,7 @@ def build_wellbore(case: Case) -> Wellbore:
 
 
 def _build(hole: WellboreSpec, components: Sequence[ComponentSpec], seed: int | None) -> Wellbore:
-    stations, intervals = perturb_stations(hole.trajectory, seed), _intervals(hole)
+    stations, intervals = perturb_stations(hole.trajectory, seed), intervals_of(hole)
     if hole.tortuosity is not None:
         _courses(hole, stations)  # names a station that no arc reaches
         stations = winding(stations, hole.tortuosity)
@@ -316,10 +316,8 @@ def _build(hole: WellboreSpec, components: Sequence[ComponentSpec], seed: int | 
     if hole.geometry != "cylinders":
         assert courses is not None  # WellboreSpec requires the method
         # Where the hole changes, a shoe as long as the overlap of cylinders leads from one size to the next.
-        if sampling is not None and len(ends):
-            # A border between equal intervals does not cut the cells that it lies in.
-            alike = (intervals[1:, RADIUS:] == intervals[:-1, RADIUS:]).all(axis=1)[: len(ends)]
-            ends = ends[~(alike & sampling.covers(ends))]
+        if sampling is not None:
+            ends = sampling.borders(ends, intervals)
         shoes = np.minimum(ends + hole.overlap, stations[-1, 0])
         md = np.union1d(stations[:, 0], np.concatenate([ends, shoes]))
         if sampling is not None:
@@ -391,21 +389,3 @@ def _divided(breaks: Array, counts: Array) -> Array:
     within = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)
     ends = within * np.repeat(np.diff(breaks) / parts, parts) + np.repeat(breaks[:-1], parts)
     return np.append(ends, breaks[-1])
-
-
-def _intervals(hole: WellboreSpec) -> Array:
-    """The intervals (k, INTERVAL_COLUMNS), columns above."""
-    rows = [
-        [
-            i.to_md, 0.5 * i.diameter, _stiffness(hole, i), i.friction,
-            i.static_excess, i.decay_speed or 0.0, i.overbalance or 0.0, i.friction_around,
-        ]
-        for i in hole.intervals
-    ]  # fmt: skip
-    return np.array(rows)
-
-
-def _stiffness(hole: WellboreSpec, interval: IntervalSpec) -> float:
-    """Wall stiffness of an interval [N/m per point, or N/m/m]: the interval's, else the wellbore's."""
-    values = (interval.stiffness, interval.stiffness_per_length, hole.stiffness, hole.stiffness_per_length)
-    return next(v for v in values if v is not None)
