@@ -105,7 +105,10 @@ def main(
         typer.echo(printable_lines(f"error: {error}"), err=True)
         raise typer.Exit(2) from error
     if claims and is_here and code != runner.INTERRUPTED:
-        code = max(code, judgement.run(results, console, ledger.CLAIMS))
+        timed = (
+            [name for name in STUDIES if (of := runner.loaded(name)) is not None and of.timed] if asked[0].label else []
+        )
+        code = max(code, judgement.run(results, console, ledger.CLAIMS, timed))
     if sensitive and code != runner.INTERRUPTED:
         code = max(code, sensitivity.tell(sensitivity.moved(study.RESULTS, reasons), reasons, console))
     raise typer.Exit(code)

@@ -1,5 +1,6 @@
 """The paper's claims one by one: verdicts computed from the stored results of the studies."""
 
+from collections.abc import Container
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -30,17 +31,23 @@ def judge_all(results: Path, ledger: Path = CLAIMS) -> Judgement:
     return Judgement([judge(claim, stored) for claim in found.claim], found.misprint)
 
 
-def run(results: Path, console: Console, ledger: Path) -> int:
-    """Judge the claims and print a line for each; the exit code, 1 where a verdict is not the recorded one."""
+def run(results: Path, console: Console, ledger: Path, timed: Container[str] = ()) -> int:
+    """Judge the claims and print a line for each; the exit code, 1 where a verdict is not the recorded one.
+
+    timed : studies whose numbers are times of other code than this machine's own, by which no claim is judged.
+    """
     try:
         judgement = judge_all(results, ledger)
     except InputError as error:
         console.print(Text(printable_lines(f"claims: failed: {error}"), "bold red"), soft_wrap=True)
         return 1
-    count, surprises = len(judgement.findings), judgement.surprises
-    waiting = sum(found.verdict == "not yet run" for found in judgement.findings)
-    as_recorded = count - len(surprises) - waiting
-    parts = [f"{as_recorded} as recorded", f"{waiting} not yet run", f"{len(surprises)} other than recorded"]
+    count, waiting = len(judgement.findings), sum(found.verdict == "not yet run" for found in judgement.findings)
+    others = [found for found in judgement.surprises if any(study in timed for study in found.studies)]
+    surprises = [found for found in judgement.surprises if found not in others]
+    parts = [
+        f"{count - len(judgement.surprises) - waiting} as recorded", f"{waiting} not yet run",
+        f"{len(others)} not judged by times of other code", f"{len(surprises)} other than recorded",
+    ]  # fmt: skip
     style = "bold red" if surprises else "bold"
     console.print(Text(f"claims: {', '.join(part for part in parts if part[0] != '0')}", style), soft_wrap=True)
     for found in judgement.findings:
@@ -49,5 +56,5 @@ def run(results: Path, console: Console, ledger: Path) -> int:
             line += f" ({found.why})"
         if not found.as_recorded:
             line += f", recorded is {found.claim.verdict or 'nothing'}"
-        console.print(Text(printable_lines(line), "" if found.as_recorded else "bold red"), soft_wrap=True)
+        console.print(Text(printable_lines(line), "bold red" if found in surprises else ""), soft_wrap=True)
     return 1 if surprises else 0

@@ -63,7 +63,7 @@ class Answer(NamedTuple):
 def judged(register, run, tmp_path):
     """Write claims.toml, run toy and second studies that find ``values``, then judge the claims."""
 
-    def call(text, *, quick=False, **values):
+    def call(text, *, quick=False, timed=(), **values):
         path, results = tmp_path / "claims.toml", tmp_path / "results"
         path.write_text(text)
         for name in ("toy", "second"):
@@ -71,7 +71,7 @@ def judged(register, run, tmp_path):
         for name in values:
             run(name, quick=quick)
         printed = io.StringIO()
-        code = judgement.run(results, Console(file=printed), path)
+        code = judgement.run(results, Console(file=printed), path, timed)
         try:
             (finding,) = judgement.judge_all(results, path).findings
         except InputError:
@@ -188,6 +188,10 @@ def test_a_verdict_that_nobody_recorded_asks_for_it(judged):
     code, printed, _ = judged(CLAIM.replace('verdict = "holds"\n', ""), toy=0.5)
     assert code == 1
     assert "a-claim: holds, recorded is nothing" in printed
+    # With noise or other code, the times of a study say nothing of its claim.
+    code, printed, _ = judged(CLAIM.replace('verdict = "holds"\n', ""), toy=0.5, timed=["toy"])
+    assert code == 0
+    assert "1 not judged by times of other code" in printed
 
 
 def test_a_claim_that_cannot_be_tested_says_why(judged):
