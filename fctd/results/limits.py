@@ -101,7 +101,7 @@ def collapse_of(at, section):
 
     The stress along it counts from the pressure inside: (T + (p_i - p_o) A_o)/A_s with the effective tension T.  An
     ellipse says what it leaves: of casing's yield strength, with which the regimes of TR 5C3 have another collapse
-    pressure (2008, Eq. 42), and of the collapse pressure of other pipe, as RP 7G has it.
+    pressure (2008, formula 42), and of the collapse pressure of other pipe, as RP 7G has it.
     """
     if at.excess >= 0:
         return section.collapse

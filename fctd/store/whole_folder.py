@@ -84,7 +84,7 @@ def repair(folder: Path, own: Own) -> None:
 
 def _stand_in(folder: Path) -> Path:
     """The path beside which the temporary file of a replacement lies."""
-    return folder.with_name(f"{folder.name}.lock")
+    return folder.parent / f"{folder.name}.lock"  # the root has no name
 
 
 def _beside(scratch: Path) -> tuple[Path, Path]:

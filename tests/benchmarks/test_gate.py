@@ -91,7 +91,7 @@ def test_the_command_fails_and_names_the_kernel(monkeypatch: pytest.MonkeyPatch,
     with monkeypatch.context() as patched:
         patched.setattr(commands, "MOST_MEMORY", 100e3)
         code, text = invoke("gate", "--history", str(tmp_path))
-        assert (code, text) == (1, "arrays of a string of 60 segments: 153 kB, at most 100\n")
+        assert (code, text) == (1, "arrays of a string of 60 segments: 154 kB, at most 100\n")
     history.write(record_here(), tmp_path)
 
     def with_costs(now: measure.Costs) -> tuple[int, str]:

@@ -41,7 +41,7 @@ USERS = "pipe, 29 kg/m, 9 m"  # a name
         (
             Message(f"{quantity(0.05, 'm/s')} and {quantity(1e7, 'N/m')}"),
             "0.05 m/s and 1e+07 N/m",
-            "9.84 ft/min and 1e+07 N/m",
+            "9.84 ft/min and 685218 lbf/ft",
         ),
         (Message(f"{USERS} is too long"), f"{USERS} is too long", f"{USERS} is too long"),
         (Message("12 m, as a file has it"), "12 m, as a file has it", "12 m, as a file has it"),

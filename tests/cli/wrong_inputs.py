@@ -118,12 +118,7 @@ REFUSED: Final[list[tuple[str, Any, str]]] = [
     ("wellbore.intervals", [], "at least one"),
     ("wellbore.intervals[0].to_md", None, "a length such as '12 m' or '40 ft'"),
     ("wellbore.geometri", "arcs", "the key geometry"),
-    (
-        "wellbore.intervals[0].dia",
-        "8.5 in",
-        "one of the keys to_md, casing, diameter, friction, rotational_friction, kind, name, outer_diameter, "
-        "yield_strength, stiffness, stiffness_per_length, static_friction, decay_speed, overbalance",
-    ),
+    ("wellbore.intervals[0].dia", "8.5 in", "one of the keys diameter, outer_diameter"),
     ("wellbore.geometry", "arc", "'cylinders', 'arcs' or 'sampled'"),
     ("string", None, "a table [string]"),
     ("string.components", {"name": "pipe"}, "a list of tables, the name of each in double brackets: [[name]]"),

@@ -22,26 +22,8 @@ class Excepted(NamedTuple):
     cause: str
 
 
-def of_caliper(drawn: Drawn) -> bool:
-    """Whether the wall was measured."""
-    return drawn.has("caliper")
-
-
 # Delete a line where its cause is mended: the column "excepted" of the command then stays 0.
-EXCEPTIONS: tuple[Excepted, ...] = (
-    Excepted(
-        "class of a pipe: strength alone",
-        lambda drawn: True,
-        "the class of a pipe takes its wall from the mass and the stiffness too",
-    ),
-    Excepted(
-        "sparse stations = dense stations of the same hole",
-        lambda drawn: drawn.has("inside", "outside", "temperature", "viscosity", "rheology", "fann"),
-        "true vertical depth of fluids is taken on the chord of an arc",
-    ),
-    Excepted("an interval = the same in two", of_caliper, "cells of a measured wall begin anew where an interval ends"),
-    Excepted("SI = field units = any unit of the table", of_caliper, "a depth at the border of a cell falls to either"),
-)
+EXCEPTIONS: tuple[Excepted, ...] = ()
 
 HELD, FAILED, NOT_APPLICABLE, EXCEPTED, REFUSED = "held", "failed", "says nothing", "excepted", "refused"
 

@@ -191,6 +191,7 @@ def rates(drawn: Drawn) -> None:
     given: dict[str, Any] = {"flow": row.get("flow", 0.0)}
     if of.direction:
         given["speed"] = row["speed"]
+    applies(of.turns or not row.get("rpm"))  # by an option no trip turns
     if of.may_turn:
         given["rpm"] = row.get("rpm", 0.0)
     found = equilibrium(load_case(bare), kind, drawn.depth, **given)
