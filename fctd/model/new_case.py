@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fctd.arrays import Array
+from fctd.case.operations import KINDS
 from fctd.case.surveys import reading as surveys
 from fctd.case.systems import (
     BIT_TORQUE,
@@ -241,7 +242,9 @@ class Plan:
             "[[operations]]", *out, "[[operations]]", *back,
         )  # fmt: skip
         rate, speed = RATE[self.units]
-        above = quantity(LENGTH, self.depth - rate * 4 * PERIODS * self.period)
+        # It ends with a whole record, as the mean over a part of one swings; the depth is rounded.
+        lasts = (4 * PERIODS - 0.1) * self.period - 0.5 * KINDS["drill_rotating"].model_fields["ramp_time"].default
+        above = quantity(LENGTH, self.depth - rate * lasts)
         yield (
             "A first drilling run: put this in place of the operation above, without the #.",
             "[[operations]]", *drilling(above, end, speed),

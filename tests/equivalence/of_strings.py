@@ -98,7 +98,8 @@ def joints_written(drawn: Drawn) -> None:
     """Mass and stiffness of a tool joint by its diameters; loads alone, as stresses are those of the whole pipe."""
     parts = drawn.case.string.components
     chosen = [k for k, part in enumerate(parts) if part.joint_segments is not None]
-    applies(chosen and not lengths_by_clearance(drawn))
+    # Mud flows between the blades of a point that is written out, and past all of a tool joint.
+    applies(chosen and not lengths_by_clearance(drawn) and not drawn.has("viscosity", "rheology", "fann"))
 
     def write(k: int, part: Raw) -> list[Raw]:
         if k not in chosen:
