@@ -55,7 +55,7 @@ def test_bad_input_is_one_message_and_exit_code_2(
 ) -> None:
     out = tmp_path / "out"
     message = cli("simulate", small_file, "--set", change, "--out", out, "--quiet", code=2).err
-    assert re.search(f'^{re.escape(str(small_file))}: ', message, re.M)  # below its warnings
+    assert re.search(f"^{re.escape(str(small_file))}: ", message, re.M)  # below its warnings
     assert "Traceback" not in message
     assert "expected" in message
     for part in expected:
