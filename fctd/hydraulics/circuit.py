@@ -72,7 +72,8 @@ def circulate(channel: Channel, flow: float, speed: float = 0.0, end: str | None
     if flow == 0 and through != 0:
         met = channel.held(end)
         # Mud at rest in a bore bears what is less than its yield stress; its column begins without friction.
-        inside *= -(around[-1] + drop + met) / inside.sum()
+        if inside.any():
+            inside *= -(around[-1] + drop + met) / inside.sum()
     below[:-1] = np.cumsum(inside[::-1])[::-1]
     given = -outside.lift * channel.wet
     if flow > 0:

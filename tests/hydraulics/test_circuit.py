@@ -123,3 +123,11 @@ def test_pressures_between_the_ends_of_segments_lie_on_straight_lines() -> None:
     inside, outside = found.pressures(np.array([3000.0, 1234.5, 0.0]))
     assert outside == pytest.approx(found.outside[-1] * np.array([0.0, 1 - 1234.5 / 3000, 1.0]))
     assert inside[-1] == pytest.approx(outside[-1])  # without nozzles
+
+
+def test_an_open_bore_without_friction_beside_mud_that_resists() -> None:
+    """A string that is lowered sends mud up a bore that resists nothing: the pressures there have no friction."""
+    mud = {"density": 1200.0, "outside": [{"to_md": 500.0, "density": 1200.0}, {"density": 1200.0, "viscosity": 0.02}]}
+    with np.errstate(all="raise"):
+        found = circulate(channel(drill_pipe(mud=mud), 10_000 * FOOT), 0.0, 0.5)
+    assert np.isfinite(found.inside).all()
