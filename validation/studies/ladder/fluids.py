@@ -1,9 +1,9 @@
-"""Rungs of depths, pressures and columns: one arc with two stations, casing that is pulled and pressed, free fall."""
+"""Rungs of depths, pressures and flows: one arc of two stations, casing pulled and pressed, free fall, tool joints."""
 
 import numpy as np
 
 from fctd import Case, equilibrium
-from fctd.hydraulics.pressures import lay
+from fctd.hydraulics.pressures import circulation, lay
 from fctd.results.limits import LIMITS, SHARE
 from validation.studies.ladder.rung import GRAVITY, MUD, NoAnswerError, Rung, Tables, case_of, steady
 from validation.studies.ladder.wells import HOLE, bend, part, straight, well
@@ -13,6 +13,9 @@ DEEP = 1000.0  # [m]
 HEAVIER, VISCOSITY = 1500.0, 1.0  # [kg/m³], [Pa s]: of a column so thick that it falls without turbulence
 PSI = 6894.757293168
 N_80, K_55 = 80e3 * PSI, 55e3 * PSI
+FLOW = 0.02  # [m³/s]
+JOINTED, EVERY = 480.0, 12.0  # [m] of whole joints
+TOOL_JOINT = {"length": EVERY, "tool_joint_diameter": 0.168, "tool_joint_inner": 0.07, "tool_joint_length": 0.6}
 WIDE, BORE = 9.625 * 0.0254, 8.681 * 0.0254  # [m], of 47 lb/ft casing
 
 
@@ -68,15 +71,20 @@ def falling(cut: float) -> Tables:
     return well(straight(DEEP, 0.0), [part(None, cut)], mud=mud)
 
 
-def free_fall(case: Case) -> float:
-    """(ρ_i − ρ_o) g over what a metre of bore and of annulus loses per flow, both laminar (Bird, Stewart & Lightfoot).
+def per_flow(inner: float, outer: float) -> float:
+    """Pressure lost in a metre of bore and of annulus over the flow through both [Pa s/m⁴] (Bird, Stewart & Lightfoot).
 
-    [m³/s]: 8μ/πa⁴ and 8μ/π(R⁴ − b⁴ − (R² − b²)²/ln(R/b)).
+    8μ/πa⁴ and 8μ/π(R⁴ − b⁴ − (R² − b²)²/ln(R/b)), of the diameters of the pipe [m].
     """
-    pipe = case.string.components[0]
-    a, b, wall = 0.5 * pipe.inner_diameter, 0.5 * pipe.outer_diameter, 0.5 * HOLE
+    a, b, wall = 0.5 * inner, 0.5 * outer, 0.5 * HOLE
     ring = wall**4 - b**4 - (wall**2 - b**2) ** 2 / np.log(wall / b)
-    return float((HEAVIER - MUD) * GRAVITY / (8 * VISCOSITY / np.pi * (1 / a**4 + 1 / ring)))
+    return float(8 * VISCOSITY / np.pi * (1 / a**4 + 1 / ring))
+
+
+def free_fall(case: Case) -> float:
+    """(ρ_i − ρ_o) g over what a metre of bore and of annulus loses per flow, both laminar [m³/s]."""
+    pipe = case.string.components[0]
+    return (HEAVIER - MUD) * GRAVITY / per_flow(pipe.inner_diameter, pipe.outer_diameter)
 
 
 def rate_of_fall(case: Case) -> float:
@@ -85,6 +93,28 @@ def rate_of_fall(case: Case) -> float:
     if rate is None:
         raise NoAnswerError("the column does not fall")
     return rate
+
+
+def jointed(cut: float) -> Tables:
+    """Pipe whose tool joints narrow annulus and bore, in thick mud that is pumped."""
+    pipe = {key: value for key, value in part(None, cut).items() if key != "segment_length"}
+    laid = {**pipe, "joint": TOOL_JOINT, "joint_segments": round(EVERY / cut)}
+    return well(
+        straight(JOINTED, 0.0), [laid], mud={"density": MUD, "viscosity": VISCOSITY}, rig={"surface_length": 0.0}
+    )
+
+
+def lost_by_joints(case: Case) -> float:
+    """Q times the loss per flow of each body and of each tool joint [Pa]."""
+    pipe = case.string.components[0]
+    body, joint = per_flow(pipe.inner_diameter, pipe.outer_diameter), per_flow(0.07, 0.168)
+    share = 0.6 / EVERY
+    return FLOW * JOINTED * ((1 - share) * body + share * joint)
+
+
+def pumped(case: Case) -> float:
+    """Standpipe pressure [Pa]."""
+    return circulation(case, FLOW, JOINTED).standpipe
 
 
 RUNGS = [
@@ -99,5 +129,9 @@ RUNGS = [
     Rung(
         "free fall of a heavy column", "(ρ_i − ρ_o) g over the laminar losses of bore and annulus", falling, free_fall,
         {"steady": rate_of_fall}, "m³/s", (73.0, 50.0), bound=0.5,
+    ),
+    Rung(
+        "tool joints, standpipe pressure", "Q times the laminar losses of bodies and tool joints, bore and annulus",
+        jointed, lost_by_joints, {"steady": pumped}, "Pa", (4.0, 3.0), bound=0.5,
     ),
 ]  # fmt: skip

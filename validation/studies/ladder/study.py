@@ -11,6 +11,7 @@ from validation.studies.ladder import (
     bha,
     capstan,
     fluids,
+    grips,
     helix,
     onset,
     statics,
@@ -24,7 +25,7 @@ from validation.studies.ladder.rung import Rung, measure, observed_order, worst_
 FAMILIES: dict[str, list[Rung]] = {
     "helix": helix.RUNGS, "onset": onset.RUNGS, "waves": waves.RUNGS, "threshold": threshold.RUNGS,
     "capstan": capstan.RUNGS, "bends": bends.RUNGS, "bit": bha.RUNGS, "rest": statics.RUNGS,
-    "trips": trips.RUNGS, "fluids": fluids.RUNGS,
+    "trips": trips.RUNGS, "fluids": fluids.RUNGS, "grips": grips.RUNGS,
 }  # fmt: skip
 RUNGS = {rung.name: rung for rungs in FAMILIES.values() for rung in rungs}
 MEETING = "meet their neighbours'"

@@ -7,7 +7,7 @@ from scipy.linalg import eigvalsh_tridiagonal
 from scipy.optimize import brentq, minimize_scalar
 
 from references.beams.beam_column import bending, deflect, grid
-from validation.studies.ladder import bends, bha, capstan, fluids, helix, statics, threshold, waves
+from validation.studies.ladder import bends, bha, capstan, fluids, grips, helix, statics, threshold, waves
 from validation.studies.ladder.rung import case_of, pipe_of, section
 
 
@@ -79,6 +79,50 @@ def test_a_falling_column_loses_what_a_slot_and_a_bore_do():
     gap, around = 0.5 * (0.2159 - 0.127), 0.5 * np.pi * (0.2159 + 0.127)
     lost = 128 * rate / (np.pi * 0.1086**4) + 12 * rate / (around * gap**3)
     assert lost == pytest.approx(300 * 9.80665, rel=0.01)
+
+
+def test_tool_joints_lose_what_slots_and_bores_do():
+    """Annuli as unrolled slots; the narrow one of the tool joints is within 0.1 %."""
+    lost = 0.0
+    for share, outer, inner in ((0.05, 0.168, 0.07), (0.95, 0.127, 0.1086)):
+        gap, around = 0.5 * (0.2159 - outer), 0.5 * np.pi * (0.2159 + outer)
+        lost += 480.0 * share * 0.02 * (128 / (np.pi * inner**4) + 12 / (around * gap**3))
+    assert fluids.lost_by_joints(case_of(fluids.jointed(4.0))) == pytest.approx(lost, rel=0.01)
+
+
+@pytest.mark.parametrize(("rpm", "speed"), [(60.0, 0.0), (0.0, 0.4), (60.0, 0.4)])
+def test_both_walls_of_a_key_seat_bear_the_string(rpm, speed):
+    """Of each wall −N n and −g N a × n: both together are the weight, upwards."""
+    case, beta = case_of(grips.key_seat(grips.DEEP, 6.0)), np.radians(grips.DEEP)
+    drag, around = grips.shares(case, speed, rpm)
+    assert np.hypot(drag, around) == pytest.approx(0.3)
+    forces = []
+    for side in (1, -1):
+        normal = np.array([side * np.sin(beta), -np.cos(beta)])  # to the right and up, looking downhole
+        forces.append(-normal - around * np.array([normal[1], -normal[0]]))
+    both = np.linalg.solve(np.transpose(forces), [0.0, grips.across(case)])
+    assert (both > 0).all()
+    assert grips.walls(case, grips.DEEP, around) == pytest.approx(both.sum())
+
+
+def test_a_flat_key_seat_is_left_by_a_string_that_turns():
+    """One wall holds it where its normal is at arctan μ: beyond both planes of the flat seat, within the deep one."""
+    assert grips.FLAT < np.degrees(np.arctan(grips.FRICTION)) < grips.DEEP
+    beside = np.radians(360.0 / grips.ARMS * np.arange(-2, 3))  # of the arms from the low side
+    below = grips.radii(grips.FLAT)[grips.ARMS // 2 - 2 : grips.ARMS // 2 + 3]
+    planes = np.cos(np.abs(beside) - np.radians(grips.FLAT))  # a tangent at β has R = r cos(ψ − β)
+    assert below * planes == pytest.approx(0.5 * 0.2159)
+
+
+def test_bows_turn_pipe_about_its_own_axis():
+    """Moments about the axis of the hole: μ F R of the place that is touched, less that of the load, aside by e."""
+    case = case_of(grips.centred(4.0))
+    count, start, stiffness, radius = grips.bows_of(case)
+    load = grips.across(case) / count
+    force = load / np.linalg.norm([1.0, 0.3])
+    lean, angle = force / stiffness, np.arctan(0.3)
+    about_hole = 0.3 * force * radius - load * lean * np.sin(angle)
+    assert grips.bow_torque(case) - grips.in_mud(case) == pytest.approx(count * (start * radius + about_hole))
 
 
 def test_an_elastica_is_found_by_shooting_and_by_a_small_load():
