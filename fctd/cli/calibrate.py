@@ -34,8 +34,9 @@ from fctd.cli.options import (
     units_option,
     warn,
 )
-from fctd.cli.pictures import DRAWN, TABLES
+from fctd.cli.pictures import TABLES
 from fctd.cli.steady import file_option, metadata_of_case
+from fctd.plots import DRAWN
 from fctd.results.doing import clauses
 from fctd.results.shown_tables import Head, shown_table
 from fctd.results.table_files import write_table

@@ -28,7 +28,7 @@ from fctd.cli.options import (
     print_status,
     screen,
 )
-from fctd.cli.pictures import DRAWN, PICTURE_HELP, ShownSideForce, draw_profiles
+from fctd.cli.pictures import PICTURE_HELP, ShownSideForce, draw_profiles
 from fctd.cli.quantities import BIT_DEPTH, Given, quantity
 from fctd.cli.steady import (
     DEPTH_HELP,
@@ -43,6 +43,7 @@ from fctd.cli.steady import (
     read_kinds,
 )
 from fctd.model.operations import SteadyRates, rates_of_all
+from fctd.plots import DRAWN
 from fctd.results.buckling import BUCKLED, NOT_BUCKLED
 from fctd.results.columns import COLUMNS, LOADS, SHAPES, SHARES
 from fctd.results.notes import as_metadata

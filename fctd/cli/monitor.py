@@ -26,7 +26,7 @@ from fctd.cli.options import (
     read_share,
     screen,
 )
-from fctd.cli.pictures import DRAWN, PICTURE_HELP, PICTURES
+from fctd.cli.pictures import PICTURE_HELP, PICTURES
 from fctd.cli.quantities import Given, quantity
 from fctd.cli.roadmap import DEPTHS, Drawing, solved
 from fctd.cli.steady import DEPTHS_HELP, file_option, in_units
@@ -38,6 +38,7 @@ from fctd.monitoring.quantities import SERIES
 from fctd.monitoring.roadmap import FAN
 from fctd.monitoring.series import read_series
 from fctd.monitoring.text_series import Tail
+from fctd.plots import DRAWN
 from fctd.results.shown_tables import number, of_column, shown_table
 from fctd.results.table_files import write_table
 from fctd.results.unit_systems import System

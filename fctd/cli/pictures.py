@@ -11,6 +11,7 @@ from fctd import plots  # its modules, and what they need, are imported where a 
 from fctd.case.errors import InputError
 from fctd.case.message import frame_of
 from fctd.cli.options import check_target
+from fctd.plots import DRAWN
 from fctd.plots.loads import ChartLook, Compared, Load
 from fctd.plots.tracks import SideForce
 from fctd.results.unit_systems import System
@@ -24,9 +25,8 @@ if TYPE_CHECKING:
 
 TABLES = (".csv", ".parquet", ".xlsx")
 PAGE = ".html"
-DRAWN = (".png", ".svg", ".pdf")
 PICTURES = (*DRAWN, PAGE)
-PICTURE_HELP = ".png, .svg, .pdf, or .html with values under the pointer"
+PICTURE_HELP = f"{', '.join(DRAWN)}, or {PAGE} with values under the pointer"
 # Package and extra by suffix, of the files that need one.
 _NEEDS = {PAGE: ("plotly", "html"), ".xlsx": ("xlsxwriter", "excel"), **dict.fromkeys(DRAWN, ("matplotlib", "plot"))}
 # A file of an option, and the suffixes that it may have.

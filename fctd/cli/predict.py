@@ -12,8 +12,8 @@ from fctd.calibration.predict import posterior_file
 from fctd.cli.calibrate import Units, print_prediction
 from fctd.cli.job import Job
 from fctd.cli.options import CaseFile, Overrides, Quiet, warn
-from fctd.cli.pictures import DRAWN
 from fctd.cli.steady import file_option, metadata_of_case
+from fctd.plots import DRAWN
 from fctd.results.table_files import write_table
 
 

@@ -49,7 +49,8 @@ from fctd.cli.options import (
     tell,
     units_option,
 )
-from fctd.cli.pictures import DRAWN, check_files
+from fctd.cli.pictures import check_files
+from fctd.plots import DRAWN
 from fctd.results.buckling import MODES
 from fctd.results.columns import BUCKLED, COLUMNS
 from fctd.results.shown_tables import of_column, shown_table

@@ -14,10 +14,11 @@ from fctd.case.systems import LENGTH
 from fctd.case.text import counted, printable
 from fctd.cli.job import FOLD, WHOLE, print_table, right, rows_of
 from fctd.cli.options import Quiet, Units, check_target, messages, print_written, screen
-from fctd.cli.pictures import DRAWN, check_files
+from fctd.cli.pictures import check_files
 from fctd.cli.quantities import Given, QuantityOption, quantity, si
 from fctd.cli.steady import file_option
 from fctd.cli.sweep import SweepFile
+from fctd.plots import DRAWN
 from fctd.results.doing import clauses
 from fctd.results.shown_tables import shown_table
 from fctd.results.table_files import write_table

@@ -4,9 +4,11 @@ Pictures need matplotlib (the package's extra ``plot``), pages plotly (``html``)
 for, and nothing else of the package needs them.
 """
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from fctd.public import offer
+
+DRAWN: Final = (".png", ".svg", ".pdf")  # suffixes of pictures
 
 if TYPE_CHECKING:  # what ``offer`` reads
     from fctd.plots.calibration import calibration_figure as calibration_figure, prediction_figure as prediction_figure

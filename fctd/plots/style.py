@@ -4,7 +4,7 @@ import io
 from collections.abc import Sequence
 from pathlib import Path
 from textwrap import wrap
-from typing import Any, Final
+from typing import Any
 
 import matplotlib as mpl
 from matplotlib.artist import Artist
@@ -15,6 +15,7 @@ from matplotlib.typing import RcKeyType
 
 from fctd.case.errors import InputError
 from fctd.case.text import printable
+from fctd.plots import DRAWN
 from fctd.plots.labels import SIZE, boxes, width_of
 from fctd.plots.palette import DARK, DASHES, QUIET, Dash
 from fctd.store.whole_file import whole_file
@@ -51,7 +52,6 @@ SMALL_WIDTH = 0.56  # of a character of small type on average, in its size
 MARGIN = 0.1  # beside everything [in]
 LEGEND_LINE, LEGEND_HANDLE = 0.19, 0.52  # height of a legend's entry, width of what stands beside its text [in]
 
-SUFFIXES: Final = (".png", ".svg", ".pdf")  # of pictures that matplotlib writes
 # Files are the same byte for byte: these formats would hold the time.
 _UNDATED: dict[str, dict[str, Any]] = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
 
@@ -67,10 +67,10 @@ LINE_STYLES: list[Any] = [line_style(dash) for dash in DASHES]
 def save(figure: Figure, path: Path) -> list[Path]:
     """Write a figure in the format of its suffix; returns the file.
 
-    Raises InputError for a suffix that is not of ``SUFFIXES``, and where it cannot be written.
+    Raises InputError for a suffix that is not of ``DRAWN``, and where it cannot be written.
     """
-    if path.suffix.lower() not in SUFFIXES:
-        raise InputError(f"a file name that ends in {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}", value=path)
+    if path.suffix.lower() not in DRAWN:
+        raise InputError(f"a file name that ends in {', '.join(DRAWN[:-1])} or {DRAWN[-1]}", value=path)
     with whole_file(path) as scratch:
         scratch.write_bytes(drawn(figure, path.suffix.lower()))
     return [path]
