@@ -21,6 +21,7 @@ HINTED = 1.06  # type on a screen is wider than its outlines by at most this
 MARKER = 3.0  # half a marker at the end of a line [pt]
 CLEAR = 2.0  # from a line to another text [pt]
 AIR = 4.0  # between two texts [pt]
+EQUAL = 0.01  # ends that are equal but for rounding differ by less [pt]
 
 
 class Place(NamedTuple):
@@ -83,7 +84,8 @@ def _levels(ends: Sequence[float], spans: Sequence[tuple[float, float]]) -> list
         free = [k for k in waiting if not any(crosses(other, k) for other in waiting - {k})]
         if not free:
             return None
-        k = max(free, key=lambda one: ends[one])
+        furthest = max(ends[one] for one in free)
+        k = min(one for one in free if ends[one] > furthest - EQUAL)
         above = [levels[other] + 1 for other in settled if crosses(other, k) or _meet(taken[other], taken[k])]
         levels[k] = max(above, default=0)
         settled.append(k)

@@ -37,7 +37,7 @@ from fctd.steady.steady_string import Equilibrium
 LIMITS: Final[dict[str, Any]] = dict(zip(BUCKLED, ((0, (4, 2)), (0, (1, 1.2))), strict=True))
 LEFT, BETWEEN, RIGHT, HEIGHT, BELOW = 0.72, 0.24, 0.15, 5.6, 0.72
 NARROW, WIDE = 0.85, 1.34  # of the first panel and the others [in]
-ROOM = 0.5 * BETWEEN - 0.02  # of labels beside their panel [in]
+ROOM = 0.5 * BETWEEN - 0.01  # of labels beside their panel [in]
 TICK_SIZE = 9.0  # of the labels of ticks [pt]
 MARKS = 8  # about as many markers on a line
 # Where the axis cuts a value.

@@ -62,7 +62,8 @@ def view_figure(
     for k in range(3):
         axis = layout[f"xaxis{k + 1 if k else ''}"]
         axis["domain"] = [APART + (1 - APART) * end for end in axis["domain"]]
-    layout["scene"] = {**scene_layout(look), "domain": {"x": [0.02, APART - 0.06], "y": [0.0, 1.0]}}
+    layout["scene"] = scene_layout(look)
+    layout["scene"]["domain"]["x"] = [0.02, APART - 0.06]
     for shape in layout["shapes"]:
         shape["x0"] = APART
     steps = [

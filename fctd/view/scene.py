@@ -27,6 +27,7 @@ Trace = dict[str, Any]
 SCENE: Final = ("wall", "rings", "shoes", "string", "contacts", "picked")
 PANELS: Final = ("angle", "side force", "tension", "sinusoidal limit", "helical limit")
 AIR: Final = 0.04  # of the span of an axis, beyond the values
+BELOW_BAR: Final = 0.92  # of the height, which the axes have below the bar of colours
 LEAST_SPAN: Final = 0.12  # of a side of the scene, as a share of the largest
 
 
@@ -165,7 +166,7 @@ def scene_layout(look: Look) -> dict[str, Any]:
     return {
         "xaxis": axis(0), "yaxis": axis(1), "zaxis": axis(2), "aspectmode": "manual",
         "aspectratio": dict(zip("xyz", ratio.tolist(), strict=True)), "annotations": notes,
-        "camera": whole_well(look), "dragmode": "orbit", "uirevision": "fixed",
+        "camera": whole_well(look), "dragmode": "orbit", "uirevision": "fixed", "domain": {"y": [0.0, BELOW_BAR]},
     }  # fmt: skip
 
 

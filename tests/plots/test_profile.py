@@ -96,6 +96,13 @@ def test_labels_of_ticks_stay_beside_their_panel(kind: str) -> None:
         assert max(right) < middle < min(left)
 
 
+def test_an_axis_that_begins_at_zero_says_so() -> None:
+    """Half of "0.0" reaches no label of the panel before."""
+    side_force = plots.profile_figure([of("trip_out")]).axes[TRACKS.index("contact_force_N")]
+    assert side_force.get_xlim()[0] == 0
+    assert side_force.get_xticks()[0] == 0
+
+
 @pytest.mark.parametrize(("units", "force"), [("si", "length"), pytest.param("field", "joint", marks=pytest.mark.slow)])
 def test_no_text_covers_another(units: Any, force: Any) -> None:
     assert texts_that_overlap(plots.profile_figure(points(), units, force=force)) == []

@@ -226,8 +226,8 @@ def test_the_mean_of_a_trip_is_that_of_a_whole_stroke() -> None:
 
 @pytest.mark.slow
 def test_a_caliper_with_a_flow_curve_is_run_in_stands_as_its_round_hole_is() -> None:
-    """Segments of 3 m, some wholly above the rotary table; a caliper of the hole's own diameter changes nothing."""
-    caliper = {"rows": [[10.0, 0.3], [300.0, 0.3], [990.0, 0.3]]}
+    """Segments of 3 m, some wholly above the rotary table; a caliper that is wider below the bit changes nothing."""
+    caliper = {"rows": [[10.0, 0.3], [500.0, 0.3], [550.0, 0.32], [600.0, 0.3], [990.0, 0.3]]}
     interval = {"to_md": 1000.0, "diameter": 0.3, "friction": 0.3}
     ends = []
     for hole in ({"geometry": "arcs"}, {"geometry": "sampled", "caliper": caliper}):

@@ -52,6 +52,10 @@ def test_the_scene_holds_all_it_shows_to_scale() -> None:
     assert layout["zaxis"]["range"] == [high[2], low[2]]  # depth downwards
     (shoe,) = layout["annotations"]
     assert shoe["text"] == "shoe 300 m"
+    bar = next(trace for trace in scene_traces(look, QUANTITIES["stress"]) if trace["name"] == "string")["line"][
+        "colorbar"
+    ]
+    assert layout["domain"]["y"][1] < bar["y"] - 0.05  # no axis is labelled on the bar of colours
 
 
 @pytest.mark.parametrize("units", ["si", "field"])
