@@ -21,7 +21,7 @@ HINTED = 1.06  # type on a screen is wider than its outlines by at most this
 MARKER = 3.0  # half a marker at the end of a line [pt]
 CLEAR = 2.0  # from a line to another text [pt]
 AIR = 4.0  # between two texts [pt]
-EQUAL = 0.01  # ends that are equal but for rounding differ by less [pt]
+EQUAL = 0.5  # ends that are closer look the same [pt]
 
 
 class Place(NamedTuple):
