@@ -106,7 +106,7 @@ def test_the_starting_force_acts_also_where_the_liner_hangs_on_the_axis() -> Non
     assert turned.hookload == pytest.approx(weight, rel=1e-6)
 
 
-@pytest.mark.parametrize("diameter", [0.2, 0.25, 0.27, 0.4])
+@pytest.mark.parametrize("diameter", [0.2, 0.4])
 def test_bows_turn_the_pipe_by_the_arms_of_the_wall_whatever_they_measure_free(diameter: float) -> None:
     """The preload drags all round at R; the spring's F = k e drags where the pipe leans, R − e from its axis."""
     bows = BOWS | {"diameter": diameter, "stiffness": 2e5}

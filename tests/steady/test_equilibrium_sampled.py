@@ -1,6 +1,5 @@
 """Steady strings in holes that are no circle, against closed forms."""
 
-from typing import Any
 
 import numpy as np
 import pytest
@@ -11,13 +10,13 @@ from fctd.arrays import Array
 from fctd.case.load import Case
 from fctd.model.drillstring import lay_out
 from fctd.steady.steady_string import Equilibrium
-from tests.cases import make_case, pipe, rotation
+from tests.cases import make_case, pipe
 
 BORE, RADIUS, LENGTH = 0.2159, 0.0635, 120.0
 
 
 def level_case(
-    rows: Array, segment: float, friction: float = 0.0, cell: float = 0.1, around: float | None = None, **more: Any
+    rows: Array, segment: float, friction: float = 0.0, cell: float = 0.1, around: float | None = None
 ) -> Case:
     """Pipe in a level hole with a caliper of radii [m]; around : friction factor around the string."""
     pair = {} if around is None else {"rotational_friction": around}
@@ -28,7 +27,7 @@ def level_case(
         "caliper": {"rows": rows.tolist(), "values": "radius"},
     }  # fmt: skip
     parts = [pipe(None, None, segment_length=segment)]
-    return make_case(components=parts, wellbore=hole, rig={"block_weight": 1e6}, **more)
+    return make_case(components=parts, wellbore=hole, rig={"block_weight": 1e6})
 
 
 def solved(case: Case, operation: str) -> Equilibrium:
@@ -102,19 +101,6 @@ def test_pipe_in_an_oval_rubs_on_one_place_or_two(
     assert weight == pytest.approx(float((string.weight * string.length).sum()), rel=0.1)
     assert point.surface_torque == pytest.approx(torque * RADIUS * weight, rel=0.01, abs=1e-4 * weight)
     assert point.hookload == pytest.approx(drag * weight, rel=0.01, abs=1e-3 * weight)
-
-
-@pytest.mark.slow  # it compiles the step in holes with corners
-def test_the_stepper_turns_pipe_in_a_groove_as_the_steady_string_does() -> None:
-    """With the friction of both places; a string that climbs one side has half of this torque."""
-    md = np.arange(1.0, LENGTH + 9, 5.0)
-    rows = np.column_stack([md, np.full(len(md), 0.2), np.full(len(md), 0.07)])
-    mud = {"density": 1200.0, "viscosity": 0.0, "lateral_damping": 200.0}
-    case = level_case(rows, 5.0, 0.3, mud=mud, operations=[rotation(LENGTH, 8.0, rpm=60.0, ramp=3.0)])
-    result = fctd.simulate(case)
-    assert result.run["energy_error"] < 1e-3
-    torque = result.history["surface_torque_N_m"][result.history["time_s"] > 5.0].mean()
-    assert torque == pytest.approx(fctd.equilibrium(case, "rotate_off_bottom", LENGTH).surface_torque, rel=0.02)
 
 
 def test_pipe_over_a_ledge_lifts_off_on_both_sides() -> None:

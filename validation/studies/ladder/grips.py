@@ -10,13 +10,16 @@ from fctd import Case
 from fctd.arrays import Array
 from validation.studies.ladder.in_time import completed
 from validation.studies.ladder.rung import MUD, Quantity, Rung, Tables, section, steady
+from validation.studies.ladder.trips import unexplained
 from validation.studies.ladder.wells import HOLE, part, straight, well
 
 TILT, REACH = 60.0, 180.0  # of the straight hole [deg], [m]
 FROM, TO = 60.0, 132.0  # [m]: depths far from both ends, between which the rungs count what is lost
 FRICTION, SPEED, RPM = 0.3, 0.4, 60.0  # [m/s], [rev/min]
 DAMPING = {"density": MUD, "lateral_damping": 200.0, "rotational_damping": 0.05}
-ARMS, CELL = 64, 0.5  # of the caliper; cells along the hole [m]
+# Arms of the caliper, and cells along the hole [m]. Between arms the wall is a cubic, whose normals are 0.3° off the
+# planes': hence a bound of 0.5 %.
+ARMS, CELL = 64, 0.5
 DEEP, FLAT = 45.0, 11.25  # [deg]: half of the angle between the normals of a key seat, beside arctan μ = 16.7°
 EVERY = 12.0  # [m] from bow to bow, which the hole compresses
 BOWS: dict[str, Any] = {"every": EVERY, "diameter": 0.25, "stiffness": 1e5, "starting_force": 300.0}
@@ -154,6 +157,10 @@ RUNGS = [
         "key seat, torque", "μ r W/((1 + μ²) cos β): two normals at β to the load, and a friction across each",
         partial(key_seat, DEEP), partial(seat_torque, DEEP),
         {"steady": torque_lost("rotate_off_bottom"), "stepper": torque_in_time}, "N m", SEAT, bound=0.5,
+    ),
+    Rung(
+        "key seat, energy that no entry explains", "none: work = energy gained + losses", partial(key_seat, DEEP),
+        lambda case: 0.0, {"stepper": unexplained}, "% of the work", SEAT, bound=0.1, scale=lambda case: 100.0,
     ),
     Rung(
         "key seat that is too flat, torque", "tan β < μ: it climbs to one side, μ r W/√(1 + μ²)",
