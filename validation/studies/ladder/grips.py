@@ -87,7 +87,9 @@ def torque_in_time(case: Case) -> float:
 
 def in_mud(case: Case) -> float:
     """Torque with which the mud holds the pipe between both depths [N m]."""
-    return float(case.mud.rotational_damping * (TO - FROM) * RPM * np.pi / 30)
+    damping = case.mud.rotational_damping
+    assert damping is not None
+    return float(damping * (TO - FROM) * RPM * np.pi / 30)
 
 
 def friction_of(case: Case) -> float:
