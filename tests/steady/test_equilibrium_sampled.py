@@ -1,6 +1,5 @@
 """Steady strings in holes that are no circle, against closed forms."""
 
-
 import numpy as np
 import pytest
 from scipy.optimize import fsolve
