@@ -207,6 +207,7 @@ def test_a_string_that_does_not_settle_has_no_record() -> None:
     assert list(simulation) == []
     result = simulate(case, contact=Nowhere())
     for each in (simulation.result(), result):
-        assert (each.status, each.message) == ("unsettled", "before the start: a position or velocity is not finite")
+        assert each.status == "unsettled"
+        assert each.message.startswith("before the start: contact method 'nowhere' returns a contact whose normal is")
         assert each.run["contact"] == "nowhere"
         assert len(each.history) == 0
