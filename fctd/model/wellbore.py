@@ -3,12 +3,11 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.arrays import Array
+from fctd.arrays import Array, Contacts
 from fctd.case.errors import Computed, InputError
 from fctd.case.hole import WellboreSpec
 from fctd.case.load import Case, naming_file
@@ -48,17 +47,6 @@ FARTHEST = 1e7
 # Largest turn [rad] and smallest distance [m] between two rows of ``bends``; the chord of a small turn θ has the
 # curvature of its arc within θ²/24.
 SMALL_TURN, APART = 0.02, 1e-3
-
-
-class Contacts(NamedTuple):
-    """Result of a contact query, one row per point.
-
-    penetration (n,) [m], negative is clearance; normal (n, 3) from the hole axis to the wall; md (n,) [m].
-    """
-
-    penetration: Array
-    normal: Array
-    md: Array
 
 
 @dataclass(frozen=True)

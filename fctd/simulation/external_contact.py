@@ -10,7 +10,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.arrays import Array
+from fctd.arrays import Array, Contacts
 from fctd.case.errors import Computed, InputError
 from fctd.mechanics import state
 from fctd.mechanics.contact import START_MD
@@ -23,7 +23,7 @@ from fctd.mechanics.stored_walls import store_sticking, store_wall
 from fctd.mechanics.topdrive import Motion
 from fctd.mechanics.wall_law import stiffen_walls
 from fctd.model.pieces import AROUND, DECAY, EXCESS, FRICTION, RADIUS, STIFFNESS, TO_MD
-from fctd.model.wellbore import Contacts, Wellbore
+from fctd.model.wellbore import Wellbore
 
 # Where a method reports no contact the wall is placed this far from the string [m].
 OUT_OF_REACH = 1.0

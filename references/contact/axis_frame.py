@@ -10,11 +10,11 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.arrays import Array
+from fctd.arrays import Array, Contacts
 from fctd.case import units
 from fctd.case.errors import Table
 from fctd.case.load import Case
-from fctd.model.wellbore import Contacts, build_wellbore
+from fctd.model.wellbore import build_wellbore
 
 
 class AxisFrameOptions(Table):

@@ -221,6 +221,6 @@ def test_bad_queries_are_refused(points: list, radii: float | list[float], messa
 
 def test_a_case_is_no_hole() -> None:
     case = make_case([[0, 0, 0], [100, 0, 0]])
-    for given, named in ((case, "Case"), ("my_well.toml", "str")):
+    for wrong, named in ((case, "Case"), ("my_well.toml", "str")):
         with pytest.raises(InputError, match=f"wellbore = {named}: expected the hole of a case, as build_wellbore"):
-            find_contacts(given, [[0, 0, 5]], 0.1)
+            find_contacts(wrong, [[0, 0, 5]], 0.1)

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from fctd import Case, InputError, simulate
-from fctd.arrays import Array
+from fctd.arrays import Array, Contacts
 from fctd.mechanics import state
-from fctd.model.wellbore import Contacts, build_wellbore, find_contacts
+from fctd.model.wellbore import build_wellbore, find_contacts
 from fctd.simulation.preparation import prepare
 from tests.cases import make_case, pipe, rotation
 
