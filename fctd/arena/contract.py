@@ -236,7 +236,7 @@ def order(trial: Trial) -> str:
         ("when it is asked alone", alone, slice(3, 4)),
     ):
         both = np.isfinite(found.penetration) & np.isfinite(first.penetration[of])
-        apart = np.abs(found.penetration - first.penetration[of])[both]
+        apart = np.abs(found.penetration[both] - first.penetration[of][both])
         allowed = (2 * (bound[of] - ROUNDING) + SAME)[both]
         if (np.isfinite(found.penetration) != np.isfinite(first.penetration[of])).any() or (apart > allowed).any():
             return f"the answer to a point is another one {words}, by up to {1e3 * apart.max(initial=0):.3g} mm"

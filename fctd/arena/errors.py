@@ -13,7 +13,7 @@ ROUNDING = 1e-6
 # Errors of mesh rings and of overlaps at the ends of a bend, over the bound of the bend.
 AT_ENDS = 1.02
 NEAR = 0.1  # a contact is looked up so far from its point along the hole [m]
-AXIAL = 3.0  # distance between rings [m] up to which the depth of a contact may be that of another section
+AXIAL = 3.0  # distance between rings [m] up to which a contact may have the depth or normal of another section
 
 
 @dataclass(frozen=True)
@@ -42,11 +42,11 @@ def errors_of(method: ContactMethod, frame: Frame, found: Contacts) -> Errors:
     bounds = {k: method.error_bound(k) for k in np.unique(frame.hole.curvatures(frame.md)).tolist()}
     both = np.array([bounds[k] for k in frame.hole.curvatures(frame.md).tolist()]).reshape(-1, 2)
     # Beside a shoe a wall may have its own slope, where the exact contact is that of a cylinder of its radius there.
-    slope = np.arctan(np.max([np.abs(_slope(frame, by)) for by in (-NEAR, 0.0, NEAR)], axis=0))
-    depth = AT_ENDS * both[:, 0] + ROUNDING + (1 - np.cos(slope)) * (frame.radii + np.abs(exact.penetration))
+    depth = AT_ENDS * both[:, 0] + ROUNDING
+    depth += (1 - np.cos(_slope(frame, NEAR))) * (frame.radii + np.abs(exact.penetration))
     offset = exact.penetration + frame.hole.radii(exact.md) - frame.radii
     # A wall that is aside by its bound turns the normal by that over the distance from the axis.
-    turn = both[:, 1] + slope + np.arcsin(np.minimum(depth / np.maximum(offset, 1e-9), 1)) + 1e-6
+    turn = both[:, 1] + _slope(frame, AXIAL) + np.arcsin(np.minimum(depth / np.maximum(offset, 1e-9), 1)) + 1e-6
     cosine = np.clip(np.sum(found.normal * exact.normal, axis=1), -1, 1)
     blank = np.where(known, 0.0, np.nan)
     return Errors(
@@ -61,7 +61,9 @@ def errors_of(method: ContactMethod, frame: Frame, found: Contacts) -> Errors:
     )
 
 
-def _slope(frame: Frame, by: float) -> Array:
-    """Change of the hole's radius along it, ``by`` metres below each point."""
-    md, step = frame.md + by, 1e-3
-    return (frame.hole.radii(md + step) - frame.hole.radii(md - step)) / (2 * step)
+def _slope(frame: Frame, within: float) -> Array:
+    """Angle (n,) [rad] of the wall to the axis, the largest so near to each point along the hole [m]."""
+    md = frame.md[:, None] + np.linspace(-within, within, 1 + 2 * round(within / NEAR))
+    step = 0.5 * NEAR
+    change = frame.hole.radii(md + step) - frame.hole.radii(md - step)
+    return np.asarray(np.arctan(np.abs(change).max(axis=1) / (2 * step)))

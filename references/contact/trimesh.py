@@ -30,5 +30,7 @@ class TriMesh(MeshMethod):
 
     def contacts(self, points: Array, radii: Array) -> Contacts:
         """See ``MeshMethod.contacts``."""
+        if not len(points):  # which the library cannot answer
+            return self.tube.contacts(points, radii, points, np.zeros(0, dtype=np.int64))
         near, _, faces = self._proximity.closest_point(self.tube.mesh, points)
         return self.tube.contacts(points, radii, np.asarray(near), np.asarray(faces))
