@@ -21,8 +21,9 @@ from fctd.case.errors import InputError
 from fctd.case.load import Case
 
 # Vertical, a build of 12°/30 m in a plane, a turn of 8°/30 m in space; the hole narrows within the build.
-STATIONS = [[0, 0, 0], [60, 0, 0], [90, 12, 0], [120, 24, 0], [150, 24, 20], [180, 24, 40], [240, 24, 40]]
-STATIONS = [[float(value) for value in row] for row in STATIONS]
+STATIONS: list[list[float]] = [
+    [0, 0, 0], [60, 0, 0], [90, 12, 0], [120, 24, 0], [150, 24, 20], [180, 24, 40], [240, 24, 40],
+]  # fmt: skip
 SHOE = 105.0  # [m]
 SIZES = [(SHOE, 0.3112), (240.0, 0.2159)]
 REGIONS = {
@@ -34,7 +35,7 @@ REGIONS = {
     "the last metre": (239.0, 240.0),
 }
 # Bends all along, nine kilometres away.
-FAR = [[0.0, 0.0, 0.0], *([1000.0 * k, 60.0, 90.0 if k % 2 else 40.0] for k in range(1, 10))]
+FAR: list[list[float]] = [[0.0, 0.0, 0.0], *([1000.0 * k, 60.0, 90.0 if k % 2 else 40.0] for k in range(1, 10))]
 COUNT = 120  # points
 SAME = 1e-9  # [m]: answers to one question
 # The cost of a point in a hole that is 37 times as long may be so many times as large before a remark is made.

@@ -30,7 +30,7 @@ class Exact:
     Options: ClassVar[type[Table]] = Options
     pieces = 1
 
-    def __init__(self, case: Case, options: Options) -> None:
+    def __init__(self, case: Case, options: Any) -> None:
         self.hole = ExactHole(case.wellbore)
 
     def query(self, points: Array, radii: Array) -> Any:
@@ -99,7 +99,7 @@ def test_a_memory_of_the_last_answer_is_found() -> None:
     class Lazy(Exact):
         """Answers points that it was asked before as then."""
 
-        def query(self, points: Array, radii: Array) -> Contacts:
+        def query(self, points: Array, radii: Array) -> Any:
             if len(getattr(self, "last", ())) != len(points):
                 self.last = super().query(points, radii).penetration
             return super().query(points, radii)._replace(penetration=self.last)
@@ -111,7 +111,7 @@ def test_what_is_written_to_the_points_is_found() -> None:
     class Careless(Exact):
         """Moves the points that it is given."""
 
-        def query(self, points: Array, radii: Array) -> Contacts:
+        def query(self, points: Array, radii: Array) -> Any:
             hits = super().query(points, radii)
             points += 1e-3
             return hits
@@ -123,7 +123,7 @@ def test_a_search_from_the_top_is_a_remark() -> None:
     class Slow(Exact):
         """Looks at each metre of the hole for each point."""
 
-        def query(self, points: Array, radii: Array) -> Contacts:
+        def query(self, points: Array, radii: Array) -> Any:
             axis = self.hole.at(np.arange(0.0, self.hole.md[1], 0.25))[0]
             for point in points:
                 np.linalg.norm(axis - point, axis=1).argmin()
@@ -138,7 +138,7 @@ def test_a_setting_that_its_own_examples_refuse() -> None:
     class Picky(Exact):
         """Refuses one of its own examples."""
 
-        def __init__(self, case: Case, options: Options) -> None:
+        def __init__(self, case: Case, options: Any) -> None:
             if options.facets > 5:
                 raise InputError("at most 5", key="facets", value=options.facets)
             super().__init__(case, options)
@@ -161,7 +161,7 @@ def test_a_package_that_is_missing_is_no_finding() -> None:
     class Missing(Exact):
         """Of a package that is not installed."""
 
-        def __init__(self, case: Case, options: Options) -> None:
+        def __init__(self, case: Case, options: Any) -> None:
             raise InputError("package embreex, which is not installed", key="contact", value="foreign")
 
     with pytest.raises(InputError, match="not installed"):

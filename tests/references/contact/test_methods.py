@@ -4,6 +4,7 @@ Cylinders, arcs, meshes and libraries are tested together here; most modules of 
 """
 
 import functools
+from typing import Any
 
 import numpy as np
 import pytest
@@ -20,15 +21,16 @@ from validation.cases import load
 CASE = bent_case()
 # Mesh methods are tested with two resolutions, to show an error that does not depend on it.
 MESHES = ("fcl", "coal", "bullet", "mujoco", "libigl", "trimesh")
-SETTINGS = [("cylinders", {}), ("cylinders", {"cylinder_length": "6 m"}), ("arcs", {}), ("for_loop", {})]
-SAMPLED_MESH = {"cell": "40 mm", "interpolation": "linear", "source": "mesh"}
+SETTINGS: list[tuple[str, dict[str, Any]]] = [("cylinders", {}), ("arcs", {}), ("for_loop", {})]
+SETTINGS += [("cylinders", {"cylinder_length": "6 m"})]
+SAMPLED_MESH: dict[str, Any] = {"cell": "40 mm", "interpolation": "linear", "source": "mesh"}
 SETTINGS += [("axis_frame", {}), ("sdf", {}), ("sdf", SAMPLED_MESH)]
 SETTINGS += [
     (name, {"facets": facets, "ring_spacing": ring}) for name in MESHES for facets, ring in ((24, 3.0), (96, 1.0))
 ]
 SETTINGS += [(name, {"query": "collide"}) for name in ("fcl", "coal")]
 SETTINGS += [(name, {"smooth_normals": True}) for name in ("libigl", "bullet")]
-FINE = {"facets": 96, "ring_spacing": 1.0}
+FINE: dict[str, Any] = {"facets": 96, "ring_spacing": 1.0}
 IDS = ["-".join([name, *(f"{value}" for value in options.values())]) for name, options in SETTINGS]
 # What is asked of each setting; the others are asked of each method, or are remarks.
 HERE = [demand for demand in DEMANDS if demand not in (far_away, options, search)]
@@ -39,7 +41,7 @@ def trials() -> dict[str, Trial]:
     return {}
 
 
-def trial_of(name: str, chosen: dict) -> Trial:
+def trial_of(name: str, chosen: dict[str, Any]) -> Trial:
     """A method in the holes of the contract; skipped, with the name of its package, where that is missing."""
     if contact.installed_version(name) is None:
         pytest.skip(f"package {absent(contact.method_class(name).distribution)}")
@@ -136,7 +138,7 @@ def test_every_class_has_the_name_of_its_registry_entry(name: str) -> None:
         ("cylinders", {"cylinder_length": "0.1 m"}, "overlap"),
     ],
 )
-def test_bad_options_are_an_input_error(name: str, options: dict, expected: str) -> None:
+def test_bad_options_are_an_input_error(name: str, options: dict[str, Any], expected: str) -> None:
     if name in contact.METHODS and contact.installed_version(name) is None:
         pytest.skip(f"package {absent(contact.method_class(name).distribution)}")
     with pytest.raises(InputError) as error:
