@@ -158,7 +158,7 @@ def units(trial: Trial) -> str:
 
 def accuracy(trial: Trial) -> str:
     """Penetration and normal within ``error_bound``, and no contact missed or false, in bends, at shoe and ends."""
-    said = []
+    said: list[str] = []
     for region in REGIONS:
         near = points(region)
         said += _off(trial.near(), near, trial.ask(trial.near(), near.places, near.radii), region)

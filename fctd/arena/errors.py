@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fctd.arena.frames import Frame
 from fctd.arena.method import ContactMethod
@@ -25,9 +26,9 @@ class Errors:
     penetration [m] and direction [rad] that the geometry of the method allows at each point.
     """
 
-    known: Array
-    missed: Array
-    false: Array
+    known: NDArray[np.bool_]
+    missed: NDArray[np.bool_]
+    false: NDArray[np.bool_]
     depth: Array
     angle: Array
     md: Array

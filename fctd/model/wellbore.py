@@ -273,9 +273,10 @@ def find_contacts(wellbore: Wellbore, points: Array, radii: Array | float) -> Co
     Raises InputError for what is no hole, for shapes that disagree, for values that are not finite, for a point beyond
     FARTHEST, and for a radius below 0 or above that of the hole.
     """
-    if not isinstance(wellbore, Wellbore):
+    given: object = wellbore
+    if not isinstance(given, Wellbore):
         expected = "the hole of a case, as build_wellbore(case) makes it"
-        raise InputError(expected, key="wellbore", value=Computed(type(wellbore).__name__))
+        raise InputError(expected, key="wellbore", value=Computed(type(given).__name__))
     points, radii = _numbers("points", points), _numbers("radii", radii)
     points = np.atleast_2d(points)
     if points.ndim != 2 or points.shape[1] != 3:

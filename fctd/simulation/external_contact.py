@@ -148,7 +148,8 @@ class QueriedWall:
         for _ in range(steps):
             feed, rate = _before(S, top, n, laws, motion, pipe, dt, self._points)
             hits = self._query(radii)
-            self._hold(*_after(S, top, n, laws, pipe, feed, rate, dt, radii, *hits, self._wall), radii, hits)
+            wrong, of = _after(S, top, n, laws, pipe, feed, rate, dt, radii, *hits, self._wall)
+            self._hold(wrong, of, radii, hits)
 
     def refresh(self, string: MovingString) -> None:
         """See ``Wall.refresh``; the answers are compared with the hole itself, as at every record."""
@@ -156,7 +157,8 @@ class QueriedWall:
         radii = self._radii(S)
         _points(S, self._segments, self._points)
         hits = self._query(radii)
-        self._hold(*_store(S, self._segments, radii, *hits, self._wall), radii, hits)
+        wrong, of = _store(S, self._segments, radii, *hits, self._wall)
+        self._hold(wrong, of, radii, hits)
         self._compare(radii, hits)
 
     def _radii(self, S: Array) -> Array:
