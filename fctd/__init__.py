@@ -59,12 +59,12 @@ if TYPE_CHECKING:  # what ``offer`` reads
         run_sweep as run_sweep,
         run_uncertainty as run_uncertainty,
     )
+    from fctd.arrays import Contacts as Contacts
     from fctd.calibration.calibrate import predict as predict
     from fctd.case.errors import InputError as InputError
     from fctd.case.load import Case as Case, load_case as load_case
     from fctd.model.first_case import new_case as new_case
     from fctd.model.wellbore import (
-        Contacts as Contacts,
         Wellbore as Wellbore,
         build_wellbore as build_wellbore,
         find_contacts as find_contacts,

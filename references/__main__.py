@@ -6,6 +6,7 @@ from typing import Annotated, Any
 import typer
 from rich.table import Table
 
+from fctd.arena.contract import examine
 from fctd.case.errors import InputError
 from fctd.case.load import Case, load_case
 from fctd.case.raw_case import parse_override
@@ -15,7 +16,7 @@ from fctd.cli.options import CaseFile, Csv, Friction, Out, Overrides, Quiet, cha
 from fctd.cli.simulate import RunOutput, simulate_file
 from fctd.store.run_folder import about_of
 from references import contact, engines
-from references.contact import ContactMethod, build, frames
+from references.contact import REGISTRY, ContactMethod, build, frames
 from references.registry import absent, label
 
 PROGRAM = "python -m references simulate"
@@ -112,6 +113,27 @@ def engine_command(
     for row in run.checks.itertuples():
         screen.print(f"  {'passed' if row.passed else 'FAILED'}  {row.check}: {row.value:.3g} (at most {row.bound:g})")
     if run.status != "valid":
+        raise typer.Exit(1)
+
+
+@app.command("check")
+def check_command(
+    methods: Annotated[list[str], typer.Argument(metavar="METHOD...", help="Methods of 'list', plugins among them.")],
+    options: Annotated[
+        list[str], typer.Option("--option", metavar="KEY=VALUE", help="An option of the methods, e.g. facets=96.")
+    ] = [],  # noqa: B006 (typer copies it)
+) -> None:
+    """Hold contact methods to their contract: what is wrong, and what to do. Exit code 1 where one breaks it."""
+    broken = False
+    for name in methods:
+        method = contact.method_class(name)
+        table = Table("demand", "", "what is wrong", title=name, title_justify="left")
+        for found in examine(method, REGISTRY.options(name, _chosen(options)).model_dump(exclude_unset=True)):
+            word = "remark" if found.remark else "BROKEN"
+            table.add_row(found.demand, word if found.says else "kept", found.says)
+            broken = broken or not found.kept
+        screen.print(table)
+    if broken:
         raise typer.Exit(1)
 
 

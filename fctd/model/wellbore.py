@@ -3,13 +3,12 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.arrays import Array
-from fctd.case.errors import InputError
+from fctd.arrays import Array, Contacts
+from fctd.case.errors import Computed, InputError
 from fctd.case.hole import WellboreSpec
 from fctd.case.load import Case, naming_file
 from fctd.case.message import quantity
@@ -48,17 +47,6 @@ FARTHEST = 1e7
 # Largest turn [rad] and smallest distance [m] between two rows of ``bends``; the chord of a small turn θ has the
 # curvature of its arc within θ²/24.
 SMALL_TURN, APART = 0.02, 1e-3
-
-
-class Contacts(NamedTuple):
-    """Result of a contact query, one row per point.
-
-    penetration (n,) [m], negative is clearance; normal (n, 3) from the hole axis to the wall; md (n,) [m].
-    """
-
-    penetration: Array
-    normal: Array
-    md: Array
 
 
 @dataclass(frozen=True)
@@ -282,16 +270,37 @@ def find_contacts(wellbore: Wellbore, points: Array, radii: Array | float) -> Co
     """Penetration, normal and measured depth of points in a hole (§4.2–4.4).
 
     points : (n, 3) north, east, down [m]; radii : (n,) or one, contact radius of the string [m].
-    Raises ValueError when shapes disagree or a value is not finite, and InputError for a point beyond FARTHEST.
+    Raises InputError for what is no hole, for shapes that disagree, for values that are not finite, for a point beyond
+    FARTHEST, and for a radius below 0 or above that of the hole.
     """
-    points = np.atleast_2d(np.asarray(points, dtype=float))
-    radii = np.broadcast_to(np.asarray(radii, dtype=float), points.shape[:1])
-    if points.shape[1] != 3 or not np.all(np.isfinite(points)) or not np.all(np.isfinite(radii)):
-        raise ValueError("points must be finite, shape (n, 3), and radii finite, shape (n,)")
-    for k, axis in np.argwhere(np.abs(points) > FARTHEST)[:1].tolist():
+    given: object = wellbore
+    if not isinstance(given, Wellbore):
+        expected = "the hole of a case, as build_wellbore(case) makes it"
+        raise InputError(expected, key="wellbore", value=Computed(type(given).__name__))
+    points, radii = _numbers("points", points), _numbers("radii", radii)
+    points = np.atleast_2d(points)
+    if points.ndim != 2 or points.shape[1] != 3:
+        raise InputError("three numbers a point, (n, 3)", key="points", value=Computed(str(points.shape)))
+    if radii.shape not in ((), points.shape[:1]):
+        expected = f"one radius, or one for each of {len(points)} points"
+        raise InputError(expected, key="radii", value=Computed(str(radii.shape)))
+    radii = np.broadcast_to(radii, points.shape[:1])
+    for k, axis in np.argwhere(~(np.abs(points) <= FARTHEST))[:1].tolist():
         expected = f"a point within {quantity(FARTHEST, 'm')} of the origin, north, east and down"
         raise InputError(expected, key=f"points[{k}][{axis}]", value=float(points[k, axis]))
+    widest = float(wellbore.wall_along()[:, RADIUS].max())
+    for k in np.flatnonzero(~((radii >= 0) & (radii <= widest)))[:1].tolist():
+        expected = f"a contact radius in metres, from 0 to the {quantity(widest, 'm', '.4g')} of the hole"
+        raise InputError(expected, key=f"radii[{k}]", value=float(radii[k]))
     return wellbore.contacts(points, radii)
+
+
+def _numbers(key: str, given: Array | float) -> Array:
+    """Numbers as an array; InputError for what is none."""
+    try:
+        return np.asarray(given, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError("numbers in metres", key=key, value=Computed(type(given).__name__)) from None
 
 
 def build_wellbore(case: Case) -> Wellbore:

@@ -4,12 +4,10 @@ A method is built for the hole of a case and queried with points.  All methods s
 engine's loop and the studies can swap them; the settings of a method are its ``Options``.
 """
 
-from typing import Any, ClassVar, Protocol
+from typing import Any
 
-from fctd.arrays import Array
-from fctd.case.errors import Table
+from fctd.arena.method import ContactMethod as ContactMethod
 from fctd.case.load import Case
-from fctd.model.wellbore import Contacts
 from references.registry import Registry
 
 METHODS: dict[str, str] = {
@@ -25,35 +23,6 @@ METHODS: dict[str, str] = {
     "libigl": "references.contact.libigl:LibIgl",
     "trimesh": "references.contact.trimesh:TriMesh",
 }
-
-
-class ContactMethod(Protocol):
-    """A way to find where points of given radius touch the wall.
-
-    name : its key in METHODS.  distribution : the package that provides it.  does : one line for users.
-    gives_clearance : whether a penetration below 0 is the true clearance; otherwise it is −inf, and normal and
-    md are nan.
-    """
-
-    name: str
-    distribution: ClassVar[str]
-    does: ClassVar[str]
-    gives_clearance: bool
-    Options: ClassVar[type[Table]]
-
-    def __init__(self, case: Case, options: Any) -> None:
-        """Prepare the method for the hole of ``case``; InputError where the hole or an option is not possible."""
-
-    def query(self, points: Array, radii: Array) -> Contacts:
-        """Contacts of points (n, 3) [m] with contact radii (n,) [m]; see ``fctd.model.wellbore.Contacts``."""
-
-    @property
-    def pieces(self) -> int:
-        """Number of cylinders, arcs or triangles that represent the hole."""
-
-    def error_bound(self, curvature: float) -> tuple[float, float]:
-        """Largest error of penetration [m] and of the normal's direction [rad] in a bend of this curvature
-        [1/m], from the geometry alone."""
 
 
 REGISTRY: Registry[ContactMethod] = Registry(

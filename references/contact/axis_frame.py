@@ -10,11 +10,11 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.arrays import Array
+from fctd.arrays import Array, Contacts
 from fctd.case import units
 from fctd.case.errors import Table
 from fctd.case.load import Case
-from fctd.model.wellbore import Contacts, build_wellbore
+from fctd.model.wellbore import build_wellbore
 
 
 class AxisFrameOptions(Table):
@@ -56,7 +56,10 @@ class AxisFrame:
         """Tie points, by their numbers, to the sections of the hole in which they lie now."""
         md = self.hole.walls(points[which]).md
         self._md[which] = md
-        self._centre[which], self._tangent[which] = self.hole.at(np.clip(md, self.hole.md[0], self.hole.md[-1]))
+        inside = np.clip(md, self.hole.md[0], self.hole.md[-1])
+        centre, self._tangent[which] = self.hole.at(inside)
+        # Beyond its ends the hole goes on straight: a string that stretches past them has its sections there.
+        self._centre[which] = centre + (md - inside)[:, None] * self._tangent[which]
 
     def _along(self, points: Array) -> Array:
         """Way along the hole (n,) [m] of each point from its section."""

@@ -9,9 +9,8 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.arrays import Array
+from fctd.arrays import Array, Contacts
 from fctd.case.load import Case
-from fctd.model.wellbore import Contacts
 from references.contact.tube_mesh import MeshMethod, Tube, TubeOptions, build_tube
 
 CHUNK = 100.0  # length of hole about one origin [m]

@@ -9,9 +9,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from fctd.arrays import Array
+from fctd.arrays import Array, Contacts
 from fctd.case.load import Case
-from fctd.model.wellbore import Contacts
 from references.contact import need
 from references.contact.fcl import MOST_CONTACTS, POINT, SphereMethod, SphereOptions
 from references.contact.tube_mesh import Tube

@@ -10,10 +10,9 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.arrays import Array
+from fctd.arrays import Array, Contacts
 from fctd.case.errors import Table
 from fctd.case.load import Case
-from fctd.model.wellbore import Contacts
 from references.contact import need
 from references.contact.tube_mesh import MeshMethod, Tube, TubeOptions, build_tube
 

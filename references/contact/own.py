@@ -5,7 +5,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from numba import njit
 
-from fctd.arrays import Array
+from fctd.arrays import Array, Contacts
 from fctd.case import units
 from fctd.case.errors import Table
 from fctd.case.hole import WellboreSpec
@@ -14,7 +14,7 @@ from fctd.case.raw_case import checked
 from fctd.mechanics import contact
 from fctd.mechanics.state import ARCS
 from fctd.model.pieces import RADIUS
-from fctd.model.wellbore import Contacts, Wellbore, build_wellbore
+from fctd.model.wellbore import Wellbore, build_wellbore
 from references.contact.for_loop import for_loop_owner
 
 

@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 from scipy.ndimage import spline_filter
 from scipy.spatial import cKDTree
 
-from fctd.arrays import Array
+from fctd.arrays import Array, Contacts
 from fctd.case import units
 from fctd.case.errors import InputError, Table
 from fctd.case.load import Case
 from fctd.model.pieces import RUN_OUT
 from fctd.model.section import contact_radii
-from fctd.model.wellbore import Contacts, build_wellbore
+from fctd.model.wellbore import build_wellbore
 from references.contact.libigl import LibIgl
 from references.contact.tube_mesh import TubeOptions, ring_frames
 

@@ -4,10 +4,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from fctd.arrays import Array
+from fctd.arrays import Array, Contacts
 from fctd.case.errors import Table
 from fctd.case.load import Case
-from fctd.model.wellbore import Contacts
 from references.contact import need
 from references.contact.tube_mesh import MeshMethod, TubeOptions, build_tube
 from references.registry import import_optional
@@ -31,5 +30,7 @@ class TriMesh(MeshMethod):
 
     def contacts(self, points: Array, radii: Array) -> Contacts:
         """See ``MeshMethod.contacts``."""
+        if not len(points):  # which the library cannot answer
+            return self.tube.contacts(points, radii, points, np.zeros(0, dtype=np.int64))
         near, _, faces = self._proximity.closest_point(self.tube.mesh, points)
         return self.tube.contacts(points, radii, np.asarray(near), np.asarray(faces))

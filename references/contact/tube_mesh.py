@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from fctd.arrays import Array
+from fctd.arrays import Array, Contacts
 from fctd.case import units
 from fctd.case.errors import InputError, Table
 from fctd.case.load import Case
 from fctd.model.pieces import RUN_OUT, TO_MD
-from fctd.model.wellbore import Contacts, Wellbore, build_wellbore
+from fctd.model.wellbore import Wellbore, build_wellbore
 from references.registry import import_optional
 
 MOST_TRIANGLES = 20_000_000

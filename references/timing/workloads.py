@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 from numba import njit
 
-from fctd.arrays import Array
+from fctd.arrays import Array, Contacts
 from fctd.case.load import Case
 from fctd.mechanics import state
 from fctd.mechanics.dynamics import padded_columns
@@ -21,7 +21,6 @@ from fctd.mechanics.moving_string import STILL
 from fctd.mechanics.query import WALL_COLUMNS, query_walls
 from fctd.mechanics.stored_walls import update_walls
 from fctd.mechanics.topdrive import Motion
-from fctd.model.wellbore import Contacts
 from fctd.results import ledger
 from fctd.simulation.external_contact import QueriedWall
 from fctd.simulation.preparation import contact_points, prepare

@@ -11,7 +11,7 @@ from fctd.mechanics import contact
 from fctd.model.frames import hole_frame
 from fctd.model.wellbore import Wellbore
 from references.contact.for_loop import for_loop_owners
-from tests.cases import hole_of
+from tests.cases import hole_of, make_case
 
 
 def points_near(hole: Wellbore, count: int, seed: int, reach: float = 0.15) -> tuple[np.ndarray, np.ndarray]:
@@ -202,14 +202,25 @@ def test_for_loop_agrees_below_ninety_degrees_and_errs_beyond() -> None:
 @pytest.mark.parametrize(
     ("points", "radii", "message"),
     [
-        ([[0, 0, np.nan]], 0.1, "points must be finite"),
-        ([[0, 0]], 0.1, "points must be finite, shape"),
-        ([[[0, 0, 5]]], 0.1, "points must be finite, shape"),
-        ([[0, 0, 5]], np.inf, "radii finite"),
-        ([[0, 0, 5], [0, 0, 6]], [0.1, np.inf], "radii finite"),
-        ([[0, 0, 5]], [0.1, 0.2], "broadcast"),
+        ([[0, 0, np.nan]], 0.1, "points[0][2] = nan: expected a point within 1e+07 m"),
+        ([[0, 0]], 0.1, "points = (1, 2): expected three numbers a point, (n, 3)"),
+        ([[[0, 0, 5]]], 0.1, "points = (1, 1, 3): expected three numbers"),
+        ("a point", 0.1, "points = str: expected numbers in metres"),
+        ([[0, 0, 5]], np.inf, "radii[0] = inf: expected a contact radius in metres, from 0 to the 0.108 m"),
+        ([[0, 0, 5], [0, 0, 6]], [0.1, np.nan], "radii[1] = nan"),
+        ([[0, 0, 5]], 84.0, "radii[0] = 84.0: expected a contact radius in metres, from 0 to the 0.108 m of the hole"),
+        ([[0, 0, 5]], -0.084, "radii[0] = -0.084"),
+        ([[0, 0, 5]], [0.1, 0.2], "radii = (2,): expected one radius, or one for each of 1 points"),
     ],
 )
 def test_bad_queries_are_refused(points: list, radii: float | list[float], message: str) -> None:
-    with pytest.raises(ValueError, match=message):
-        find_contacts(hole_of([[0, 0, 0], [100, 0, 0]]), np.array(points), radii)
+    with pytest.raises(InputError) as caught:
+        find_contacts(hole_of([[0, 0, 0], [100, 0, 0]]), points, radii)
+    assert message in str(caught.value)
+
+
+def test_a_case_is_no_hole() -> None:
+    case = make_case([[0, 0, 0], [100, 0, 0]])
+    for wrong, named in ((case, "Case"), ("my_well.toml", "str")):
+        with pytest.raises(InputError, match=f"wellbore = {named}: expected the hole of a case, as build_wellbore"):
+            find_contacts(wrong, [[0, 0, 5]], 0.1)

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from fctd import Case, InputError, simulate
-from fctd.arrays import Array
+from fctd.arrays import Array, Contacts
 from fctd.mechanics import state
-from fctd.model.wellbore import Contacts, build_wellbore, find_contacts
+from fctd.model.wellbore import build_wellbore, find_contacts
 from fctd.simulation.preparation import prepare
 from tests.cases import make_case, pipe, rotation
 
@@ -43,20 +43,57 @@ class Faulty:
         return self.spoil(hits) if self.asked > self.after else hits
 
 
-def test_a_method_with_a_fault_stops_the_run_and_keeps_its_rows() -> None:
-    case = turning()
+def part_way(spoiled: Array, other: float | Array) -> Array:
+    """The values of a method of which one in two is another."""
+    found = spoiled.copy()
+    found[::2] = other
+    return found
 
-    nowhere = Faulty(case, lambda hits: hits._replace(normal=np.full_like(hits.normal, np.nan)), after=1000)
-    result = simulate(case, contact=nowhere)
+
+FAULTS = {
+    "a penetration that is not a number": lambda hits: hits._replace(penetration=part_way(hits.penetration, np.nan)),
+    "a penetration that is larger than": lambda hits: hits._replace(penetration=1e3 * hits.penetration),
+    "normal is no unit vector": lambda hits: hits._replace(normal=np.full_like(hits.normal, np.nan)),
+    "normal is no unit vector,": lambda hits: hits._replace(normal=1.1 * hits.normal),
+    "depth along the hole is not a number": lambda hits: hits._replace(md=np.full_like(hits.md, np.nan)),
+    "normals that point into the hole at": lambda hits: hits._replace(normal=-hits.normal),
+    "deep in the wall": lambda hits: hits._replace(penetration=np.full_like(hits.penetration, -np.inf)),
+}
+
+
+@pytest.mark.parametrize("says", FAULTS)
+def test_a_method_with_a_fault_stops_the_run_and_keeps_its_rows(says: str) -> None:
+    """Whatever is wrong with its answers, the run is not completed, and the message names the method."""
+    case = turning()
+    # Long enough for a string without a wall to leave a hole of 24 cm, half a metre of fall.
+    case = case.model_copy(update={"operations": make_case(operations=[rotation(500, 6, ramp=1)]).operations})
+    result = simulate(case, contact=Faulty(case, FAULTS[says], after=1200))
     assert result.status == "unstable"
-    assert "not finite" in result.message
+    assert "contact method 'faulty'" in result.message
+    assert says.rstrip(",") in result.message
     assert len(result.history) > 0
 
 
-def test_contacts_of_the_wrong_shape_are_an_error() -> None:
+@pytest.mark.parametrize(
+    "spoil",
+    [lambda hits: hits._replace(md=hits.md[:-1]), lambda hits: hits[:2], lambda _: None, lambda _: (["a"], [], [])],
+)
+def test_what_are_no_contacts_is_an_error(spoil: Callable[[Contacts], Contacts]) -> None:
     case = turning()
-    with pytest.raises(ValueError, match=r"faulty.*25 points"):
-        simulate(case, contact=Faulty(case, lambda hits: hits._replace(md=hits.md[:-1])))
+    with pytest.raises(InputError, match=r"expected penetration \(25,\), .* from contact method 'faulty'"):
+        simulate(case, contact=Faulty(case, spoil))
+
+
+def test_lists_are_contacts_too() -> None:
+    case = turning()
+    as_lists = Faulty(case, lambda hits: Contacts(*(part.tolist() for part in hits)), after=0)
+    found, expected = simulate(case, contact=as_lists), simulate(case, contact=Faulty(case, lambda hits: hits))
+    assert found.history["hookload_N"].to_list() == expected.history["hookload_N"].to_list()
+
+
+def test_a_name_is_no_method() -> None:
+    with pytest.raises(InputError, match='contact = "fcl": expected an object with name and query'):
+        simulate(turning(), contact="fcl")  # type: ignore[arg-type]
 
 
 def test_no_wall_and_another_contact_method_exclude_each_other() -> None:

@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
+from fctd.arrays import Contacts
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.faults import UnstableError
-from fctd.model.wellbore import Contacts, Wellbore, find_contacts
+from fctd.model.wellbore import Wellbore, find_contacts
 from fctd.simulation import settling
 from fctd.simulation.preparation import prepare
 from fctd.simulation.run import Run

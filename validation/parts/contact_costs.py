@@ -7,8 +7,7 @@ from unittest import mock
 import numpy as np
 import pandas as pd
 
-from fctd.arrays import Array
-from fctd.model.wellbore import Contacts
+from fctd.arrays import Array, Contacts
 from references.contact import ContactMethod
 from references.contact.tube_mesh import MeshMethod, Tube
 from references.timing.stopwatch import Action, race

@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 
 from fctd import Case, InputError, build_wellbore
+from fctd.arena.method import settings_of
 from references import contact
 from references.contact import ContactMethod
 from validation.parts.methods import TOO_SLOW
@@ -22,10 +23,14 @@ DRIFTS = (2.0, 1.0, 0.25)
 def settings(name: str, quick: bool) -> Iterator[dict[str, Any]]:
     """Options of a method, from coarse to fine: quick, one of them.
 
-    Of a method of another kind, the ``examples`` of each of its options.
+    Of a plugin, the settings that it states; what its options are called means nothing.
     """
-    keys = contact.method_class(name).Options.model_fields
-    if "cell" in keys:
+    method = contact.method_class(name)
+    keys = method.Options.model_fields
+    if name in contact.REGISTRY.plugins():
+        tried = list(settings_of(method))
+        yield from (tried[len(tried) // 2 :][:1] if quick else tried)
+    elif "cell" in keys:
         yield from ({"cell": cell} for cell in (CELLS[:1] if quick else CELLS))
         if not quick:
             yield from ({"cell": cell, "interpolation": "linear"} for cell in CELLS[::2])
@@ -40,12 +45,13 @@ def settings(name: str, quick: bool) -> Iterator[dict[str, Any]]:
         lengths = LENGTHS[2:3] if quick else LENGTHS
         yield from ({"cylinder_length": length, "overlap": min(0.2, 0.5 * length)} for length in lengths)
     else:
-        tried = [{key: value} for key, field in keys.items() for value in field.examples or ()] or [{}]
-        yield from (tried[len(tried) // 2 :][:1] if quick else tried)
+        yield {}
 
 
 def label(name: str, options: Mapping[str, Any]) -> str:
     """The name of a setting in tables and figures."""
+    if name in contact.REGISTRY.plugins():
+        return ", ".join([name, *(f"{key} {value}" for key, value in options.items())])
     if "cell" in options:
         kind = ", linear" if options.get("interpolation") == "linear" else ""
         return f"{name}, {1e3 * options['cell']:g} mm{kind}"

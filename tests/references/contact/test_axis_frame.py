@@ -34,3 +34,17 @@ def test_a_node_beyond_its_drift_is_found_anew() -> None:
     method.query(hole.off_axis(np.array([70.0, 100.0]), angle, offset), radii)
     moved = hole.off_axis(np.array([70.5, 101.5]), angle, offset)
     np.testing.assert_allclose(method.query(moved, radii).md, [70.0, 101.5], atol=1e-6)
+
+
+def test_a_node_past_the_end_of_the_hole_keeps_its_section(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A string with its bit at the end stretches beyond it; its last node was searched anew at each step."""
+    case = bent_case()
+    hole, method, radii = build_wellbore(case), contact.build("axis_frame", case), np.full(1, RADIUS)
+    end, along = (part[0] for part in hole.at(np.array([hole.total_depth])))
+    aside = np.cross(along, [0.0, 0.0, 1.0])
+    point = (end + 2.0 * along + (HOLE - RADIUS + 0.004) * aside / np.linalg.norm(aside))[None]
+    found = method.query(point, radii)
+    np.testing.assert_allclose(found.penetration, 0.004, atol=1e-9)
+    np.testing.assert_allclose(found.md, hole.total_depth + 2.0, atol=1e-6)
+    monkeypatch.setattr(hole.__class__, "walls", None)  # which the search asks
+    np.testing.assert_array_equal(method.query(point, radii).penetration, found.penetration)

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from fctd.model.wellbore import Contacts
+from fctd.arrays import Contacts
 from references import contact
 from validation.parts.contact_costs import BATCHES, OWN, Points, batches, crossover, pareto, wrapper_time
 from validation.parts.wall_points import RADIUS, points_in, the_case

@@ -8,6 +8,7 @@ from pydantic import Field
 from fctd.case import units
 from fctd.case.errors import Table
 from references import contact
+from references.registry import Registry
 from validation.parts.contact_settings import label, settings
 
 
@@ -18,12 +19,32 @@ class Options(Table):
     exact: bool = False
 
 
+class NamedAsOthers(Table):
+    """Options whose names are those of meshes and grids, and mean something else."""
+
+    facets: Annotated[int, Field(examples=[8, 16])] = 8
+    cell: bool = False
+
+
 class NearestPoint:
     Options = Options
 
 
-def test_examples_of_an_option_are_tried_from_coarse_to_fine(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(contact, "method_class", lambda name: NearestPoint)
+@pytest.fixture(autouse=True)
+def plugin(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Registry, "plugins", lambda self: {"nearest_point": None})
+    monkeypatch.setattr(
+        contact, "method_class", lambda name: NearestPoint if name == "nearest_point" else contact.REGISTRY.find(name)
+    )
+
+
+def test_what_an_option_of_a_plugin_is_called_means_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(NearestPoint, "Options", NamedAsOthers)
+    tried = list(settings("nearest_point", quick=False))
+    assert [label("nearest_point", one) for one in tried] == ["nearest_point, facets 8", "nearest_point, facets 16"]
+
+
+def test_examples_of_an_option_are_tried_from_coarse_to_fine() -> None:
     tried = list(settings("nearest_point", quick=False))
     assert [label("nearest_point", one) for one in tried] == [f"nearest_point, spacing {s}" for s in (4.0, 1.0, 0.25)]
     assert list(settings("nearest_point", quick=True)) == [{"spacing": 1.0}]
