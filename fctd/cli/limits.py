@@ -111,8 +111,10 @@ def _print(job: Job, table: "pd.DataFrame") -> None:
         at = f"{operation} at {span} {metre.label} ({len(of)} of {table['bit_depth_m'].nunique()})"
         what = "" if limit == "none" else f", {limit}"
         job.say(f"{at}{what}: {told(of['reason'].iloc[0], units)}")
-    for operation, of in table.drop_duplicates(["operation", "bit_depth_m"]).groupby("operation", sort=False):
-        for line in noted(rows_of(of), metre.factor, metre.label):
+    strings = rows_of(table.drop_duplicates(["operation", "bit_depth_m"]))
+    for operation in table["operation"].unique():
+        of_one = [row for row in strings if row["operation"] == operation]
+        for line in noted(of_one, metre.factor, metre.label):
             messages.print(f"{operation}: {told(line, units)}", soft_wrap=True)
 
 
