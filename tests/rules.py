@@ -198,6 +198,7 @@ COMBINED: list[tuple[dict[str, Any], str, Any, str]] = [
     ),
     ({"mud.float": True, "bit.end": "open"}, "bit.end", "open", '"float", or mud.float = false'),
     ({"mud.packer_bore": 0.1, "bit.end": "closed"}, "bit.end", "closed", '"open" beside mud.packer_bore'),
+    ({"mud.packer_bore": 0.1, "operations[0].flow": 0.02}, "operations[0].flow", 0.02, "0 beside mud.packer_bore"),
     ({"bit.nozzles": ["12/32 in", 12]}, "bit.nozzles[1]", 12, "12 looks like '12/32 in' or '12 mm'"),
     ({"record.profile_at": ["1 s"]}, "record.profile_at[0]", "1 s", "a length such as"),
     ({"string.top_md": "1 km"}, "operations[0].from_md", "1000 m", "a depth below string.top_md, 1000 m"),

@@ -142,6 +142,9 @@ class Case(Table):
         pumping = [i for i, operation in enumerate(self.operations) if operation.flow]
         if pumping and self.end == "closed":
             raise InputError("0 with bit.end closed", key=f"operations[{pumping[0]}].flow")
+        if pumping and self.mud.packer_bore is not None:
+            expected = "0 beside mud.packer_bore, as no mud returns past the packer"
+            raise InputError(expected, key=f"operations[{pumping[0]}].flow")
         if self.mud.packer_bore is not None and self.end != "open":
             raise InputError('"open" beside mud.packer_bore', key="bit.end", value=self.end)
         self._check_fittings()

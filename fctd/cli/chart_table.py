@@ -105,14 +105,18 @@ def exceptions(rows: list[Row], factor: float, label: str) -> list[Message]:
         for status, where in _runs([row["status"] for row in rows], depths, label)
         if status != SteadyStatus.CONVERGED
     ]
-    for code, meaning in MEANINGS.items():
-        noted = [code in row["notes"].split(", ") for row in rows]
-        lines += [
-            Message(f"note {code} at {where}: {meaning.headline}: {meaning.remedy}")
-            for has, where in _runs(noted, depths, label)
-            if has
-        ]
-    return lines
+    return [*lines, *noted(rows, factor, label)]
+
+
+def noted(rows: list[Row], factor: float, label: str) -> list[Message]:
+    """The runs of rows of one series that have the same note, a line each."""
+    depths = [row["bit_depth_m"] * factor for row in rows]
+    return [
+        Message(f"note {code} at {where}: {meaning.headline}: {meaning.remedy}")
+        for code, meaning in MEANINGS.items()
+        for has, where in _runs([code in row["notes"].split(", ") for row in rows], depths, label)
+        if has
+    ]
 
 
 def _runs(values: Sequence[Any], depths: Sequence[float], label: str) -> Iterator[tuple[Any, str]]:

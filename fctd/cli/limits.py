@@ -8,8 +8,9 @@ import numpy as np
 
 from fctd.case.systems import told
 from fctd.case.text import printable
+from fctd.cli.chart_table import noted
 from fctd.cli.job import WHOLE, Depths, Job, print_table, right, rows_of
-from fctd.cli.options import CaseFile, Friction, Overrides, Quiet, Strict, Units, screen
+from fctd.cli.options import CaseFile, Friction, Overrides, Quiet, Strict, Units, messages, screen
 from fctd.cli.quantities import TO_TOTAL_DEPTH
 from fctd.cli.steady import (
     Flow,
@@ -78,7 +79,7 @@ def limits_command(
     job.end(
         {"--out": table}, lambda: _print(job, table), rates=(kinds, drive | pumps),
         more={"stuck_at_m": stuck, "limits": meanings}, acceptable=bool((table["margin"] != "none").all()),
-        codes=_beyond(table),
+        notes=table["notes"], codes=_beyond(table),
     )  # fmt: skip
 
 
@@ -110,6 +111,11 @@ def _print(job: Job, table: "pd.DataFrame") -> None:
         at = f"{operation} at {span} {metre.label} ({len(of)} of {table['bit_depth_m'].nunique()})"
         what = "" if limit == "none" else f", {limit}"
         job.say(f"{at}{what}: {told(of['reason'].iloc[0], units)}")
+    strings = rows_of(table.drop_duplicates(["operation", "bit_depth_m"]))
+    for operation in table["operation"].unique():
+        of_one = [row for row in strings if row["operation"] == operation]
+        for line in noted(of_one, metre.factor, metre.label):
+            messages.print(f"{operation}: {told(line, units)}", soft_wrap=True)
 
 
 def _print_margin(of: "pd.DataFrame", columns: Sequence[str], units: System) -> None:

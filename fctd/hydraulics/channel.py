@@ -43,8 +43,9 @@ class Channel:
     of pipe and hole [m], eccentricity, yield stress, consistency, index and density of the mud; bore : rows of radius,
     yield stress, consistency, index and density; tools : pressure drop over the square of the flow [Pa s²/m⁶];
     nozzles : their area, infinite where the case gives none [m²], and what their drop is over that of an ideal flow;
-    end : of the string, "open", "closed" or "float", which lets mud out alone, or "plugged"; of mud at rest heavier :
-    by how much the pressure outside is larger at the end, surface : the pressure inside at the surface [Pa].
+    end : of the string, "open", "closed" or "float", which lets mud out alone, "plugged", or "packed", which is open
+    below a packer; of mud at rest heavier : by how much the pressure outside is larger at the end, surface : the
+    pressure inside at the surface [Pa].
     """
 
     above: Array
@@ -89,12 +90,14 @@ class Channel:
     def out_of_bit(self, flow: float, speed: float, end: str) -> float:
         """Flow out of the bit [m³/s] while mud is pumped, or displaced at a speed downwards [m/s].
 
-        Raises InputError for a flow through a closed end.
+        Raises InputError for a flow through a closed end, or below a packer.
         """
         if flow > 0 and end == "closed":
             raise InputError('"open" or "float" with a flow through it', key="bit.end", value=end)
         if flow > 0 and end == "plugged":
             raise InputError("false with a flow through the string", key="mud.inside.plug", value=True)
+        if flow > 0 and end == "packed":
+            raise InputError("left out with a flow, as no mud returns past the packer", key="mud.packer_bore")
         if flow > 0 or speed == 0 or end in ("closed", "plugged") or (end == "float" and speed > 0):
             return flow
         held = self.held(end)
@@ -196,12 +199,12 @@ def channel_of(case: Case, string: String, hole: Wellbore, eccentricity: float |
     bladed = (string.of("point") != 0) & (string.of("tool_joint") == 0) & (outer > BLADED * wide)
     wet = np.where(bladed, 0.0, np.clip(bottom, 0.0, length))
     around = (np.minimum(outer, FULLEST * wide), wide, eccentricity, *outside, densities[1])
-    within = (inner, *inside, densities[0])
+    within, packed = (inner, *inside, densities[0]), case.mud.packer_bore is not None
     return Channel(
         string.above_bit, length, wet, _table(n, around), _table(n, within),
         _tools(string, densities[0]), (case.bit.nozzle_area or np.inf, case.bit.discharge**-2),
-        "plugged" if any(row.plug for row in case.mud.inside) else case.end,
-        _heavier(string, hole, case.mud.packer_bore is not None),
+        "plugged" if any(row.plug for row in case.mud.inside) else "packed" if packed else case.end,
+        _heavier(string, hole, packed),
         0.0 if string.fluids is None else string.fluids.inside.surface,
     )  # fmt: skip
 

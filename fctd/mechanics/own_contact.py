@@ -37,9 +37,18 @@ GAP = 1e-4  # [m]
 
 
 @inlined
+def has_bows(S, j):
+    """Whether bow springs touch at contact point j; a wall does not lean for them, which may press where it does not.
+
+    Between two cylinders a wall leans as far as the string is deep in it, and in narrow hole bows always are.
+    """
+    return S[BOW_STIFFNESS + j] != 0
+
+
+@inlined
 def has_own_contact(S, j):
     """Whether contact point j is that of such a fitting."""
-    return S[OWN_FRICTION + j] != 0 or S[BOW_STIFFNESS + j] != 0
+    return S[OWN_FRICTION + j] != 0 or has_bows(S, j)
 
 
 @inlined
@@ -47,7 +56,7 @@ def store_own_contact(S, j):
     """Change the wall that is stored beside contact point j to what its fitting has."""
     if S[OWN_FRICTION + j] != 0:
         S[FRICTION + j] = S[FRICTION_AROUND + j] = S[OWN_FRICTION + j]
-    if S[BOW_STIFFNESS + j] != 0:
+    if has_bows(S, j):
         S[BARE_HOLE + j] = S[HOLE + j]
         S[HOLE + j] = max(S[HOLE + j], S[RADIUS + j] + GAP)
         S[K_WALL + j] = S[BOW_STIFFNESS + j]
@@ -55,7 +64,7 @@ def store_own_contact(S, j):
 
 def radius_of(bows, S, j, penetration):
     """Distance from the axis of body j to the place of the wall that it touches [m]; bows : of ``Laws``."""
-    if S[BOW_STIFFNESS + j] != 0:
+    if has_bows(S, j):
         return S[BARE_HOLE + j] - (penetration + S[HOLE + j] - S[RADIUS + j])
     return S[RADIUS + j]
 

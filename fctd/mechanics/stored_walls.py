@@ -32,7 +32,7 @@ from fctd.mechanics.contact import (
 from fctd.mechanics.dual import root
 from fctd.mechanics.jit import entry, inlined, kernel
 from fctd.mechanics.joints import cross
-from fctd.mechanics.own_contact import has_own_contact, store_own_contact
+from fctd.mechanics.own_contact import has_bows, has_own_contact, store_own_contact
 from fctd.mechanics.sampled import AROUND_CELLS, sampled_wall
 from fctd.mechanics.state import (
     ARCS,
@@ -105,7 +105,7 @@ def store_cylinder(S, j, C, i, x, y, z):
     px, py, pz, hole, stiffness, friction, _, around = cylinder_wall(C, i, x, y, z)
     store_wall(S, j, px, py, pz, hole, stiffness, friction, around)
     alone = distance_along(C, i, x, y, z) <= C[i, ALONE_TO]
-    if not alone:
+    if not alone and not has_bows(S, j):
         lean_wall(S, j, *rise_in_overlap(C, i, x, y, z, S[RADIUS + j]))
     return alone
 

@@ -30,7 +30,7 @@ COLUMNS: Final = {
     "force": "force_at_bit_N", "hookload": "hookload_N", "hookload_left": "hookload_left_N",
     "torque": "torque_at_bit_N_m", "surface_torque": "surface_torque_N_m",
     "surface_torque_left": "surface_torque_left_N_m", "bending_stress": "bending_stress_Pa",
-    "cycles_per_hour": "cycles_per_hour", "reason": "reason",
+    "cycles_per_hour": "cycles_per_hour", "reason": "reason", "notes": "notes",
 }  # fmt: skip
 # Columns of a string that is stuck above its bit.
 AT_STUCK: Final = {"force_at_bit_N": "force_at_stuck_N", "torque_at_bit_N_m": "torque_at_stuck_N_m"}
@@ -62,7 +62,8 @@ def limits_of(
     none where no steady string was found), limit (the first that is reached), part and md_m (where), share_used (of
     that limit, without more load), force_at_bit_N and torque_at_bit_N_m (in all, with the case's), hookload_N and
     surface_torque_N_m at the limit, hookload_left_N and surface_torque_left_N_m until then, bending_stress_Pa (its
-    amplitude) and cycles_per_hour of a string that turns, and reason.  NaN where a number does not apply.  Of a string
+    amplitude) and cycles_per_hour of a string that turns, reason, and notes, as of ``torque_drag``, on the string
+    without more load.  NaN where a number does not apply.  Of a string
     that is stuck, stuck_md_m says where, force_at_stuck_N and torque_at_stuck_N_m are what arrives there, and what is
     left counts from the free string with its bit at that depth.
 

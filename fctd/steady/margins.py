@@ -22,7 +22,7 @@ from fctd.model.operations import BitLoads, SteadyRates, bit_loads
 from fctd.model.section import Section, bearing
 from fctd.results.buckling import HELICAL, MODES, NEITHER, SINUSOIDAL
 from fctd.results.limits import LIMITS, ROW, SHARE, place_of
-from fctd.results.notes import crushed_at
+from fctd.results.notes import Note, codes_of, crushed_at
 from fctd.steady.equilibrium import Solver
 from fctd.steady.laid_string import LaidString
 from fctd.steady.limit_search import CLOSE, NAN, last_of, root_of
@@ -70,6 +70,7 @@ class Margin(NamedTuple):
     bending_stress: float = NAN
     cycles_per_hour: float = NAN
     reason: str = "none"
+    notes: str = "none"
 
 
 class First(NamedTuple):
@@ -126,6 +127,11 @@ class Loaded:
         """The string without loads that are added."""
         return self.pulled(0.0) if KINDS[self.operation].direction < 0 else self.pressed(0.0, 0.0)
 
+    @property
+    def notes(self) -> str:
+        """The codes of the notes on the string without loads that are added."""
+        return codes_of(_at_once(self.free))
+
     def pulled(self, overpull: float, **contact: Any) -> Equilibrium:
         """The string that a stuck bit holds with a force [N]; contact : other keys of contact."""
         return self._solve(self.operation, {"overpull": overpull}, contact)
@@ -162,6 +168,13 @@ def margins(loaded: Loaded, *, beyond_buckling: bool = True) -> Iterator[Margin]
     bending to and fro of one that turns, and what slips bear of one that stands still.  beyond_buckling : whether to
     set down more weight than the helix has, which takes a hundred times as long.
     """
+    notes = loaded.notes
+    for found in _margins(loaded, beyond_buckling):
+        yield found._replace(notes=notes)
+
+
+def _margins(loaded: Loaded, beyond_buckling: bool) -> Iterator[Margin]:
+    """Those of ``margins``, without their notes."""
     laid, rates, rig = loaded.laid, loaded.rates, loaded.solver.case.rig
     kind = KINDS[loaded.operation]
     if not loaded.free.answered:
@@ -230,8 +243,12 @@ def swivel_of(laid: LaidString) -> str:
 
 def _said(point: Equilibrium) -> list[str]:
     """What the notes on a string at its limit say about its bending."""
-    alone = replace(point, draw=None)  # its other balances, which two more solves would find, are not among them
-    return [f"at the limit {within(note.text)}" for note in alone.notes if note.code in SAID]
+    return [f"at the limit {within(note.text)}" for note in _at_once(point) if note.code in SAID]
+
+
+def _at_once(point: Equilibrium) -> tuple[Note, ...]:
+    """The notes on a string but for its other balances, which two more solves would find."""
+    return replace(point, draw=None).notes
 
 
 def _without_make_up(laid: LaidString) -> list[str]:

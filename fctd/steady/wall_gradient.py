@@ -30,7 +30,7 @@ from fctd.mechanics.contact import (
 )
 from fctd.mechanics.jit import inlined, kernel
 from fctd.mechanics.joints import cross
-from fctd.mechanics.own_contact import GAP
+from fctd.mechanics.own_contact import GAP, has_bows
 from fctd.mechanics.sampled import AROUND_CELLS, deviation_at, grip_of, place_beside
 from fctd.mechanics.state import ARCS, BOW_STIFFNESS, OWN_FRICTION, RADIUS, SAMPLED, TINY, TRIBUTARY
 
@@ -313,7 +313,7 @@ def with_own_contact(S, j, wall):
     reach = (radius, 0.0, 0.0, 0.0)
     if S[OWN_FRICTION + j] != 0:
         factor = around = (S[OWN_FRICTION + j], 0.0, 0.0, 0.0)
-    if S[BOW_STIFFNESS + j] != 0:
+    if has_bows(S, j):
         x, y, z = wall.x, wall.y, wall.z
         distance = np.sqrt(x[0] * x[0] + y[0] * y[0] + z[0] * z[0])
         if distance - beyond[0] < radius + GAP:  # the hole is narrower than the bows
@@ -335,4 +335,5 @@ def wall_of(own, S, j, C, i, geometry, x, y, z):
     """
     if own is None:
         return wall_beside(C, i, geometry, x, y, z, S[RADIUS + j])
-    return with_own_contact(S, j, wall_beside(C, i, geometry, x, y, z, S[RADIUS + j]))
+    radius = -np.inf if has_bows(S, j) else S[RADIUS + j]  # a wall that is not touched does not lean
+    return with_own_contact(S, j, wall_beside(C, i, geometry, x, y, z, radius))

@@ -74,7 +74,7 @@ def draw(seed: int, index: int) -> Drawn:
     rigs.sticking(dice, raw)
     raw["datum"], raw["temperature"], raw["record"] = rigs.datum(dice), rigs.temperature(dice), rigs.record(dice, total)
     shut = raw["bit"].get("end") == "closed" or any("plug" in row for row in raw["mud"].get("inside", []))
-    pumped = 0.0 if shut else dice.number(0.01, 0.035)
+    pumped = 0.0 if shut or "packer_bore" in raw["mud"] else dice.number(0.01, 0.035)
     raw["operations"] = rigs.operations(dice, total, pumped)
     if dice.chance(0.2):
         raw["units"] = dice.pick(["si", "field"])

@@ -127,6 +127,7 @@ def test_depths_and_flows_make_rows_and_what_does_not_fit_says_why() -> None:
         ({"mud": {"density": 1200.0}}, FLOW, 0.0, "mud.fann is missing: expected readings of a viscometer"),
         ({"mud": {"density": 1200.0, "viscosity": 0}}, FLOW, 0.0, "mud.viscosity = 0.0: expected above 0, or mud.fann"),
         ({"bit": {"end": "closed"}}, FLOW, 0.0, "bit.end = \"closed\": expected \"open\" or \"float\" with a flow"),
+        ({"mud": {"density": 1200.0, "viscosity": 0.03, "packer_bore": 0.1}}, FLOW, 0.0, "past the packer"),
         ({"components": [pipe(None, 20, inner=0.0)]}, FLOW, 0.0, "inner_diameter = 0.0: expected a bore above 0"),
     ],
 )  # fmt: skip

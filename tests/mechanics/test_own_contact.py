@@ -19,15 +19,21 @@ BOWS = {"every": EVERY, "diameter": 0.27, "stiffness": 4e5, "starting_force": 80
 
 
 def case(
-    stations: Any = SLANT, friction: float = 0.3, operations: Any = None, geometry: str = "arcs", **liner: Any
+    stations: Any = SLANT,
+    friction: float = 0.3,
+    operations: Any = None,
+    geometry: str = "arcs",
+    pieces: Any = None,
+    **liner: Any,
 ) -> Case:
-    """A liner of 120 m on drill pipe."""
+    """A liner of 120 m on drill pipe; pieces : keys of the wellbore."""
     cut = {} if {"centralisers", "friction_reducers"} & liner.keys() else {"segment_length": 3.0}
     parts = [
         {"name": "liner", "length": LINER, "outer_diameter": 0.1778, "inner_diameter": 0.159} | cut | liner,
         pipe(None, None, segment_length=10.0, inner=0.1086),
     ]
     hole: dict[str, Any] = {"intervals": [{"to_md": 400, "diameter": BORE, "friction": friction}], "geometry": geometry}
+    hole |= pieces or {}
     mud = {"density": 1200.0, "viscosity": 0.0, "lateral_damping": 100.0}
     return make_case(stations, parts, operations, wellbore=hole, mud=mud)
 
@@ -104,6 +110,20 @@ def test_the_starting_force_acts_also_where_the_liner_hangs_on_the_axis() -> Non
     turned = equilibrium(of, "rotate_off_bottom", DEPTH)
     assert turned.surface_torque == pytest.approx(count * 800.0 * 0.5 * BORE, rel=1e-6)  # they slide on the wall
     assert turned.hookload == pytest.approx(weight, rel=1e-6)
+
+
+@pytest.mark.parametrize(("top", "end", "rel"), [(0, 0, 1e-9), (50, 50, 1e-9), (50, 60, 2e-3)])
+@pytest.mark.parametrize("operation", ["trip_out", "rotate_off_bottom"])
+def test_bows_press_between_two_cylinders_as_beside_one(top: float, end: float, rel: float, operation: str) -> None:
+    """Cylinders overlap along two thirds of the hole; the last well builds by 10 degrees."""
+    stations = [[0, top, 0], [150, top, 0], [400, end, 0]]
+    pieces = {"cylinder_length": 6.0, "overlap": 4.0}
+    arcs = equilibrium(case(stations, centralisers=BOWS), operation, DEPTH)
+    chords = equilibrium(case(stations, geometry="cylinders", pieces=pieces, centralisers=BOWS), operation, DEPTH)
+    assert chords.status == arcs.status == "converged"
+    assert chords.hookload == pytest.approx(arcs.hookload, rel=rel)
+    assert chords.surface_torque == pytest.approx(arcs.surface_torque, rel=rel, abs=1e-6)
+    assert chords.total_contact_force == pytest.approx(arcs.total_contact_force, rel=2 * rel, abs=1e-3)
 
 
 @pytest.mark.parametrize("diameter", [0.2, 0.4])

@@ -5,6 +5,7 @@ import pytest
 
 import fctd
 from fctd.case.errors import InputError
+from fctd.case.fluids import InsideSpec
 from fctd.results.columns import DOES
 from fctd.steady.margin_table import COLUMNS, USUAL, limits_of
 from fctd.steady.margins import MEANINGS, Margin
@@ -60,6 +61,19 @@ def test_depths_at_which_the_string_does_not_fit_have_a_reason() -> None:
     assert np.isnan(table["force_at_bit_N"].iloc[1])
     with pytest.raises(InputError, match="contact_diameter"):
         limits_of(case, "trip_out", [900.0])
+
+
+@pytest.mark.parametrize("stuck_at", [None, 600.0])
+def test_rows_have_the_notes_of_a_chart(stuck_at: float | None) -> None:
+    heavy = CASE.mud.model_copy(update={"inside": (InsideSpec(density=1500.0),), "float": True})
+    case = CASE.model_copy(update={"mud": heavy})
+    for operation in USUAL:
+        (told,) = fctd.torque_drag(case, operation, [900.0])["notes"]
+        assert told == "falling"
+        table = limits_of(case, operation, [900.0], stuck_at=stuck_at)
+        assert len(table)
+        assert set(table["notes"]) == {told}
+    assert set(limits_of(CASE, bit_depths=[900.0])["notes"]) == {"none"}
 
 
 def test_progress_is_told_by_depth() -> None:
