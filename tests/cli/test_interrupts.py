@@ -13,6 +13,7 @@ from collections.abc import Callable
 from contextlib import AbstractContextManager
 from importlib import import_module
 from pathlib import Path
+from typing import Any
 from uuid import uuid4
 
 import pytest
@@ -20,6 +21,7 @@ import pytest
 from fctd import open_result
 from fctd.cli import chart, interrupts, refine, simulate
 from fctd.cli.interrupts import as_interrupts, deferred, is_fctd
+from fctd.store.run_folder import RunFolder
 from tests.commands import HANG, Command
 
 ROOT = Path(__file__).parents[2]
@@ -76,6 +78,26 @@ def test_a_command_without_results_ends_without_files(
     monkeypatch.setattr(refine, "refine", sending(refine.refine, number, 1))
     assert "Traceback" not in cli(*options[command], code=130).err
     assert [path.name for path in tmp_path.iterdir()] == ["small.toml"]
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+@pytest.mark.parametrize("method", ["take", "clear", "leave"])
+def test_a_folder_in_which_nothing_has_begun_goes(
+    method: str, number: int, small_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
+) -> None:
+    """Whether the signal comes once it is locked or while it is emptied or removed."""
+    real, sent = getattr(RunFolder, method), []
+
+    def interrupted(*arguments: Any, **more: Any) -> Any:
+        answer = None if method == "leave" else real(*arguments, **more)
+        if not sent:
+            sent.append(os.kill(os.getpid(), number))
+        return real(*arguments, **more) if method == "leave" else answer
+
+    monkeypatch.setattr(RunFolder, method, interrupted)
+    table = tmp_path / "a.csv"
+    cli("chart", small_file, "--operation", "trip_in", "--depths", "700", "--out", table, "--quiet", code=130)
+    assert not (tmp_path / ".a.csv-run").exists()
 
 
 @pytest.mark.parametrize("number", KILL)
