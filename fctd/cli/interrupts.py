@@ -7,7 +7,7 @@ import signal
 import sys
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from types import FrameType
 from typing import Any, Final
 
@@ -15,6 +15,10 @@ from typing import Any, Final
 # packages what is raised while they are imported, and the lock around calls to LLVM would stay taken.
 FINALIZERS: Final = ("__del__", "weakref.py")
 GUARDED: Final = ("<frozen importlib", f"{os.sep}llvmlite{os.sep}", os.path.join("numba", "core", "event.py"))
+# Where the command lies that ``python -m fctd`` runs.
+AS_MODULE: Final = os.path.join("fctd", "__main__.py")
+# Signals beside Ctrl-C that end a program.
+ENDING: Final = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
 # Time until a signal comes once more that such code has got [s].
 PAUSE: Final = 0.02
 _LATER: Final[list[tuple[int, Any]]] = []  # such a signal, and the handler of the alarm before it
@@ -33,9 +37,9 @@ def as_interrupts() -> Iterator[None]:
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    numbers = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
-    ours = [number for number in numbers if signal.getsignal(number) == signal.SIG_DFL]
-    keyboard, drops = signal.getsignal(signal.SIGINT), sys.unraisablehook
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, *ENDING)}
+    ours = [number for number in ENDING if before[number] in (signal.SIG_DFL, leave)]
+    drops = sys.unraisablehook
 
     def interrupt(number: int, frame: FrameType | None) -> None:
         if _waits(number, frame):
@@ -51,16 +55,15 @@ def as_interrupts() -> Iterator[None]:
 
     for number in ours:
         signal.signal(number, interrupt)
-    if keyboard in (signal.SIG_IGN, signal.default_int_handler):
+    if before[signal.SIGINT] in (signal.SIG_IGN, signal.default_int_handler, leave):
         signal.signal(signal.SIGINT, interrupt)
     sys.unraisablehook = dropped
     try:
         yield
     finally:
         sys.unraisablehook = drops
-        signal.signal(signal.SIGINT, keyboard)
-        for number in ours:
-            signal.signal(number, signal.SIG_DFL)
+        for number in (signal.SIGINT, *ours):
+            signal.signal(number, before[number])
         if _LATER:
             signal.setitimer(signal.ITIMER_REAL, 0.0)
             signal.signal(signal.SIGALRM, _LATER.pop()[1])
@@ -94,16 +97,10 @@ def _again(number: int) -> bool:
             first, _LATER[:] = _LATER[0][0], []
             signal.raise_signal(first)
 
+        _LATER.append((number, before))  # before the alarm, which a busy machine may bring at once
         signal.signal(signal.SIGALRM, send)
         signal.setitimer(signal.ITIMER_REAL, PAUSE)
-        _LATER.append((number, before))
     return True
-
-
-def listens() -> None:
-    """From now on Ctrl-C is a KeyboardInterrupt: there is somebody who answers it."""
-    if signal.getsignal(signal.SIGINT) == leave:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @contextmanager
@@ -116,8 +113,8 @@ def deferred() -> Iterator[None]:
         yield
         return
     arrived: list[int] = []
-    numbers = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
-    handlers = {number: signal.getsignal(number) for number in numbers if callable(signal.getsignal(number))}
+    found = {number: signal.getsignal(number) for number in (signal.SIGINT, *ENDING)}
+    handlers = {number: handler for number, handler in found.items() if callable(handler)}
     for number in handlers:
         signal.signal(number, lambda number, _: arrived.append(number))
     try:
@@ -130,34 +127,50 @@ def deferred() -> Iterator[None]:
 
 
 def leave(number: int, frame: FrameType | None) -> None:
-    """What Ctrl-C does before the commands begin: it ends the program with exit code 130."""
+    """What a signal does to the command between its blocks: it ends the program with exit code 130."""
     if not _waits(number, frame):
         sys.exit(130)
 
 
 @contextmanager
 def ends_at_once() -> Iterator[None]:
-    """Inside, a program that was interrupted ends without the end of Python.
+    """Inside, a program that exits ends without the end of Python.
 
-    That takes from threads that still compute what they need, and waits for those that never end.
+    That takes from threads that still compute what they need, waits for those that never end, and lasts a second in
+    which the system's answer to a signal would take the place of the exit code.
     """
     try:
         yield
     except SystemExit as ended:
-        if ended.code != 130:
+        code = ended.code or 0
+        if not isinstance(code, int):
             raise
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        for number in (signal.SIGINT, *ENDING):
+            signal.signal(number, signal.SIG_IGN)
+        if code == 130:  # what was about to begin has no end of which to tell
+            sys.unraisablehook = lambda _: None
         atexit._run_exitfuncs()
         for stream in (sys.stdout, sys.stderr):
-            with suppress(OSError, ValueError):  # a closed terminal
+            try:
                 stream.flush()
-        os._exit(130)
+            except (OSError, ValueError):  # a closed terminal, or a full disk, of which Python tells
+                if code != 130:
+                    raise ended from None
+        os._exit(code)
 
 
 def is_fctd() -> bool:
-    """Whether the program that runs is the command, not another one that imports the package."""
-    command = os.path.splitext(os.path.basename(sys.argv[0]))[0] if sys.argv else ""
-    return command == "fctd" or sys.orig_argv[1:3] == ["-m", "fctd"]
+    """Whether the program that runs is the command or a worker of it, not another one that imports the package."""
+    path = sys.argv[0] if sys.argv else ""
+    command = os.path.splitext(os.path.basename(path))[0]
+    # A worker has the arguments of its command.
+    return command == "fctd" or sys.orig_argv[1:3] == ["-m", "fctd"] or path.endswith(AS_MODULE)
+
+
+def is_worker() -> bool:
+    """Whether another process of the program has started this one, and ends it."""
+    processes = sys.modules.get("multiprocessing.process")  # a worker has imported it
+    return processes is not None and processes.parent_process() is not None
 
 
 @contextmanager
@@ -165,12 +178,18 @@ def ends_program() -> Iterator[None]:
     """Inside, Ctrl-C, SIGTERM or SIGHUP end a program with exit code 130, without a traceback.
 
     It surrounds the imports, which take a second or two.  An interactive session gets KeyboardInterrupt and continues.
-    For the command itself, Ctrl-C does so between two such blocks too, until it `listens`.
+    For the command itself they do so until it ends, between two such blocks too.
     The garbage collector rests meanwhile: what is imported stays, and a tenth of the time would go into looking
     through it.
     """
-    if is_fctd() and signal.getsignal(signal.SIGINT) == signal.default_int_handler:
-        signal.signal(signal.SIGINT, leave)
+    if is_fctd():
+        # Scripts start a command so that it ignores Ctrl-C, and commands their workers.
+        keyboard = signal.getsignal(signal.SIGINT)
+        if keyboard == signal.default_int_handler or (keyboard == signal.SIG_IGN and not is_worker()):
+            signal.signal(signal.SIGINT, leave)
+        for number in () if is_worker() else ENDING:
+            if signal.getsignal(number) == signal.SIG_DFL:
+                signal.signal(number, leave)
     collecting = gc.isenabled()
     gc.disable()
     try:

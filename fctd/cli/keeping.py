@@ -14,6 +14,7 @@ from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.systems import TIME
 from fctd.case.text import printable
+from fctd.cli.interrupts import deferred
 from fctd.cli.options import messages
 from fctd.cli.quantities import Given, QuantityOption, quantity, si
 from fctd.mechanics.compile_cache import hash_of_sources
@@ -124,20 +125,24 @@ def begun_folder(target: Path, key: str, *, restart: bool) -> Iterator[RunFolder
     Raises InputError where another process computes the same result, and where there is an unfinished run, unless it
     is dropped by ``restart``.
     """
-    folder, begun = RunFolder.take(target, key), False
+    folder, begun = None, False
     try:
-        about = None if restart else about_of(target)
-        if about is not None and has_kept(target):
-            expected = (
-                f"a result without an unfinished run ({how_far(target)}): `{way_on(target, about)}` goes on with it, "
-                "--restart drops it and begins anew"
-            )
-            raise InputError(expected, key=key, value=target)
-        folder.clear()
-        begun = True
+        with deferred():  # a signal leaves no folder in which nothing has begun
+            folder = RunFolder.take(target, key)
+            about = None if restart else about_of(target)
+            if about is not None and has_kept(target):
+                expected = (
+                    f"a result without an unfinished run ({how_far(target)}): `{way_on(target, about)}` goes on with "
+                    "it, --restart drops it and begins anew"
+                )
+                raise InputError(expected, key=key, value=target)
+            folder.clear()
+            begun = True
         yield folder
     finally:  # what is refused stays
-        folder.leave(remove=begun and not has_kept(target))
+        if folder is not None:
+            with deferred():
+                folder.leave(remove=begun and not has_kept(target))
 
 
 def has_kept(target: Path) -> bool:

@@ -15,7 +15,7 @@ from fctd.case.errors import InputError
 from fctd.case.text import degrade_output
 from fctd.cli.announcing import announcing
 from fctd.cli.base_command import HELP, Command, application
-from fctd.cli.interrupts import as_interrupts, listens
+from fctd.cli.interrupts import as_interrupts
 from fctd.cli.option_names import naming_options
 from fctd.cli.options import (
     BAD_INPUT,
@@ -119,7 +119,6 @@ def run(commands: typer.Typer) -> None:
     """Run a command line; bad input, or a file that cannot be written, gives one line and no traceback."""
     degrade_output()
     try:
-        listens()
         with as_interrupts(), announcing():
             commands()
     except (InputError, OSError) as error:  # OSError: a full disk, a closed terminal

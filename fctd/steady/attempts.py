@@ -11,7 +11,7 @@ from fctd.mechanics import state
 from fctd.model import layouts
 from fctd.results.status import SteadyStatus
 from fctd.steady import post_buckling
-from fctd.steady.balance import ATTEMPTS, IN_THE_OPEN, PATIENT, balance
+from fctd.steady.balance import IN_THE_OPEN, PATIENT, attempts_of, balance
 from fctd.steady.bisection import bisect
 from fctd.steady.carried_shape import begin, carry
 from fctd.steady.climb import LARGEST_PUSH, SOUND_PUSH, Climb, climb, lock_up
@@ -43,7 +43,8 @@ def in_the_open(problem: Problem, so_far: Findings) -> Equilibrium | None:
 
 def newton(problem: Problem, so_far: Findings) -> Equilibrium | None:
     """The string in which Newton's method ends from the guess of a soft string, if it would stay there."""
-    so_far.code, iterations, negative = balance(problem, (*ATTEMPTS, *PATIENT) if so_far.is_analytic else ATTEMPTS)
+    attempts = attempts_of(problem)
+    so_far.code, iterations, negative = balance(problem, (*attempts, *PATIENT) if so_far.is_analytic else attempts)
     so_far.first = so_far.answer(problem, so_far.code, iterations, negative)
     so_far.is_stable = so_far.code == CONVERGED and negative == 0
     return so_far.first if so_far.is_stable and not so_far.is_to_be_resolved else None

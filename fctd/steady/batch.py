@@ -52,7 +52,7 @@ Scalar = TypeVar("Scalar", bound=np.generic)
 Part = TypeVar("Part")
 Found = TypeVar("Found")
 
-ITERATIONS, TAU, GROWTH, SHRINK, SHIFT = ATTEMPTS[0]
+ITERATIONS, TAU, GROWTH, SHRINK, SHIFT, NARROW = ATTEMPTS[0]
 # Columns of the loads of a row.
 SPEED, SPIN, WEIGHT_ON_BIT, BIT_TORQUE, LOADS = 0, 1, 2, 3, 4
 
@@ -254,7 +254,7 @@ def solve_row(
     _, allowed = limits(S, n, bit_depth, pressing, fed, top_length)
     guess(S, n, C, laws, top_md, -pressing, pipe.radius, SEED, G, P)
     find_owners(C, n, G, owner)
-    pace = Pace(ITERATIONS, TAU, GROWTH, SHRINK, SHIFT, LARGEST_TURN, allowed, allowed)
+    pace = Pace(ITERATIONS, TAU, GROWTH, SHRINK, SHIFT, NARROW, LARGEST_TURN, allowed, allowed)
     code, steps, _ = converge(w, n, kinks, C, laws, pace, TAU)
     if code != CONVERGED:
         return

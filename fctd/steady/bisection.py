@@ -5,7 +5,7 @@ loads says whether it lies still under those of the operation, whether its slack
 them a shape was found.
 """
 
-from fctd.steady.balance import ATTEMPTS, LARGEST_TURN, SMALL_STEPS, balance
+from fctd.steady.balance import LARGEST_TURN, SMALL_STEPS, attempts_of, balance
 from fctd.steady.climb import LOW_FRICTION, Climb, Step, close, come_to_rest, keep, rolls
 from fctd.steady.continuation import CONVERGED, Pace
 from fctd.steady.problem import FULL, Problem, Share
@@ -80,7 +80,7 @@ def _is_found_anew(problem: Problem, path: Climb, share: Share) -> bool:
     Newton's method is tried with friction at the string's surface, as it is for a row.
     """
     at_axis, problem.at_axis = problem.at_axis, 0
-    code, iterations, negative = balance(problem, ATTEMPTS, share)
+    code, iterations, negative = balance(problem, attempts_of(problem), share)
     problem.at_axis = at_axis
     path.iterations += iterations
     if code != CONVERGED or negative > 0:

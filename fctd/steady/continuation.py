@@ -21,6 +21,9 @@ CONVERGED, MAX_ITERATIONS, NOT_FINITE, UNSOUND = range(4)
 # Largest force out of balance at a body, over the weight of the string.
 TOLERANCE = 1e-7
 EPSILON = float(np.finfo(float).eps)
+# Of a largest lateral step that has been narrowed: its growth with a step that lowers the imbalance, and its least
+# value [m], which is that of a point pressed into the wall by some kilonewtons.
+WIDENING, NARROWEST = 1.05, 1e-5
 
 
 class Pace(NamedTuple):
@@ -28,7 +31,8 @@ class Pace(NamedTuple):
 
     iterations : largest number.  tau : first pseudo-time [s]; growth : its factor after a step that was not shortened;
     shrink : its factor after a step that raised the imbalance more than tenfold (1 : unchanged).
-    shift [m], turn [rad] : a body's largest lateral step and largest rotation.
+    shift [m], turn [rad] : a body's largest lateral step and largest rotation; narrow : factor of the first after one
+    that raised the imbalance so (1 : unchanged), from which it grows again.
     force [N], moment [N m] : largest imbalance of a body when converged.
     """
 
@@ -37,6 +41,7 @@ class Pace(NamedTuple):
     growth: float
     shrink: float
     shift: float
+    narrow: float
     turn: float
     force: float
     moment: float
@@ -82,16 +87,16 @@ def add_pseudo_mass(S, n, tau, D):
 
 
 @kernel
-def allowed_share(S, n, P, X, pace):
-    """Share of the step X (n + 1, 6) that keeps to the largest lateral step and rotation of a body."""
+def allowed_share(S, n, P, X, shift, turn):
+    """Share of the step X (n + 1, 6) that keeps to the largest lateral step [m] and rotation [rad] of a body."""
     share = 1.0
     for j in range(1, n + 1):
         xx, xy, xz, yx, yy, yz, _, _, _ = rotation_columns(*quaternion(P, j))
         arm, a, b = S[ARM_CONTACT + j], X[j, 3], X[j, 4]
         u = xx * X[j, 0] + xy * X[j, 1] + xz * X[j, 2] + arm * b
         v = yx * X[j, 0] + yy * X[j, 1] + yz * X[j, 2] - arm * a
-        sideways, turn = np.sqrt(u * u + v * v), np.sqrt(a * a + b * b)
-        share = min(share, pace.shift / (sideways + TINY), pace.turn / (turn + TINY))
+        sideways, tilt = np.sqrt(u * u + v * v), np.sqrt(a * a + b * b)
+        share = min(share, shift / (sideways + TINY), turn / (tilt + TINY))
     return share
 
 
@@ -116,7 +121,7 @@ def converge(w, n, kinks, C, laws, pace, tau):
     """
     S, P, _G, R, D, A, U, W, owner = w
     before = np.inf
-    share = 0.0
+    share, shift = 0.0, pace.shift
     for k in range(pace.iterations):
         assemble(S, n, P, kinks, C, owner, laws, R, D, A, U)
         error = imbalance(R, n, pace)
@@ -126,12 +131,15 @@ def converge(w, n, kinks, C, laws, pace, tau):
             return CONVERGED, k, tau
         if error > 10 * before:
             tau *= pace.shrink
+            shift = max(pace.narrow * shift, min(NARROWEST, shift))
+        elif error < before:
+            shift = min(WIDENING * shift, pace.shift)
         if share == 1 and (error < before or pace.shrink == 1):
             tau *= pace.growth
         before = error
         add_pseudo_mass(S, n, tau, D)
         if not eliminate(D, A, U, R, n, W):
             return UNSOUND, k, tau
-        share = allowed_share(S, n, P, R, pace)
+        share = allowed_share(S, n, P, R, shift, pace.turn)
         take_step(P, n, R, share)
     return MAX_ITERATIONS, pace.iterations, tau

@@ -178,9 +178,9 @@ def _start(problem: Problem, share: Share) -> Start | None:
     """The string off bottom on the case's own segments, which slides or is at rest, where it is stable and straight."""
     torque, problem.bit_torque = problem.bit_torque, 0.0
     start = None
-    for iterations, tau, growth, shrink, shift in ATTEMPTS:
+    for attempt in ATTEMPTS:
         problem.lay_guess(share)
-        pace = Pace(iterations, tau, growth, shrink, shift, LARGEST_TURN, problem.allowed, problem.allowed)
+        pace = Pace(*attempt, LARGEST_TURN, problem.allowed, problem.allowed)
         if problem.iterate(pace, share)[0] == CONVERGED:
             straight = problem.unstable_modes(share) == 0 and (problem.compressed(share).rows[:, MODE] == NEITHER).all()
             if straight or share == AT_REST:

@@ -19,7 +19,7 @@ from fctd.steady.problem import Problem
 from fctd.steady.steady_string import Equilibrium
 
 # One step of Newton's method, whatever its size: no pseudo-mass, no limit, no imbalance that ends it.
-_ONE_STEP = Pace(1, 1e9, 1.0, 1.0, 1e9, 1e9, 1e-200, 1e-200)
+_ONE_STEP = Pace(1, 1e9, 1.0, 1.0, 1e9, 1.0, 1e9, 1e-200, 1e-200)
 # Largest difference of the hook load after a Newton step from the answer's, over the weight of the string.
 _SAME = 1e-5
 

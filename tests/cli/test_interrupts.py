@@ -13,13 +13,15 @@ from collections.abc import Callable
 from contextlib import AbstractContextManager
 from importlib import import_module
 from pathlib import Path
+from typing import Any
 from uuid import uuid4
 
 import pytest
 
 from fctd import open_result
-from fctd.cli import chart, refine, simulate
+from fctd.cli import chart, interrupts, refine, simulate
 from fctd.cli.interrupts import as_interrupts, deferred, is_fctd
+from fctd.store.run_folder import RunFolder
 from tests.commands import HANG, Command
 
 ROOT = Path(__file__).parents[2]
@@ -76,6 +78,26 @@ def test_a_command_without_results_ends_without_files(
     monkeypatch.setattr(refine, "refine", sending(refine.refine, number, 1))
     assert "Traceback" not in cli(*options[command], code=130).err
     assert [path.name for path in tmp_path.iterdir()] == ["small.toml"]
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+@pytest.mark.parametrize("method", ["take", "clear", "leave"])
+def test_a_folder_in_which_nothing_has_begun_goes(
+    method: str, number: int, small_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Command
+) -> None:
+    """Whether the signal comes once it is locked or while it is emptied or removed."""
+    real, sent = getattr(RunFolder, method), []
+
+    def interrupted(*arguments: Any, **more: Any) -> Any:
+        answer = None if method == "leave" else real(*arguments, **more)
+        if not sent:
+            sent.append(os.kill(os.getpid(), number))
+        return real(*arguments, **more) if method == "leave" else answer
+
+    monkeypatch.setattr(RunFolder, method, interrupted)
+    table = tmp_path / "a.csv"
+    cli("chart", small_file, "--operation", "trip_in", "--depths", "700", "--out", table, "--quiet", code=130)
+    assert not (tmp_path / ".a.csv-run").exists()
 
 
 @pytest.mark.parametrize("number", KILL)
@@ -295,21 +317,70 @@ def test_in_another_thread_nothing_is_changed() -> None:
 
 
 IMPORTING = (
-    "import os, signal, sys; sys.argv[0] = sys.argv[1]; import fctd.__main__; os.kill(os.getpid(), signal.SIGINT)"
+    "import os, signal, sys; sys.argv[0] = sys.argv[1]; ignored = sys.argv[3:]\n"
+    "if ignored: signal.signal(signal.SIGINT, signal.SIG_IGN)\n"
+    "import fctd.__main__; os.kill(os.getpid(), int(sys.argv[2]))"
 )
 
 
 @pytest.mark.slow
-def test_between_the_imports_and_the_command() -> None:
-    """While the package is imported and nothing has begun, Ctrl-C leaves no traceback."""
-    done = subprocess.run(
-        [sys.executable, "-c", IMPORTING, "/usr/bin/fctd.exe"], cwd=ROOT, capture_output=True, text=True
-    )
+@pytest.mark.parametrize("number", SIGNALS)
+@pytest.mark.parametrize("ignored", [[], ["as a script's shell does"]])
+def test_between_the_imports_and_the_command(ignored: list[str], number: int) -> None:
+    """While the package is imported and nothing has begun, a signal leaves no traceback."""
+    arguments = ["/usr/bin/fctd.exe", str(int(number)), *ignored]
+    done = subprocess.run([sys.executable, "-c", IMPORTING, *arguments], cwd=ROOT, capture_output=True, text=True)
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "")
 
 
+def ended(folder: Path, before: str, stdout: int | None = subprocess.PIPE) -> "subprocess.CompletedProcess[str]":
+    """``fctd schema`` in a process that has done something before."""
+    imports = "import atexit, os, signal, sys\nimport fctd.__main__ as program, fctd.cli.schema as schema\n"
+    code = f"{imports}{before}\nprogram.main()\n"
+    arguments = [sys.executable, "-c", code, "schema", "--out", str(folder / "s.json")]
+    return subprocess.run(arguments, cwd=ROOT, stdout=stdout, stderr=subprocess.PIPE, text=True, timeout=HANG)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", SIGNALS)
+def test_a_signal_to_a_command_that_is_done_changes_nothing(number: int, tmp_path: Path) -> None:
+    """The end of Python lasts a second, in which the system would answer."""
+    done = ended(tmp_path, f"atexit.register(lambda: os.kill(os.getpid(), {int(number)}))")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "Written" in done.stdout
+
+
+@pytest.mark.slow
+def test_what_an_interrupted_command_had_half_begun_says_nothing(tmp_path: Path) -> None:
+    """As Dask's cluster, which is to be closed before it has come up."""
+    begun = "atexit.register(lambda: 1 / 0)\nschema.check_target = lambda *_: os.kill(os.getpid(), signal.SIGINT)"
+    done = ended(tmp_path, begun)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "")
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="the system has no file that is always full")
+def test_output_that_cannot_be_written_is_told(tmp_path: Path) -> None:
+    with Path("/dev/full").open("w") as full:
+        assert ended(tmp_path, "", full.fileno()).returncode not in (0, 130)
+
+
+def test_an_alarm_may_come_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """On a busy machine the pause is over before the next line runs."""
+    monkeypatch.setattr(signal, "setitimer", lambda *_: os.kill(os.getpid(), signal.SIGALRM))
+    with pytest.raises(KeyboardInterrupt), as_interrupts():
+        interrupts._again(signal.SIGINT)
+
+
 @pytest.mark.parametrize(
-    ("command", "ours"), [("fctd", True), ("/usr/bin/fctd.exe", True), ("/home/a/fctd.py.d/x.py", False), ("", False)]
+    ("command", "ours"),
+    [
+        ("fctd", True),
+        ("/usr/bin/fctd.exe", True),
+        ("/lib/fctd/__main__.py", True),
+        ("/home/a/fctd.py.d/x.py", False),
+        ("", False),
+    ],
 )
 def test_a_program_is_known_by_its_name(command: str, ours: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "argv", [command])
@@ -318,7 +389,8 @@ def test_a_program_is_known_by_its_name(command: str, ours: bool, monkeypatch: p
 
 def test_other_programs_that_import_it_get_ctrl_c() -> None:
     program = IMPORTING.replace("fctd.__main__", "fctd")
-    other = subprocess.run([sys.executable, "-c", program, "fctd"], cwd=ROOT, capture_output=True)
+    arguments = [sys.executable, "-c", program, "fctd", str(int(signal.SIGINT))]
+    other = subprocess.run(arguments, cwd=ROOT, capture_output=True)
     assert b"KeyboardInterrupt" in other.stderr
 
 

@@ -31,7 +31,7 @@ allowed_share, imbalance = kept(continuation.allowed_share), kept(continuation.i
 
 SEGMENTS = 6
 # Steps of any size and a pseudo-time that soon leaves them to Newton's method alone.
-BOLD = Pace(40, 1e3, 1e3, 1.0, 1e9, 1e9, 1e-3, 1e-3)
+BOLD = Pace(40, 1e3, 1e3, 1.0, 1e9, 1.0, 1e9, 1e-3, 1e-3)
 
 
 class Chain:
@@ -142,11 +142,11 @@ def test_a_step_is_shortened_to_the_largest_shift_and_turn() -> None:
     P[:, 3] = 1.0
     X[1, :3] = [0.3, 0.0, 5.0]  # its step along the axis has no limit
     X[2, 3] = 0.5
-    assert allowed_share(S, 2, P, X, BOLD._replace(shift=0.1, turn=10.0)) == pytest.approx(0.1 / 0.3)
-    assert allowed_share(S, 2, P, X, BOLD._replace(shift=10.0, turn=0.2)) == pytest.approx(0.2 / 0.5)
-    assert allowed_share(S, 2, P, X, BOLD._replace(shift=10.0, turn=10.0)) == 1.0
+    assert allowed_share(S, 2, P, X, 0.1, 10.0) == pytest.approx(0.1 / 0.3)
+    assert allowed_share(S, 2, P, X, 10.0, 0.2) == pytest.approx(0.2 / 0.5)
+    assert allowed_share(S, 2, P, X, 10.0, 10.0) == 1.0
     S[state.ARM_CONTACT + 2] = 2.0
-    assert allowed_share(S, 2, P, X, BOLD._replace(shift=0.1, turn=10.0)) == pytest.approx(0.1 / (0.5 * 2.0))
+    assert allowed_share(S, 2, P, X, 0.1, 10.0) == pytest.approx(0.1 / (0.5 * 2.0))
 
 
 def test_a_step_moves_tilts_and_spins() -> None:

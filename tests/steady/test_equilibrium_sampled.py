@@ -153,3 +153,33 @@ def test_a_round_caliper_has_the_rows_of_arcs() -> None:
         assert sampled.status == arcs.status == "converged"
         assert sampled.hookload == pytest.approx(arcs.hookload, rel=1e-6)
         assert sampled.surface_torque == pytest.approx(arcs.surface_torque, rel=1e-6, abs=1e-3)
+
+
+def washed_out(seed: int, every: float, washed: float, deep: float, build: float) -> Case:
+    """Pipe in a bend whose wall is washed out between ridges, at random: a share of the arms by a depth [m].
+
+    every : rows [m]; build : of the bend [°/m].
+    """
+    draw = np.random.default_rng(seed)
+    md = np.arange(1.0, 609.0, every)
+    shape = len(md), 6
+    arms = 0.1255 + draw.exponential(0.0015, shape) + deep * (draw.random(shape) < washed)
+    hole = {
+        "stations": [[0, 0, 0], [100, 0, 0], [100 + 60 / build, 60, 0], [610, 60, 0]], "geometry": "sampled",
+        "cell": 0.5, "stiffness_per_length": 5e7,
+        "intervals": [{"to_md": 610, "diameter": 0.2508, "friction": 0.35}],
+        "caliper": {"rows": np.column_stack([md, arms]).tolist(), "values": "radius"},
+    }  # fmt: skip
+    part = pipe(None, None, 0.0889, 0.0702, segment_length=12.5, contact_diameter=0.12065)
+    return make_case(components=[part], wellbore=hole, rig={"block_weight": 3e5})
+
+
+@pytest.mark.parametrize("operation", ["trip_out", "rotate_off_bottom"])
+@pytest.mark.parametrize("rough", [(20.0, 0.06, 0.04, 0.2), (10.0, 0.2, 0.05, 0.4)])
+def test_a_string_leaves_the_ridges_of_a_rough_hole(rough: tuple[float, float, float, float], operation: str) -> None:
+    """Walls of one roughness hold a string with nearly the same loads, whichever ridges it rolls off on the way."""
+    points = [fctd.equilibrium(washed_out(seed, *rough), operation, 600.0) for seed in range(3)]
+    assert [point.status for point in points] == ["converged"] * 3
+    loads, torques = np.array([(point.hookload, point.surface_torque) for point in points]).T
+    assert loads == pytest.approx(loads.mean(), rel=1e-3)
+    assert torques == pytest.approx(torques.mean(), rel=5e-3, abs=1.0)
