@@ -15,8 +15,6 @@ from tests.equivalence.table import applies, statement
 FINE = 2e-4
 # Cylinders that are cut elsewhere, and shoes that are blended over the length of a cell or of an overlap.
 CUT_ELSEWHERE = 2e-3
-# The iteration comes to the place of a soft contact from another side.
-TURNED = 3e-5
 HYDRAULIC = ("standpipe", "bore", "annulus", "ecd", "pump", "lift_N")
 
 
@@ -91,12 +89,19 @@ def longer_hole(drawn: Drawn) -> None:
 
 
 def without_north(drawn: Drawn) -> bool:
-    """Whether nothing counts from north: neither waves of the hole nor, where it is vertical, the high side."""
+    """Whether nothing counts from north: neither waves of the hole nor, where it is vertical, the high side.
+
+    Nor arms from north, where it is not: between north and the high side there the angle across the hole is not the
+    azimuth.
+    """
     hole = drawn.raw["wellbore"]
     if "tortuosity" in hole or drawn.has("survey_smoothing"):
         return False
-    counts = drawn.has("bend") or hole.get("caliper", {}).get("reference") == "high_side"
-    return not counts or min(station[1] for station in hole["stations"]) > 0.1
+    tilts, reference = [station[1] for station in hole["stations"]], hole.get("caliper", {}).get("reference")
+    if reference == "north" and max(tilts) > 0:
+        return False
+    counts = drawn.has("bend") or reference == "high_side"
+    return not counts or min(tilts) > 0.1
 
 
 @statement("azimuth turned (unbuckled)")
@@ -111,7 +116,7 @@ def turned(drawn: Drawn) -> None:
         if hole.get("caliper", {}).get("reference") == "north":
             hole["caliper"]["first_arm"] = hole["caliper"].get("first_arm", 0.0) + math.radians(by)
 
-    same(drawn, changed(drawn, turn), TURNED)
+    same(drawn, changed(drawn, turn), ROUNDING)
 
 
 @statement("mirror left and right (sliding)")
