@@ -49,7 +49,7 @@ def test_a_string_that_is_not_buckled_has_the_loads_of_newton(
     attempt: Callable[[Problem, Findings], Equilibrium | None],
 ) -> None:
     """Friction acts at its surface, whichever rung finds it; at its axis the contact force is off by 1e-4."""
-    bent = [[0, 0, 0], [100, 0, 0], [300, 50, 0], [400, 50, 0]]
+    bent = [[0.0, 0.0, 0.0], [100.0, 0.0, 0.0], [300.0, 50.0, 0.0], [400.0, 50.0, 0.0]]
     so_far = findings_of(make_case(bent, [pipe(400.0, 40)], bit={"weight_on_bit": 5e3}), 380.0)
     newton = attempts.newton(so_far.problem, so_far)
     so_far.problem.at_axis = 1  # as a rung before leaves it
