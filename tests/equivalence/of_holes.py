@@ -68,8 +68,10 @@ def split_interval(drawn: Drawn) -> None:
         rows.insert(k, rows[k] | {"to_md": top + dice.number(0.1, 0.9) * (rows[k]["to_md"] - top)})
 
     bound = CUT_ELSEWHERE if drawn.raw["wellbore"]["geometry"] == "cylinders" else ROUNDING
-    # Where a string lies is interpolated to the middles of what hydraulics cut there.
-    flow = HYDRAULIC if drawn.raw["mud"].get("eccentricity") == "string" else ()
+    # Where a string lies is interpolated to the middles of what hydraulics cut there, and beside each of them the
+    # annulus has the mean radius that a caliper measured: its gradient falls with the third power of the clearance.
+    cut = drawn.raw["mud"].get("eccentricity") == "string" or drawn.has("caliper")
+    flow = HYDRAULIC if cut else ()
     same(drawn, changed(drawn, split), bound, but=("ecd_shoe", "profile", *flow))
 
 
