@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from tests.equivalence.answers import ARM, EXACT, ROUNDING, Answers, base, changed, plain, same
+from tests.equivalence.answers import ARM, EXACT, ROUNDING, Answers, base, changed, plain, same, to_rounding
 from tests.equivalence.draws import Drawn
 from tests.equivalence.holes import INCH, Raw
 from tests.equivalence.table import applies, statement
@@ -139,10 +139,13 @@ def mirrored(drawn: Drawn) -> None:
     other = Answers(changed(drawn, mirror), drawn.depth)
     same(drawn, other, ROUNDING, kinds=kinds, but=("surface_torque", "drive_torque", "sum_r_ft", "profile torque"))
     for kind in kinds:  # what a bend to the right turns to one side, a bend to the left turns to the other
-        here, there = base(drawn)[kind], other[kind]
-        if plain(here) and plain(there):
-            turns = abs(here.surface_torque + there.surface_torque) / (ARM * base(drawn).weight)
-            assert turns <= ROUNDING, f"{kind}: torque {here.surface_torque:.6g} and {there.surface_torque:.6g}"
+
+        def compare(*both: Answers, kind: str = kind) -> None:
+            right, left = (of[kind].surface_torque / (ARM * of.weight) for of in both)
+            assert abs(right + left) <= ROUNDING, f"{kind}: torque {right:.6g} and {left:.6g}"
+
+        if plain(base(drawn)[kind]) and plain(other[kind]):
+            to_rounding(compare, kind, base(drawn), other)
 
 
 def rotation(drawn: Drawn, kind: str) -> float:
