@@ -172,13 +172,14 @@ def assert_equal(what: str, one: float, other: float) -> None:
     assert one == other or (math.isnan(one) and math.isnan(other)), f"{what} {one!r} and {other!r}"
 
 
-@statement("row of a chart = equilibrium; order of rows (not resolved)")
+@statement("row of a chart = equilibrium; order of rows (unbuckled)")
 def chart_order(drawn: Drawn) -> None:
     """Operations in any order beside other depths, on one thread or several."""
     dice, answers = drawn.dice(15), base(drawn)
     kinds = sorted(KINDS, key=lambda _: dice.number(0, 1))
     depths = [drawn.depth - 60.0, drawn.depth - 13.0, drawn.depth]
-    applies(all(answers[kind].shape == "none" for kind in kinds))  # a resolved row begins with the one above it
+    # A resolved row, which is seldom unbuckled, begins with the one above it.
+    applies(all(answers[kind].buckling.mode == answers[kind].shape == "none" for kind in kinds))
     for row in chart_rows(drawn.case, kinds, depths, threads=dice.pick([1, 1, 2])):
         if row["bit_depth_m"] == drawn.depth:
             like_row(answers, row["operation"], row)
