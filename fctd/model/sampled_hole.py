@@ -198,14 +198,18 @@ def sample(pieces: Array, sampling: Sampling) -> Array:
     size = 1 + PER_CELL * cells
     table = np.zeros((len(pieces), sampled.TABLES + len(sampling.radii) * size))
     table[:, : contact.COLUMNS] = pieces
-    turn = turns(pieces)
-    table[:, sampled.TURN_COS], table[:, sampled.TURN_SIN] = np.cos(turn), np.sin(turn)
+    table[:, sampled.TURN_COS] = 1.0
     table[:, sampled.TABLES :: size] = sampling.radii
     if sampling.caliper is None:
         return table
     measured, first_arm = in_cells(sampling.caliper, top, bottom)
     (known,) = np.nonzero(~np.isnan(nominal) & ~np.isnan(measured).any(axis=1))
+    if not len(known):
+        return table
     start = reference_angles(pieces, sampling.caliper.reference)[known] + first_arm[known]
+    # Cells count from the first arm: the normal of a straight piece is that of rounding.
+    turn, start = turns(pieces) + start[0], start - start[0]
+    table[:, sampled.TURN_COS], table[:, sampled.TURN_SIN] = np.cos(turn), np.sin(turn)
     angles = np.linspace(0.0, 2 * np.pi, POINTS * cells, endpoint=False)
     wall = wall_around(measured[known], start, angles)
     is_round = np.ones(len(known), np.bool_)
@@ -265,10 +269,10 @@ def with_mean_radii(rows: Array, pieces: Array) -> Array:
     radius = np.sqrt(((nominal[:, None] + found) ** 2).mean(axis=1))
     depths = np.union1d(rows[:, TO_MD], md)
     along = np.column_stack([depths, *(np.interp(depths, rows[:, TO_MD], column) for column in rows.T[1:])])
-    excess = np.zeros(len(depths))
-    # Beyond the cells there is none.
-    excess[np.isin(depths, md)] = radius - nominal
-    along[:, RADIUS] += excess
+    # From the middle of a cell to that of the next the radius is theirs, also where an interval ends there.
+    below = np.minimum(np.searchsorted(md, depths), len(md) - 1)
+    measured = (md[below] == depths) | ((md[below] > depths) & (cells[below] == cells[below - 1] + 1))
+    along[measured, RADIUS] = np.interp(depths[measured], md, radius)
     return along
 
 

@@ -9,13 +9,14 @@ import numpy as np
 from fctd.case.message import within
 from fctd.mechanics import state
 from fctd.model import layouts
+from fctd.results.buckling import NOT_BUCKLED
 from fctd.results.status import SteadyStatus
 from fctd.steady import post_buckling
-from fctd.steady.balance import IN_THE_OPEN, PATIENT, attempts_of, balance
+from fctd.steady.balance import ATTEMPTS, IN_THE_OPEN, LARGEST_TURN, PATIENT, attempts_of, balance
 from fctd.steady.bisection import bisect
 from fctd.steady.carried_shape import begin, carry
 from fctd.steady.climb import LARGEST_PUSH, SOUND_PUSH, Climb, climb, lock_up
-from fctd.steady.continuation import CONVERGED
+from fctd.steady.continuation import CONVERGED, Pace
 from fctd.steady.findings import Findings
 from fctd.steady.helix import Helix
 from fctd.steady.post_buckling import Resolved, is_resolved
@@ -162,8 +163,28 @@ def bisected(problem: Problem, so_far: Findings) -> Equilibrium | None:
         if not so_far.is_coarse:
             return None
         problem.put_pose(path.balances[-1].pose)
-    so_far.ended = so_far.end_of(problem, path)
+    so_far.ended = at_surface(problem, so_far)
     return so_far.ended if so_far.ended.answered else None
+
+
+def at_surface(problem: Problem, so_far: Findings) -> Equilibrium:
+    """The string at the end of the path, with friction at its surface, as Newton's method has it, unless it is buckled.
+
+    At the axis friction is that of a buckled string, whose shape it must not turn.
+    """
+    path = so_far.path
+    point = so_far.end_of(problem, path)
+    if path.pose is None or point.buckling.mode != NOT_BUCKLED.mode:
+        return point
+    problem.at_axis = 0
+    code, iterations = problem.iterate(Pace(*ATTEMPTS[0], LARGEST_TURN, problem.allowed, problem.allowed))
+    path.iterations += iterations
+    if code == CONVERGED and problem.unstable_modes() == 0:
+        path.pose = problem.copy_pose()
+        return so_far.end_of(problem, path)
+    problem.at_axis = 1
+    problem.put_pose(path.pose)
+    return point
 
 
 def patient(problem: Problem, so_far: Findings) -> Equilibrium | None:
@@ -181,7 +202,7 @@ def climbed(problem: Problem, so_far: Findings) -> Equilibrium | None:
     """The string followed in small steps from the last balance at less than its loads, or else from the least loads."""
     so_far.path = climb(problem, path=so_far.path if so_far.path.balances else None)
     lock_up(problem, so_far.path)
-    so_far.ended = so_far.end_of(problem, so_far.path)
+    so_far.ended = at_surface(problem, so_far)
     return so_far.ended if so_far.ended.answered else None
 
 

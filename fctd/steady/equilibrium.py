@@ -19,7 +19,7 @@ from fctd.case.solver import RESOLVING
 from fctd.mechanics import state
 from fctd.model.depths import depth_of
 from fctd.model.drillstring import lay_out
-from fctd.model.operations import SteadyRates, rates_of_all
+from fctd.model.operations import SteadyRates, rates_of_all, steady_rates
 from fctd.model.string_in_hole import check_end, check_fit
 from fctd.model.wellbore import Wellbore, build_wellbore
 from fctd.results.buckling import NOT_BUCKLED
@@ -30,7 +30,6 @@ from fctd.steady.findings import Findings
 from fctd.steady.ladder import NEWTON, look_for
 from fctd.steady.laid_string import LaidString
 from fctd.steady.laws import Hole, hole_of
-from fctd.steady.lie import lie_of
 from fctd.steady.problem import Allowance, Problem, Workspace
 from fctd.steady.reading import SOLVED, Answer
 from fctd.steady.several_balances import draw, may_move
@@ -155,6 +154,23 @@ def equilibrium(
         case = with_friction(case, friction)
         (kind,) = kinds_of([operation])
         return Solver(case).solve(kind, rates_of_all(case, [kind], speed, rpm, flow)[kind], depth)
+
+
+def lie_of(laid: LaidString) -> Array | None:
+    """Offset of each segment over its clearance (n,), 0 to 1, as it lies while it rotates off bottom in mud at rest.
+
+    None where no steady string is found.
+    """
+    kind, string = "rotate_off_bottom", laid.string
+    # On the segments of the string that lies there, buckled or not.
+    case = laid.case.model_copy(update={"solver": laid.case.solver.model_copy(update={"buckling": "detect"})})
+    point = Solver(case, laid.hole).solve_string(kind, steady_rates(case, kind, flow=0.0), laid.at_rest)
+    if not point.answered:
+        return None
+    walls = point._shape.walls
+    share = np.clip(np.linalg.norm(walls.offset, axis=1) / (walls.radius - string.channel_radii[0]), 0.0, 1.0)
+    # At the contact points, which are the lower ends of most segments.
+    return np.asarray(0.5 * (np.append(share[0], share[:-1]) + share))
 
 
 def lie_along(case: Case, bit_depth: float) -> tuple[Array, Array]:

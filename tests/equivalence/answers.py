@@ -17,7 +17,10 @@ from fctd.hydraulics.channel import has_flow_curve
 from fctd.hydraulics.pressures import hydraulics_of
 from fctd.model.operations import SteadyRates, steady_rates
 from fctd.results.status import SteadyStatus
+from fctd.steady.balance import ATTEMPTS, LARGEST_TURN
+from fctd.steady.continuation import CONVERGED, Pace
 from fctd.steady.equilibrium import Solver, lie_along
+from fctd.steady.ladder import NEWTON
 from fctd.steady.steady_string import Equilibrium
 from tests.equivalence.draws import Drawn
 from tests.equivalence.holes import Raw
@@ -29,6 +32,7 @@ ROUNDING: Final = 1e-6
 # Stresses and shares of limits hang on single contacts, which the wall holds softly: the iteration leaves them looser.
 OF_CONTACTS: Final = 100.0
 ARM: Final = 0.1  # [m]
+LONG: Final = 60  # iterations of Newton's method, after which rounding alone is left
 FLOW: Final = 0.02  # [m³/s], of the hydraulics that are compared
 FORCES: Final = ("hookload", "weight_indicator", "total_contact_force", "lift")
 TORQUES: Final = ("surface_torque", "drive_torque", "sum_r_ft", "sum_r_mu_fn")
@@ -67,9 +71,24 @@ class Answers:
 
     def __getitem__(self, kind: str) -> Equilibrium:
         if kind not in self._found:
-            rates = steady_rates(self.case, kind) if self.rates is None else self.rates[kind]
-            self._found[kind] = self.solver.solve_string(kind, rates, self.laid)
+            self._found[kind] = self.solver.solve_string(kind, self._rates(kind), self.laid)
         return self._found[kind]
+
+    def _rates(self, kind: str) -> SteadyRates:
+        return steady_rates(self.case, kind) if self.rates is None else self.rates[kind]
+
+    def iterated(self, kind: str) -> "Answers":
+        """The same where Newton's method goes on until rounding alone is left; of a row of another method, itself."""
+        if self[kind].method != NEWTON:
+            return self
+        problem = self.solver.problem(kind, self._rates(kind), self.laid)
+        problem.lay_guess()
+        exact = 1e-3 * problem.allowed
+        problem.iterate(Pace(*ATTEMPTS[0], LARGEST_TURN, exact, exact)._replace(iterations=LONG))
+        other = Answers(self.case, self.depth, self.rates)
+        other._found[kind] = self.solver.answer(problem, CONVERGED, LONG, 0, NEWTON)
+        other.__dict__.update(solver=self.solver, laid=self.laid)
+        return other
 
     @cached_property
     def weight(self) -> float:
@@ -138,8 +157,12 @@ def same(
             continue
         compared += 1
         full = not loads_only and k == drawn.index % len(kinds)
-        mine, others = (without(numbers(of, kind, loads_only, full), but) for of in (here, there))
-        apart(mine, others, within, f"{kind}: ")
+
+        def compare(*both: Answers, kind: str = kind, full: bool = full) -> None:
+            mine, others = (without(numbers(of, kind, loads_only, full), but) for of in both)
+            apart(mine, others, within, f"{kind}: ")
+
+        to_rounding(compare, kind, here, there) if within == ROUNDING else compare(here, there)
         if within == EXACT and not loads_only:
             assert [note.code for note in one.notes] == [note.code for note in other.notes], f"{kind}: notes"
     if not loads_only:
@@ -147,6 +170,18 @@ def same(
         apart(mine, others, within, "hydraulics: ")
     if not compared:
         raise NotApplicableError
+
+
+def to_rounding(compare: Callable[[Answers, Answers], None], kind: str, one: Answers, other: Answers) -> None:
+    """Raise AssertionError where rows of an operation are not equal within rounding.
+
+    Newton's method ends with a force and a moment of 1e-7 of the weight [N, N m] out of balance at each body, which add
+    up along the string: 0.1 N m at the top of 58 segments.  Rows that differ by more than rounding are iterated on.
+    """
+    try:
+        compare(one, other)
+    except AssertionError:
+        compare(one.iterated(kind), other.iterated(kind))
 
 
 def some_kinds(drawn: Drawn, count: int = 3) -> tuple[str, ...]:

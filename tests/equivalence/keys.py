@@ -2,7 +2,7 @@
 
 import types
 from collections.abc import Iterator
-from typing import Any, Final, Union, get_args, get_origin
+from typing import Any, Final, Literal, Union, get_args, get_origin
 
 from fctd.case.errors import Table
 from fctd.case.load import Case
@@ -19,6 +19,13 @@ ABSENT: Final = {
     "solver.perturbed": "the statement of perturbed rows sets it",
 }
 
+# Words of keys with a list of them that no draw has, and why.
+ABSENT_WORDS: Final = {
+    ("operations.kind", "ream_in"): "the statements compare it at its default rates",
+    ("solver.buckling", "feed"): "a fed row takes seconds, and has several balances (docs/steady.md)",
+    ("string.components.contact", "sleeve"): "what a component without a word has; statements write it out",
+}
+
 
 def keys_of(model: type[Table] = Case, prefix: str = "") -> Iterator[str]:
     """The dotted keys of a model and of the tables in it, lists of tables without an index."""
@@ -29,6 +36,16 @@ def keys_of(model: type[Table] = Case, prefix: str = "") -> Iterator[str]:
             yield key
         for table in tables:
             yield from keys_of(table, f"{key}.")
+
+
+def choices_of(model: type[Table] = Case, prefix: str = "") -> Iterator[tuple[str, str]]:
+    """The dotted keys of a model whose values are words of a list, with each of the words."""
+    for name, field in model.model_fields.items():
+        for part in parts(field.annotation):
+            if get_origin(part) is Literal:
+                yield from ((f"{prefix}{name}", word) for word in get_args(part) if word != field.default)
+            elif isinstance(part, type) and issubclass(part, Table):
+                yield from choices_of(part, f"{prefix}{name}.")
 
 
 def parts(annotation: Any) -> Iterator[Any]:

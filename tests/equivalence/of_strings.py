@@ -98,7 +98,9 @@ def joints_written(drawn: Drawn) -> None:
     """Mass and stiffness of a tool joint by its diameters; loads alone, as stresses are those of the whole pipe."""
     parts = drawn.case.string.components
     chosen = [k for k, part in enumerate(parts) if part.joint_segments is not None]
-    # Mud flows between the blades of a point that is written out, and past all of a tool joint.
+    # Mud flows between the blades of a point that is written out, and past all of a tool joint; what pumps add to the
+    # pressure inside stretches the tool joint by its own bore.
+    applies(not any(row.get("flow") for row in drawn.raw.get("operations", [])))
     applies(chosen and not lengths_by_clearance(drawn) and not drawn.has("viscosity", "rheology", "fann"))
 
     def write(k: int, part: Raw) -> list[Raw]:

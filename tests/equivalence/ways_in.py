@@ -1,11 +1,14 @@
 """Statements about the ways into a case and out of it: units, overrides, options, arguments, commands and files."""
 
+import functools
 import json
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
+from fctd.app.rows import Rows
 from fctd.calibration.forward import Forward
 from fctd.calibration.rows import Row as MeasuredRow
 from fctd.case.key_quantities import quantities_of
@@ -13,10 +16,11 @@ from fctd.case.load import load_case
 from fctd.case.operations import KINDS
 from fctd.case.raw_case import parse_override
 from fctd.model.operations import steady_rates
+from fctd.steady.carried_shape import Carried
 from fctd.steady.equilibrium import equilibrium
 from fctd.steady.margins import Loaded
 from fctd.steady.torque_drag import chart_rows
-from tests.equivalence.answers import EXACT, ROUNDING, Answers, apart, base, changed, plain, same
+from tests.equivalence.answers import EXACT, ROUNDING, Answers, apart, base, changed, plain, same, some_kinds
 from tests.equivalence.dice import Dice
 from tests.equivalence.draws import Drawn
 from tests.equivalence.holes import Raw
@@ -174,10 +178,52 @@ def chart_order(drawn: Drawn) -> None:
     dice, answers = drawn.dice(15), base(drawn)
     kinds = sorted(KINDS, key=lambda _: dice.number(0, 1))
     depths = [drawn.depth - 60.0, drawn.depth - 13.0, drawn.depth]
-    applies(all(answers[kind].buckling.mode == "none" for kind in kinds))
+    # A resolved row, which is seldom unbuckled, begins with the one above it.
+    applies(all(answers[kind].buckling.mode == answers[kind].shape == "none" for kind in kinds))
     for row in chart_rows(drawn.case, kinds, depths, threads=dice.pick([1, 1, 2])):
         if row["bit_depth_m"] == drawn.depth:
             like_row(answers, row["operation"], row)
+
+
+@statement("a chart kept and resumed = straight through")
+def resumed(drawn: Drawn) -> None:
+    """Rows of the first depths from another process, with the shapes of its last resolved rows."""
+    dice = drawn.dice(17)
+    kinds = [dice.pick(list(KINDS)), "trip_in"]
+    depths = [drawn.depth - 60.0, drawn.depth - 13.0, drawn.depth]
+    whole = chart_rows(drawn.case, kinds, depths, threads=1)
+    kept: list[list[dict[str, Any]]] = []
+    above: dict[str, Carried] = {}
+    chart_rows(drawn.case, kinds, depths[: dice.whole(1, 2)], threads=1, above=above, keep=kept.append)
+    rest = chart_rows(drawn.case, kinds, depths, threads=1, known=kept, above=above)
+    equal_rows(whole, rest)
+
+
+@functools.cache
+def page() -> Rows:
+    """The rows of a page, whose memory serves one case after the other."""
+    return Rows()
+
+
+@statement("row of the page = row of the chart")
+def of_page(drawn: Drawn) -> None:
+    """Those columns that a page draws; no resolved row begins with the shape of another depth."""
+    kinds, depths = list(some_kinds(drawn)), [drawn.depth - 60.0, drawn.depth]
+    found = page().solve(drawn.case, base(drawn).solver.hole, kinds, depths)
+    rows = [row for depth in depths for row in chart_rows(drawn.case, kinds, depth, threads=1)]
+    rows.sort(key=lambda row: kinds.index(row["operation"]))
+    equal_rows(found, rows, but=("friction",))
+
+
+def equal_rows(some: Sequence[dict[str, Any]], others: Sequence[dict[str, Any]], but: Sequence[str] = ()) -> None:
+    """Raise AssertionError unless rows are equal to the bit, in the columns that the first ones have."""
+    assert len(some) == len(others)
+    for one, other in zip(some, others, strict=True):
+        at = f"{one['operation']} at {one['bit_depth_m']}"
+        for name, value in one.items():
+            same_number = isinstance(value, float) and math.isnan(value) and math.isnan(other[name])
+            equal = name in but or value == other[name] or same_number
+            assert equal, f"{at}: {name} {value!r} and {other[name]!r}"
 
 
 @statement("rates of the case = arguments")

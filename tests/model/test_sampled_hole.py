@@ -10,9 +10,11 @@ from fctd import InputError
 from fctd.arrays import Array
 from fctd.mechanics import contact, sampled
 from fctd.model.frames import hole_frame
+from fctd.model.perturbed import with_noise
 from fctd.model.sampled_hole import in_cells, turns, wall_around
 from fctd.model.wellbore import build_wellbore
 from tests.calipers import BORE, FIRST, LAST, SIZES, bent_case, bent_hole, rough, sampled_hole
+from tests.cases import make_case, pipe
 
 
 @pytest.mark.slow
@@ -76,6 +78,8 @@ def test_equal_intervals_are_one_however_many_a_case_writes(borders: list[float]
     one, cut = (build_wellbore(bent_case("sampled", caliper=measured, intervals=of)) for of in (SIZES, split))
     within = [of.pieces[of.pieces[:, sampled.AROUND_CELLS] > 0] for of in (one, cut)]
     np.testing.assert_allclose(within[1], within[0], rtol=1e-12, atol=1e-12)
+    own, along = one.wall_along(), cut.wall_along()  # of which the annulus has its radius
+    np.testing.assert_allclose(np.interp(along[:, 0], own[:, 0], own[:, 1]), along[:, 1], rtol=1e-12)
     unlike = cut.with_friction([0.2, 0.3, *(0.4 for _ in borders)])
     near = unlike.walls(unlike.at(borders[0] + np.array([-0.3, 0.3]))[0])
     np.testing.assert_allclose(near.friction / near.friction[0], [1.0, 4 / 3], rtol=1e-6)
@@ -116,6 +120,19 @@ def test_around_the_hole_the_wall_has_its_extremes_at_the_arms(arms: int, seed: 
         assert radii[k].min() - 1e-12 <= around[k].min() <= around[k].max() <= radii[k].max() + 1e-12
     just_before = wall_around(radii[:1], first[:1], np.array([-1e-20]))  # a turn less next to nothing is a whole turn
     assert just_before[0, 0] == pytest.approx(radii[0, 0], abs=1e-12)
+
+
+def test_noise_in_the_stations_of_a_straight_hole_leaves_its_cells_as_they_are() -> None:
+    """Its normals are those of rounding, from which the cells around the hole counted."""
+    rows = [[md, *(0.5 * BORE + np.array([0.004, 0.008, 0.002]))] for md in np.arange(FIRST, FIRST + 5, 0.5)]
+    given = {
+        "geometry": "sampled", "intervals": SIZES, "cell": 0.4, "caliper": {"rows": rows, "values": "radius"},
+    }  # fmt: skip
+    case = make_case([[md, 9.24, 141.0] for md in np.linspace(0, 1000, 24)], [pipe(1000.0, 100)], wellbore=given)
+    own = build_wellbore(case).pieces[:, sampled.TABLES :]
+    for seed in range(4):
+        noisy = build_wellbore(with_noise(case, seed)).pieces[:, sampled.TABLES :]
+        np.testing.assert_allclose(noisy, own, atol=1e-9)
 
 
 @pytest.mark.slow

@@ -1,5 +1,7 @@
 """The attempts of the rungs: what each of them finds, and what it leaves to the next."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
@@ -9,6 +11,9 @@ from fctd.results.status import SteadyStatus
 from fctd.steady import attempts
 from fctd.steady.equilibrium import Solver
 from fctd.steady.findings import Findings
+from fctd.steady.problem import Problem
+from fctd.steady.steady_string import Equilibrium
+from tests.cases import make_case, pipe
 from tests.steady.buckled import level_case
 
 
@@ -37,6 +42,23 @@ def test_a_bisected_string_counts_the_iterations_of_newton() -> None:
     point = attempts.bisected(so_far.problem, so_far)
     assert point is not None
     assert point.iterations == so_far.path.iterations > so_far.first.iterations
+
+
+@pytest.mark.parametrize("attempt", [attempts.bisected, attempts.climbed])
+def test_a_string_that_is_not_buckled_has_the_loads_of_newton(
+    attempt: Callable[[Problem, Findings], Equilibrium | None],
+) -> None:
+    """Friction acts at its surface, whichever rung finds it; at its axis the contact force is off by 1e-4."""
+    bent = [[0.0, 0.0, 0.0], [100.0, 0.0, 0.0], [300.0, 50.0, 0.0], [400.0, 50.0, 0.0]]
+    so_far = findings_of(make_case(bent, [pipe(400.0, 40)], bit={"weight_on_bit": 5e3}), 380.0)
+    newton = attempts.newton(so_far.problem, so_far)
+    so_far.problem.at_axis = 1  # as a rung before leaves it
+    found = attempt(so_far.problem, so_far)
+    assert newton is not None
+    assert found is not None
+    assert (found.status, found.buckling.mode) == (newton.status, "none")
+    for load in ("hookload", "total_contact_force"):
+        assert getattr(found, load) == pytest.approx(getattr(newton, load), abs=1e-6 * so_far.problem.weight)
 
 
 def test_a_string_without_a_balance_goes_on_to_the_climb(monkeypatch: pytest.MonkeyPatch) -> None:

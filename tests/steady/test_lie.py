@@ -5,8 +5,7 @@ import pytest
 
 from fctd import equilibrium, hydraulics_of, lie_along
 from fctd.case.errors import InputError
-from fctd.steady.equilibrium import Solver
-from fctd.steady.lie import lie_of
+from fctd.steady.equilibrium import Solver, lie_of
 from tests.cases import make_case, pipe
 
 SLEEVES = [pipe(None, None, outer=0.127, contact_diameter=0.168, segment_length=20.0)]
@@ -51,3 +50,19 @@ def test_pressures_of_a_flow_may_be_those_of_the_string_where_it_lies() -> None:
         for eccentricity in (0.0, lie_along, 1.0)
     ]
     assert lost[0] > lost[1] > lost[2] > 0
+
+
+def test_a_string_that_the_first_attempt_does_not_find_has_the_lie_of_its_row() -> None:
+    """A bent housing is left to the methods in Python: its string was taken as concentric."""
+    mud = {"density": 1200.0, "viscosity": 0.03, "eccentricity": "string"}
+    motor = pipe(8.0, 2, outer=0.165, inner=0.07, bend=0.01)
+    case = make_case([[0, 0, 0], [500, 0, 0], [800, 60, 0], [1200, 60, 0]], [motor, *SLEEVES], mud=mud)
+    found = equilibrium(case, "trip_in", 1100.0)
+    assert found.notes == ()
+    laid = Solver(case).lay_out(1100.0)
+    straight = Solver(make_case([[0, 0, 0], [500, 0, 0], [800, 60, 0], [1200, 60, 0]], SLEEVES, mud=mud))
+    share, other = lie_of(laid), lie_of(straight.lay_out(1100.0))
+    assert share is not None
+    assert other is not None
+    slant = (laid.string.above_bit[:-1] > 50) & (laid.string.above_bit[1:] < 300)
+    assert share[slant] == pytest.approx(other[-2], abs=0.02)
