@@ -265,10 +265,8 @@ def with_mean_radii(rows: Array, pieces: Array) -> Array:
     radius = np.sqrt(((nominal[:, None] + found) ** 2).mean(axis=1))
     depths = np.union1d(rows[:, TO_MD], md)
     along = np.column_stack([depths, *(np.interp(depths, rows[:, TO_MD], column) for column in rows.T[1:])])
-    excess = np.zeros(len(depths))
-    # Beyond the cells there is none.
-    excess[np.isin(depths, md)] = radius - nominal
-    along[:, RADIUS] += excess
+    # Cells beside round hole have none, so that it ends with them; an interval's end among them has what is measured.
+    along[:, RADIUS] += np.interp(depths, md, radius - nominal)
     return along
 
 

@@ -8,14 +8,16 @@ import numpy as np
 
 from fctd.case.load import Case, load_case
 from fctd.hydraulics.channel import has_flow_curve
-from fctd.model.operations import SteadyRates
+from fctd.model.operations import SteadyRates, steady_rates
 from fctd.results.limits import LIMITS
-from fctd.steady.torque_drag import chart_rows
+from fctd.steady.batch import Row, solve_batch
+from fctd.steady.laws import hole_of
+from fctd.steady.problem import Workspace
 from tests.equivalence.answers import FLOW, ROUNDING, Answers, alike, apart, base, changed, plain, some_kinds
 from tests.equivalence.draws import Drawn
 from tests.equivalence.holes import Raw
+from tests.equivalence.of_parts import measured
 from tests.equivalence.table import applies, statement
-from tests.equivalence.ways_in import like_row
 
 FLUIDS = ("inside", "outside", "inside_pressure", "outside_pressure", "float", "packer_bore", "cake")
 CURVES = ("viscosity", "rheology", "fann", "eccentricity", "axial_damping", "rotational_damping")
@@ -106,33 +108,30 @@ def inside_alone(drawn: Drawn) -> None:
 
 @statement("shallow strings beside deep ones = alone")
 def shallow_beside_deep(drawn: Drawn) -> None:
-    """Rows of a chart of which the shallow strings have fewer components."""
-    answers = base(drawn)
-    kind = some_kinds(drawn)[0]
-    applies(answers[kind].buckling.mode == "none")
-    top = drawn.case.string.top_md
+    """First attempts of a batch, of which the shallow strings have fewer components, to the bit."""
+    kind, solver = some_kinds(drawn)[0], base(drawn).solver
+    top, rates = drawn.case.string.top_md, steady_rates(drawn.case, some_kinds(drawn)[0])
     depths = [round(top + share * (drawn.depth - top), 3) for share in (0.04, 0.3)] + [drawn.depth]
-    rows = chart_rows(drawn.case, kind, depths, threads=1)
-    like_row(answers, kind, rows[-1])
-    for depth, row in zip(depths[:-1], rows[:-1], strict=True):
-        if row["status"] == "converged":
-            like_row(Answers(drawn.case, depth), kind, row)
+    rows = [Row(solver.lay_out(depth), 0, kind, rates) for depth in depths]
+    hole, work = hole_of(drawn.case, [solver.hole]), Workspace(max(row.laid.string.segments for row in rows))
+    together = solve_batch(drawn.case, hole, rows, work)
+    for depth, row, answer in zip(depths, rows, together, strict=True):
+        alone = solve_batch(drawn.case, hole, [row], work)[0]
+        assert np.array_equal(answer.numbers, alone.numbers, equal_nan=True), f"{kind} at {depth:.9g} m"
 
 
 @statement("rows of a caliper = its file", slow=True)
 def caliper_file(drawn: Drawn) -> None:
     """A text in columns, whose orientation of the first arm is added to that of the case."""
-    hole = drawn.raw["wellbore"]
-    applies("rows" in hole.get("caliper", {}) and len(hole["caliper"]["rows"][0]) > 2)
-    turned = drawn.dice(64).whole(5, 170)
-    own = hole["caliper"].get("first_arm", 0.0)
-    one = changed(drawn, lambda raw: raw["wellbore"]["caliper"].update(first_arm=own + math.radians(turned)))
+    hole = measured(drawn, 3)
+    table, turned = hole["caliper"], drawn.dice(64).whole(20, 100)
+    own = table.get("first_arm", 0.0)
+    rows = {"caliper": table | {"first_arm": own + math.radians(turned)}}
     with tempfile.TemporaryDirectory(prefix="fctd-equivalence-") as name:
         file = Path(name) / "caliper.csv"
-        arms = range(1, len(hole["caliper"]["rows"][0]))
-        lines = [",".join(["md_m", "orientation_deg", *(f"arm{k}_m" for k in arms)])]
-        lines += [",".join(map(repr, [md, turned, *row])) for md, *row in hole["caliper"]["rows"]]
+        lines = [",".join(["md_m", "orientation_deg", *(f"arm{k}_m" for k in range(1, 4))])]
+        lines += [",".join(map(repr, [md, turned, *row])) for md, *row in table["rows"]]
         file.write_text("\n".join([*lines, ""]))
-        table = {key: value for key, value in hole["caliper"].items() if key != "rows"} | {"log": str(file)}
-        other = load_case({**drawn.raw, "wellbore": {**hole, "caliper": table}})
-        alike(Answers(one, drawn.depth), Answers(other, drawn.depth), some_kinds(drawn), ROUNDING)
+        log = {"caliper": {key: value for key, value in table.items() if key != "rows"} | {"log": str(file)}}
+        one, other = (Answers(load_case({**drawn.raw, "wellbore": hole | of}), drawn.depth) for of in (rows, log))
+        alike(one, other, some_kinds(drawn), ROUNDING)

@@ -15,7 +15,7 @@ from fctd.model.operations import string_load, weight_indicator
 from fctd.model.section import section_of
 from fctd.model.summary import summarise
 from fctd.results.limits import LIMITS
-from tests.equivalence.answers import ROUNDING, Answers, alike, apart, base, changed, same, some_kinds
+from tests.equivalence.answers import ROUNDING, Answers, alike, apart, base, changed, some_kinds
 from tests.equivalence.draws import Drawn
 from tests.equivalence.holes import Raw
 from tests.equivalence.of_strings import parts_of
@@ -289,27 +289,68 @@ def below_string(drawn: Drawn) -> None:
     apart({"strain": one.laid.squeeze / 1e-4}, {"strain": other.laid.squeeze / 1e-4}, ROUNDING)
 
 
+def measured(drawn: Drawn, diameters: int) -> Raw:
+    """The hole with a caliper of so many diameters, over 40 m above its end, or that which it has already.
+
+    Raises NotApplicableError where bow springs or cylinders take none, and where the hole is cased to its end.
+    """
+    hole = drawn.raw["wellbore"]
+    applies(hole["geometry"] != "cylinders" and hole["intervals"][-1].get("kind") == "open")
+    applies(not drawn.has("centralisers"))
+    if len(hole.get("caliper", {}).get("rows", [[]])[0]) == 1 + diameters:
+        return dict(hole)
+    dice, total, size = drawn.dice(32), hole["stations"][-1][0], hole["intervals"][-1]["diameter"]
+    rows = [
+        [total - 70.0 + 20.0 * k, *(round(size * dice.number(1.01, 1.1), 5) for _ in range(diameters))]
+        for k in range(3)
+    ]
+    reference = dice.pick(["high_side", "north"])
+    return hole | {"geometry": "sampled", "cell": 0.4, "caliper": {"rows": rows, "reference": reference}}
+
+
 @statement("diameters of a caliper = radii")
 def caliper_radii(drawn: Drawn) -> None:
     """Three arms or more measure diameters over half a turn: their radii are those of both ends."""
-    caliper = drawn.raw["wellbore"].get("caliper", {})
-    applies(caliper.get("values") == "diameter")
+    hole = measured(drawn, 3)
+    applies(hole["caliper"].get("values", "diameter") == "diameter")
+    rows = [[md, *[0.5 * width for width in row] * 2] for md, *row in hole["caliper"]["rows"]]
+    other = hole | {"caliper": hole["caliper"] | {"values": "radius", "rows": rows}}
+    one, two = (
+        Answers(changed(drawn, lambda raw, of=of: raw.__setitem__("wellbore", of)), drawn.depth) for of in (hole, other)
+    )
+    alike(one, two, some_kinds(drawn, 2), ROUNDING)
 
-    def halve(raw: Raw) -> None:
-        table = raw["wellbore"]["caliper"]
-        twice = 2 if len(table["rows"][0]) > 3 else 1
-        table |= {"values": "radius", "rows": [[md, *[0.5 * d for d in row] * twice] for md, *row in table["rows"]]}
 
-    same(drawn, changed(drawn, halve), ROUNDING)
+@statement("an interval that a caliper measured = the same in two")
+def split_measured(drawn: Drawn) -> None:
+    """Cells run on where a case writes open hole in two pieces of one size."""
+    hole = measured(drawn, 3)
+    rows, md = hole["intervals"], [row[0] for row in hole["caliper"]["rows"]]
+    end = round(0.5 * (md[0] + md[1]) + 1.037, 3)
+    applies(not rows[:-1] or rows[-2]["to_md"] < end)
+    other = hole | {"intervals": [*rows[:-1], rows[-1] | {"to_md": end}, rows[-1]]}
+    one, two = (
+        Answers(changed(drawn, lambda raw, of=of: raw.__setitem__("wellbore", of)), drawn.depth) for of in (hole, other)
+    )
+    alike(one, two, some_kinds(drawn, 2), ROUNDING, loads_only=True)
 
 
 @statement("a vertical first station = none")
 def first_station(drawn: Drawn) -> None:
-    """Above its first station a hole is vertical, and its azimuth that of the station."""
-    (top, tilt, azimuth), below, *_ = drawn.raw["wellbore"]["stations"]
-    applies(top == 0 and tilt == 0 and below[2] == azimuth and len(drawn.raw["wellbore"]["stations"]) > 2)
-    applies(not drawn.has("survey_smoothing"))
-    same(drawn, changed(drawn, lambda raw: raw["wellbore"]["stations"].pop(0) and None), ROUNDING)
+    """Above its first station a hole is vertical, and its azimuth that of the station; angles are interpolated."""
+    rows = drawn.raw["wellbore"]["stations"]
+    applies(rows[0][:2] == [0.0, 0.0] and rows[1][2] == rows[0][2] and len(rows) > 2)
+
+    def of(first: int) -> Answers:
+        def write(raw: Raw) -> None:
+            hole = raw["wellbore"]
+            for key in ("survey_smoothing", "tortuosity", "caliper", "cell"):
+                hole.pop(key, None)
+            hole |= {"geometry": "cylinders", "survey_method": "average_angle", "stations": rows[first:]}
+
+        return Answers(changed(drawn, write), drawn.depth)
+
+    alike(of(0), of(1), some_kinds(drawn, 2), ROUNDING)
 
 
 @statement("shoe = the deepest end of casing")

@@ -76,6 +76,8 @@ def test_equal_intervals_are_one_however_many_a_case_writes(borders: list[float]
     one, cut = (build_wellbore(bent_case("sampled", caliper=measured, intervals=of)) for of in (SIZES, split))
     within = [of.pieces[of.pieces[:, sampled.AROUND_CELLS] > 0] for of in (one, cut)]
     np.testing.assert_allclose(within[1], within[0], rtol=1e-12, atol=1e-12)
+    mean = [np.interp(md, *hole.wall_along()[:, :2].T) for hole in (one, cut)]
+    np.testing.assert_allclose(mean[1], mean[0], rtol=1e-9)
     unlike = cut.with_friction([0.2, 0.3, *(0.4 for _ in borders)])
     near = unlike.walls(unlike.at(borders[0] + np.array([-0.3, 0.3]))[0])
     np.testing.assert_allclose(near.friction / near.friction[0], [1.0, 4 / 3], rtol=1e-6)
