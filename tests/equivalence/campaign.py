@@ -14,6 +14,7 @@ from tests.equivalence import (  # noqa: F401  which fill the table
     of_files,
     of_flow,
     of_holes,
+    of_joints,
     of_loads,
     of_parts,
     of_strings,

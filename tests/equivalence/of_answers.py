@@ -59,7 +59,7 @@ def assert_same_rows(one: pd.DataFrame, other: pd.DataFrame, within: float, but:
         apart({name: a / scale}, {name: b / scale}, within)
 
 
-@statement("a table in field units = the same in SI")
+@statement("a table in field units = the same in SI", slow=True)
 def field_table(drawn: Drawn) -> None:
     """Every column by the unit at the end of its name; a profile has lengths across the hole, too."""
     point = base(drawn)[some_kinds(drawn)[0]]
@@ -76,7 +76,7 @@ def field_table(drawn: Drawn) -> None:
             apart({f"{old} as {new}": a / scale}, {f"{old} as {new}": b / scale}, 1e-9)
 
 
-@statement("fctd.chart = rows of a chart with its rates")
+@statement("fctd.chart = rows of a chart with its rates", slow=True)
 def public_chart(drawn: Drawn) -> None:
     """The public function passes on speed, rotation and flow; a trip beside what turns does not turn."""
     dice = drawn.dice(40)
@@ -97,7 +97,7 @@ def turned(drawn: Drawn, kind: str) -> float:
     return next((row.get("rpm", 0.0) for row in drawn.raw.get("operations", []) if row["kind"] == kind), 0.0)
 
 
-@statement("limits = strings at their limits")
+@statement("limits = strings at their limits", slow=True)
 def at_limits(drawn: Drawn) -> None:
     """The overpull of a limit, held by the bit, uses all of it: of the steel by its design factor, of the hoist."""
     applies(drawn.raw.get("solver", {}).get("buckling") is None and not drawn.has("helical_force"))
@@ -157,7 +157,7 @@ def pumps_stand(drawn: Drawn) -> None:
     assert_same_rows(of(0.0), of(FLOW), EXACT)
 
 
-@statement("wear of casing = wear factor times force times way")
+@statement("wear of casing = wear factor times force times way", slow=True)
 def worn_casing(drawn: Drawn) -> None:
     """Twice the rotation in half of the time wears as much; a place slides by the circumference of what touches it."""
     rows = drawn.raw["wellbore"]["intervals"]

@@ -53,7 +53,7 @@ def excess_pressures(drawn: Drawn) -> None:
     assert used >= most * (1 - ROUNDING) > 0, f"{code}: share {used:.9g}, of a profile {most:.9g}"
 
 
-@statement("push on a packer = as much weight on bit")
+@statement("push on a packer = as much weight on bit", slow=True)
 def packer_push(drawn: Drawn) -> None:
     """An open end in a seal bore is pushed up by the difference of pressures on the area of the bore."""
     dice, weight = drawn.dice(61), drawn.raw.get("bit", {}).get("weight_on_bit", 0.0)
@@ -69,7 +69,7 @@ def packer_push(drawn: Drawn) -> None:
     apart(*({name: load / base(drawn).weight for name, load in of.items()} for of in loads), ROUNDING)
 
 
-@statement("a damping along the string = in place of the mud's drag")
+@statement("a damping along the string = in place of the mud's drag", slow=True)
 def given_damping(drawn: Drawn) -> None:
     """Of a trip, pumps off: the mud that it displaces drags by the damping alone."""
     damping = {"axial_damping": drawn.dice(62).number(1, 8)}
@@ -94,7 +94,7 @@ def squeezed(drawn: Drawn) -> None:
     apart({"strain": (flowing.squeeze - laid.squeeze) / 1e-4}, {"strain": strain / 1e-4}, ROUNDING)
 
 
-@statement("bore's loss = of the fluid inside alone")
+@statement("bore's loss = of the fluid inside alone", slow=True)
 def inside_alone(drawn: Drawn) -> None:
     """Bore, tools and nozzles lose what they do in a well full of the fluid that is inside."""
     applies(drawn.case.mud.eccentricity != "string")

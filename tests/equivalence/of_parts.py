@@ -211,7 +211,7 @@ def no_friction(drawn: Drawn) -> None:
     alike(of(0.0), of(1e-9), some_kinds(drawn, 2), ROUNDING)
 
 
-@statement("a tool's drop at another density = the same")
+@statement("a tool's drop at another density = the same", slow=True)
 def drop_at_density(drawn: Drawn) -> None:
     """It grows with the density of the mud."""
     applies(drawn.case.mud.eccentricity != "string")
@@ -308,7 +308,7 @@ def measured(drawn: Drawn, diameters: int) -> Raw:
     return hole | {"geometry": "sampled", "cell": 0.4, "caliper": {"rows": rows, "reference": reference}}
 
 
-@statement("diameters of a caliper = radii")
+@statement("diameters of a caliper = radii", slow=True)
 def caliper_radii(drawn: Drawn) -> None:
     """Three arms or more measure diameters over half a turn: their radii are those of both ends."""
     hole = measured(drawn, 3)
@@ -321,7 +321,7 @@ def caliper_radii(drawn: Drawn) -> None:
     alike(one, two, some_kinds(drawn, 2), ROUNDING)
 
 
-@statement("an interval that a caliper measured = the same in two")
+@statement("an interval that a caliper measured = the same in two", slow=True)
 def split_measured(drawn: Drawn) -> None:
     """Cells run on where a case writes open hole in two pieces of one size."""
     hole = measured(drawn, 3)
@@ -335,7 +335,7 @@ def split_measured(drawn: Drawn) -> None:
     alike(one, two, some_kinds(drawn, 2), ROUNDING, loads_only=True)
 
 
-@statement("a vertical first station = none")
+@statement("a vertical first station = none", slow=True)
 def first_station(drawn: Drawn) -> None:
     """Above its first station a hole is vertical, and its azimuth that of the station; angles are interpolated."""
     rows = drawn.raw["wellbore"]["stations"]

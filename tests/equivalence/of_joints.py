@@ -1,0 +1,61 @@
+"""Statements about strings of many parts: pipe that buckles joint by joint, and a bent string written in pieces."""
+
+import numpy as np
+
+from tests.equivalence.answers import ROUNDING, Answers, alike, apart, base, changed
+from tests.equivalence.draws import Drawn
+from tests.equivalence.holes import Raw
+from tests.equivalence.table import applies, statement
+
+WEIGHT_ON_BIT = 0.4  # of the string's weight
+
+
+@statement("buckling of a row = of its profile")
+def buckled_row(drawn: Drawn) -> None:
+    """Compression over the limit where a profile is buckled; pipe in joints buckles as a whole."""
+    applies(drawn.has("joint", "joint_segments"))
+
+    def press(raw: Raw) -> None:
+        raw.get("solver", {}).pop("buckling", None)
+        raw.get("contact", {}).pop("helical_force", None)
+        raw["bit"] = {"weight_on_bit": WEIGHT_ON_BIT * base(drawn).weight}
+        raw["operations"] = []
+        for part in raw["string"]["components"]:
+            part.pop("bend", None)
+            if "joint" in part:
+                part["joint_segments"] = 2
+                for key in ("segments", "segment_length"):
+                    part.pop(key, None)
+
+    point = Answers(changed(drawn, press), drawn.depth)["drill_sliding"]
+    applies(point.answered and point.buckling.mode != "none")
+    of = point.profile
+    limit = np.where(of["buckling"] == "none", np.inf, of["sinusoidal_limit_N"])
+    excess = float((-of["effective_tension_N"] / limit).max())
+    apart({"excess": point.buckling.excess / excess}, {"excess": 1.0}, ROUNDING)
+    modes = ("none", "sinusoidal", "helical")
+    worst = modes[max(map(modes.index, of["buckling"]))]
+    assert worst == point.buckling.mode, f"{point.buckling.mode}, in its profile {worst}"
+
+
+@statement("a bent string = the same with each segment a component", slow=True)
+def bent_in_pieces(drawn: Drawn) -> None:
+    """A body has the stresses of the whole, however many components it is written in."""
+    spec, top = drawn.case.string.components[-1], drawn.case.string.top_md
+    body = {
+        "name": "pipe", "outer_diameter": spec.outer_diameter, "inner_diameter": spec.inner_diameter,
+        "contact_diameter": spec.contact_diameter, "contact": "sleeve",
+    }  # fmt: skip
+    housing = body | {"name": "housing", "length": 9.0, "segments": 3, "bend": 0.004, "toolface": 1.0}
+    count = max(round((drawn.depth - top) / 30.0), 3)
+    every = (drawn.depth - top - 9.0) / count
+
+    def of(pipe: list[Raw]) -> Answers:
+        def write(raw: Raw) -> None:
+            raw["string"] = {"components": [housing, *pipe]} | ({"top_md": top} if top else {})
+
+        return Answers(changed(drawn, write), drawn.depth)
+
+    whole = of([body | {"segment_length": every, "length": count * every}])
+    pieces = of([body | {"length": every, "segments": 1} for _ in range(count)])
+    alike(whole, pieces, ("trip_out",), ROUNDING)
