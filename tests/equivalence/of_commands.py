@@ -11,11 +11,13 @@ from fctd.answers.run import simulate
 from fctd.case.load import load_case
 from fctd.hydraulics.pressures import hydraulics_of
 from fctd.mechanics import state
+from fctd.model.operations import steady_rates
 from fctd.simulation.flowing_mud import let_flow
 from fctd.simulation.preparation import prepare
-from fctd.steady.equilibrium import Solver, equilibrium
+from fctd.steady.equilibrium import equilibrium
+from fctd.steady.laid_string import LaidString
 from fctd.steady.torque_drag import chart_rows
-from tests.equivalence.answers import FLOW, ROUNDING, Answers, apart, base, changed, plain
+from tests.equivalence.answers import FLOW, ROUNDING, apart, base, changed, plain
 from tests.equivalence.draws import Drawn
 from tests.equivalence.holes import Raw
 from tests.equivalence.of_answers import assert_same_rows
@@ -140,22 +142,13 @@ def flow_on_run(drawn: Drawn) -> None:
 
     case = changed(drawn, write)
     run, _ = prepare(case)
-    solver = Solver(case)
-    laid = solver.lay_out(drawn.depth)
-    answers = Answers(case, drawn.depth)
-    steady = laid.in_flow(equilibrium_rates(case)).given
+    steady = LaidString(case, run.hole, run.string).in_flow(steady_rates(case, "rotate_off_bottom")).given
     assert run.string.long_segment
     pipe, _ = let_flow(run.S, case, run.string, run.hole, run.pipe, 0.0, FLOW)
     given = state.row(run.S, state.GIVEN_FORCE, run.string.segments).copy()
+    weight = float(run.string.weight @ run.string.length)
     given[0] += 0.5 * pipe.given * run.string.length[0]
-    apart({"load": given / answers.weight}, {"load": steady / answers.weight}, ROUNDING)
-
-
-def equilibrium_rates(case: Any) -> Any:
-    """Rates of the rotation of a case."""
-    from fctd.model.operations import steady_rates
-
-    return steady_rates(case, "rotate_off_bottom")
+    apart({"load": given / weight}, {"load": steady / weight}, ROUNDING)
 
 
 @statement("a run in time comes to the steady string", slow=True)

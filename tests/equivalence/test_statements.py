@@ -18,8 +18,7 @@ def test_the_statements_hold(start: int) -> None:
     assert tally.held >= 15
 
 
-@pytest.mark.slow
-@pytest.mark.seconds(20)
+@pytest.mark.slow(seconds=20)
 @pytest.mark.parametrize("start", range(0, 12, 3))
 def test_the_slow_statements_hold(start: int) -> None:
     """Those that run commands or take longer, of three drawn cases."""
