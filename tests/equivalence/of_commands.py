@@ -134,6 +134,7 @@ def flow_on_run(drawn: Drawn) -> None:
         raw["rig"] = {"feed": "long_segment"}
         raw["contact"] = {}
         raw["solver"] = {}
+        raw.get("bit", {}).pop("overpull", None)
         raw["wellbore"]["stations"] = [[0.0, 0.0, 0.0], [raw["wellbore"]["stations"][-1][0], 0.0, 0.0]]
         last = raw["string"]["components"][-1]
         for key in ("length", "segment_length"):
