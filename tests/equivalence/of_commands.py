@@ -9,6 +9,7 @@ from python_calamine import CalamineWorkbook
 
 from fctd.answers.run import simulate
 from fctd.case.load import load_case
+from fctd.hydraulics.channel import has_flow_curve
 from fctd.hydraulics.pressures import hydraulics_of
 from fctd.mechanics import state
 from fctd.model.operations import steady_rates
@@ -77,7 +78,9 @@ def equilibrium_command(drawn: Drawn) -> None:
 
 @statement("fctd hydraulics = the function with its arguments", slow=True)
 def hydraulics_command(drawn: Drawn) -> None:
-    """Flow, depth and eccentricity."""
+    """Flow, depth and eccentricity; of a mud with a viscosity, where the case says nothing of its flow."""
+    curve = {} if has_flow_curve(drawn.case) else {"viscosity": 0.02}
+    drawn = Drawn(drawn.seed, drawn.index, drawn.raw | {"mud": drawn.raw["mud"] | curve})
     applies(base(drawn).hydraulics)
     beside = drawn.dice(52).number(0.1, 0.9, 2)
     row = hydraulics_of(drawn.case, FLOW, drawn.depth, beside).iloc[0]
