@@ -6,9 +6,14 @@ from pathlib import Path
 
 import numpy as np
 
+from fctd.calibration.forward import Forward
+from fctd.calibration.rows import Row as MeasuredRow
+from fctd.calibration.setup import Setup, UnknownSpec
+from fctd.calibration.unknowns import find_unknowns
 from fctd.case.load import Case, load_case
 from fctd.hydraulics.channel import has_flow_curve
 from fctd.model.operations import SteadyRates, steady_rates
+from fctd.model.section import section_of
 from fctd.results.limits import LIMITS
 from fctd.steady.batch import Row, solve_batch
 from fctd.steady.laws import hole_of
@@ -118,6 +123,28 @@ def shallow_beside_deep(drawn: Drawn) -> None:
     for depth, row, answer in zip(depths, rows, together, strict=True):
         alone = solve_batch(drawn.case, hole, [row], work)[0]
         assert np.array_equal(answer.numbers, alone.numbers, equal_nan=True), f"{kind} at {depth:.9g} m"
+
+
+@statement("calibrate at another mass = equilibrium with that mass", slow=True)
+def other_mass(drawn: Drawn) -> None:
+    """Of pipe between unlike fluids, whose mass is an unknown."""
+    density = drawn.dice(65).number(1000, 1200)
+    unlike = {"float": True, "density": density, "outside": [{"density": density + 150.0}]}
+    case = in_mud(drawn, unlike, {"overpull": 0.0})
+    part, kind = case.string.components[-1], drawn.dice(66).pick(["trip_out", "trip_in"])
+    applies([one.name for one in case.string.components].count(part.name) == 1)
+    mass = 1.04 * section_of(part, density).mass
+    setup, name = Setup(), f"mass.{part.name}"
+    rows = [MeasuredRow(kind, "", drawn.depth, kind, steady_rates(case, kind))]
+    found = Forward(rows, {"": case}, find_unknowns({name: UnknownSpec()}, setup, [case]), setup)
+    last = f"string.components[{len(case.string.components) - 1}].linear_mass"
+    own = Answers(load_case(case.model_dump(exclude_none=True), {last: mass}), drawn.depth)[kind]
+    applies(plain(own))
+    read = {
+        load.load: value for load, value in zip(found.readings, found.evaluate(np.array([mass])).value, strict=True)
+    }
+    weight = base(drawn).weight
+    apart({"indicator": own.weight_indicator / weight}, {"indicator": float(read["hookload"]) / weight}, ROUNDING)
 
 
 @statement("rows of a caliper = its file", slow=True)
