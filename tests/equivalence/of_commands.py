@@ -136,6 +136,10 @@ def flow_on_run(drawn: Drawn) -> None:
         ]
         raw["rig"] = {"feed": "long_segment"}
         raw["contact"] = {}
+        raw["mud"].pop("cake", None)
+        for row in raw["wellbore"]["intervals"]:
+            for key in ("static_friction", "decay_speed", "overbalance"):
+                row.pop(key, None)
         raw["solver"] = {}
         raw.get("bit", {}).pop("overpull", None)
         raw["wellbore"]["stations"] = [[0.0, 0.0, 0.0], [raw["wellbore"]["stations"][-1][0], 0.0, 0.0]]

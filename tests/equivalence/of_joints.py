@@ -10,6 +10,27 @@ from tests.equivalence.table import applies, statement
 WEIGHT_ON_BIT = 0.4  # of the string's weight
 
 
+@statement("joints in series = segments in series")
+def in_series(drawn: Drawn) -> None:
+    """Half of each neighbouring segment gives way in a joint; what is below the last joint is no joint's."""
+    string = base(drawn).laid.string
+    for name in ("EA", "shear", "EI"):
+        give = string.length / string.of(name)
+        joints = float((1 / string.joints(name)).sum()) / float(give.sum() - 0.5 * give[-1])
+        apart({name: joints}, {name: 1.0}, 1e-9)
+
+
+@statement("two unlike sleeves touch with the wider one")
+def wider_sleeve(drawn: Drawn) -> None:
+    """At the joint of two segments the string is as wide as the wider of both."""
+    string, parts = base(drawn).laid.string, drawn.case.string.components
+    wide = np.array([0.5 * part.contact_diameter for part in parts])[string.origin]
+    sleeve = np.array([part.contact == "sleeve" and part.repeat is None for part in parts])[string.origin]
+    both = sleeve[:-1] & sleeve[1:]
+    found, expected = string.contact_radius()[:-1][both], np.maximum(wide[:-1], wide[1:])[both]
+    apart({"radius": found}, {"radius": expected}, 1e-12)
+
+
 @statement("buckling of a row = of its profile")
 def buckled_row(drawn: Drawn) -> None:
     """Compression over the limit where a profile is buckled; pipe in joints buckles as a whole."""
