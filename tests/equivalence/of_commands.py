@@ -135,7 +135,7 @@ def flow_on_run(drawn: Drawn) -> None:
             {"kind": "rotate_off_bottom", "at_md": drawn.depth, "duration": 20.0, "rpm": 60.0, "flow": FLOW}
         ]
         raw["rig"] = {"feed": "long_segment"}
-        raw["contact"] = {}
+        raw["contact"], raw["record"] = {}, {}
         raw["mud"].pop("cake", None)
         for row in raw["wellbore"]["intervals"]:
             for key in ("static_friction", "decay_speed", "overbalance"):

@@ -12,6 +12,7 @@ from fctd.calibration.setup import Setup, UnknownSpec
 from fctd.calibration.unknowns import find_unknowns
 from fctd.case.load import Case, load_case
 from fctd.hydraulics.channel import has_flow_curve
+from fctd.model.fluids import depth_at
 from fctd.model.operations import SteadyRates, steady_rates
 from fctd.model.section import section_of
 from fctd.results.limits import LIMITS
@@ -21,7 +22,7 @@ from fctd.steady.problem import Workspace
 from tests.equivalence.answers import FLOW, ROUNDING, Answers, alike, apart, base, changed, plain, some_kinds
 from tests.equivalence.draws import Drawn
 from tests.equivalence.holes import Raw
-from tests.equivalence.of_parts import measured
+from tests.equivalence.of_parts import GRAVITY, measured
 from tests.equivalence.table import applies, statement
 
 FLUIDS = ("inside", "outside", "inside_pressure", "outside_pressure", "float", "packer_bore", "cake")
@@ -56,6 +57,33 @@ def excess_pressures(drawn: Drawn) -> None:
     most = float((excess / np.append(bears[0], bears)).max())
     used = float(point.shares[[limit.code for limit in LIMITS].index(code), 0])
     assert used >= most * (1 - ROUNDING) > 0, f"{code}: share {used:.9g}, of a profile {most:.9g}"
+
+
+@statement("pressures of a profile = weights of their columns")
+def columns_weigh(drawn: Drawn) -> None:
+    """Of fluids at rest: the density of the row at each depth, from the surface downwards.
+
+    A string is longer than its tally by its stretch, and its contact points lie beside the axis.
+    """
+    dice, kind = drawn.dice(67), some_kinds(drawn)[0]
+    mud: Raw = {"float": True}
+    for side, lower in (("inside", 1500.0), ("outside", 1650.0)):
+        met = round(dice.number(0.2, 0.9) * drawn.depth, 1)
+        mud[side] = [{"to_md": met, "density": 1000.0}, {"density": lower}]
+        mud[f"{side}_pressure"] = dice.number(1e5, 1e6)
+    answers = Answers(in_mud(drawn, mud, without=(*FLUIDS, *CURVES)), drawn.depth)
+    applies(answers[kind].answered)
+    profile, hole = answers[kind].profile, answers.solver.hole
+    md = profile["md_m"].to_numpy(float)
+    tvd = depth_at(hole, md)
+    for side in ("inside", "outside"):
+        met, (above, below) = mud[side][0]["to_md"], (row["density"] for row in mud[side])
+        deep = float(depth_at(hole, np.array([met]))[0])
+        weight = np.where(md < met, above * tvd, above * deep + below * (tvd - deep))
+        clear = np.abs(md - met) > 2.0
+        found = mud[f"{side}_pressure"] + GRAVITY * weight
+        shown = profile[f"{side}_pressure_Pa"].to_numpy(float)
+        apart({side: shown[clear] / 1e7}, {side: found[clear] / 1e7}, 8e-4)
 
 
 @statement("push on a packer = as much weight on bit", slow=True)

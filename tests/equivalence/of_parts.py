@@ -100,36 +100,6 @@ def true_tension(drawn: Drawn) -> None:
     apart({"true tension": of["true_tension_N"] / scale}, {"true tension": true / scale}, 1e-9)
 
 
-@statement("pressures of a profile = weights of their columns")
-def columns_weigh(drawn: Drawn) -> None:
-    """Of fluids at rest: the density of the row at each depth, from the surface, or from a plug, downwards.
-
-    A string is longer than its tally by its stretch, and its contact points lie beside the axis.
-    """
-    mud, answers = drawn.raw["mud"], base(drawn)
-    point = answers[some_kinds(drawn)[0]]
-    applies(point.answered and "inside_pressure_Pa" in point.profile.columns and not has_flow_curve(drawn.case))
-    applies(not drawn.has("flow"))
-    md = point.profile["md_m"].to_numpy(float)
-    tvd = depth_at(answers.solver.hole, md)
-    for side in ("inside", "outside"):
-        rows = mud.get(side) or [{"density": mud["density"]}]
-        pressure, top, met, plug = mud.get(f"{side}_pressure", 0.0), 0.0, 0.0, False
-        found = np.zeros(len(md))
-        for row in rows:
-            pressure = row.get("pressure", 0.0) if plug else pressure
-            here = md >= top
-            found[here] = pressure + GRAVITY * row["density"] * (tvd[here] - met)
-            top = row.get("to_md", math.inf)
-            if math.isfinite(top):
-                below = float(depth_at(answers.solver.hole, np.array([top]))[0])
-                pressure, met, plug = pressure + GRAVITY * row["density"] * (below - met), below, row.get("plug", False)
-        meets = [row["to_md"] for row in rows if "to_md" in row]
-        clear = np.all([np.abs(md - met) > 2.0 for met in meets], axis=0) if meets else np.full(len(md), True)
-        shown = point.profile[f"{side}_pressure_Pa"].to_numpy(float)
-        apart({side: shown[clear] / 1e7}, {side: found[clear] / 1e7}, 8e-4)
-
-
 @statement("mean pressure along a segment = mean of its pressures")
 def mean_pressures(drawn: Drawn) -> None:
     """Fluids that meet within a segment press on it by the share that each has; an arc lies off its chord."""
@@ -335,22 +305,22 @@ def split_measured(drawn: Drawn) -> None:
     alike(one, two, some_kinds(drawn, 2), ROUNDING, loads_only=True)
 
 
-@statement("a vertical first station = none", slow=True)
+@statement("a vertical first station = none")
 def first_station(drawn: Drawn) -> None:
-    """Above its first station a hole is vertical, and its azimuth that of the station; angles are interpolated."""
-    rows = drawn.raw["wellbore"]["stations"]
-    applies(rows[0][:2] == [0.0, 0.0] and rows[1][2] == rows[0][2] and len(rows) > 2)
+    """A hole begins vertical at the table, with the azimuth of its first station; angles are interpolated."""
+    rows = [row for row in drawn.raw["wellbore"]["stations"] if row[1] > 0]
+    applies(len(rows) > 1 and rows[0][0] > 0)
 
-    def of(first: int) -> Answers:
+    def of(stations: list[Any]) -> Answers:
         def write(raw: Raw) -> None:
             hole = raw["wellbore"]
             for key in ("survey_smoothing", "tortuosity", "caliper", "cell"):
                 hole.pop(key, None)
-            hole |= {"geometry": "cylinders", "survey_method": "average_angle", "stations": rows[first:]}
+            hole |= {"geometry": "cylinders", "survey_method": "average_angle", "stations": stations}
 
         return Answers(changed(drawn, write), drawn.depth)
 
-    alike(of(0), of(1), some_kinds(drawn, 2), ROUNDING)
+    alike(of([[0.0, 0.0, rows[0][2]], *rows]), of(rows), some_kinds(drawn, 2), ROUNDING)
 
 
 @statement("shoe = the deepest end of casing")
