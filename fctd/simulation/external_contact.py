@@ -199,16 +199,16 @@ class QueriedWall:
         walls = self._hole.walls(self._points, self._near, radii)
         self._near = np.searchsorted(self._hole.pieces[:, START_MD], walls.md, side="right").astype(np.int64) - 1
         away = np.linalg.norm(walls.offset, axis=1)
-        if (outside := away - walls.radius + radii - walls.radius).max() > 0:
-            k = int(outside.argmax())
-            raise UnstableError(
-                f"contact method {self.name!r} lets contact point {k + 1} lie "
-                f"{away[k] - walls.radius[k] + radii[k]:.3g} m deep in the wall"
-            )
         touching = (hits.penetration > 0) & (away > ON_AXIS)
         inwards = touching & (np.sum(hits.normal * walls.offset, axis=1) < 0)
         if inwards.any():
             raise UnstableError(
                 f"contact method {self.name!r} returns normals that point into the hole at {int(inwards.sum())} of "
                 f"{int(touching.sum())} contacts: expected those from the axis to the wall"
+            )
+        if (outside := away - walls.radius + radii - walls.radius).max() > 0:
+            k = int(outside.argmax())
+            raise UnstableError(
+                f"contact method {self.name!r} lets contact point {k + 1} lie "
+                f"{away[k] - walls.radius[k] + radii[k]:.3g} m deep in the wall"
             )

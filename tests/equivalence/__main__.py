@@ -3,7 +3,7 @@
     python -m tests.equivalence --draws 200 --seed 1
     python -m tests.equivalence --seed 1 --only 17 --statement "azimuth turned"
 
-Exit code 1 where a statement failed. With --slow: those that run commands and write files too.
+Exit code 1 where a statement failed. With --slow: those that run commands, write files or take longer, too.
 """
 
 import argparse
@@ -24,7 +24,7 @@ def main() -> int:
     parser.add_argument("--start", type=int, default=0, help="index of the first case")
     parser.add_argument("--only", type=int, help="index of a single case, which is printed")
     parser.add_argument("--statement", default="", help="those whose names contain this")
-    parser.add_argument("--slow", action="store_true", help="statements that run commands or write files too")
+    parser.add_argument("--slow", action="store_true", help="those that run commands, write files or take longer, too")
     arguments = parser.parse_args()
     warnings.simplefilter("error")
     table = STATEMENTS.values() if arguments.slow else fast()

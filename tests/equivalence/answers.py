@@ -259,3 +259,13 @@ def differences(one: Mapping[str, Any], other: Mapping[str, Any]) -> Iterator[tu
             gap = gap / OF_CONTACTS
         row = int(np.argmax(gap))
         yield float(gap[row]), f"{name} {a[row]:.9g} and {b[row]:.9g}" + (f" in row {row}" if len(a) > 1 else "")
+
+
+def alike(one: Answers, other: Answers, kinds: Sequence[str], within: float, *, loads_only: bool = False) -> None:
+    """Raise AssertionError where rows of two cases, neither the drawn one, differ by more than a bound."""
+    compared = [kind for kind in kinds if plain(one[kind]) or plain(other[kind])]
+    for kind in compared:
+        mine, others = (numbers(of, kind, loads_only, not loads_only) for of in (one, other))
+        apart(mine, others, within, f"{kind}: ")
+    if not compared:
+        raise NotApplicableError

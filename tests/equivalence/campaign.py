@@ -8,7 +8,18 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from fctd.case.errors import InputError
-from tests.equivalence import of_files, of_holes, of_loads, of_strings, ways_in  # noqa: F401  which fill the table
+from tests.equivalence import (  # noqa: F401  which fill the table
+    of_answers,
+    of_commands,
+    of_files,
+    of_flow,
+    of_holes,
+    of_joints,
+    of_loads,
+    of_parts,
+    of_strings,
+    ways_in,
+)
 from tests.equivalence.answers import NotApplicableError
 from tests.equivalence.draws import Drawn, draw
 from tests.equivalence.table import STATEMENTS, Statement

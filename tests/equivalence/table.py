@@ -13,7 +13,7 @@ class Statement(NamedTuple):
     """A statement that must hold of every drawn case.
 
     check : raises AssertionError where it does not hold, NotApplicableError of a case of which it says nothing; slow :
-    whether it runs commands or writes files.
+    whether it runs commands, writes files, or takes longer than others.
     """
 
     name: str

@@ -18,6 +18,16 @@ def test_the_statements_hold(start: int) -> None:
     assert tally.held >= 15
 
 
+@pytest.mark.slow(seconds=20)
+@pytest.mark.parametrize("start", range(0, 12, 3))
+def test_the_slow_statements_hold(start: int) -> None:
+    """Those that run commands or take longer, of three drawn cases."""
+    chosen = [of for of in STATEMENTS.values() if of.slow]
+    tally = campaign(SEED, range(start, start + 3), chosen)
+    assert [f"--seed {SEED} --only {index}: {name}: {words}" for name, _, index, words in tally.failures] == []
+    assert tally.held >= 15
+
+
 def test_a_wrong_answer_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     """A rig whose drive reads the string's torque alone: its seed and its statement are told."""
     monkeypatch.setattr("fctd.steady.steady_string.drive_torque", lambda rig, spin, torque: torque)
