@@ -19,7 +19,8 @@ def test_a_shift_is_the_error_of_all_points_and_its_contacts_are_false() -> None
         errors_of(method, near, exact),
         errors_of(method, near, exact._replace(penetration=exact.penetration + 3e-3)),
     )
-    assert not (same.missed.any() or same.false.any())
+    assert not same.missed.any()
+    assert not same.false.any()
     assert np.abs(same.depth).max() < 1e-9
     np.testing.assert_allclose(off.depth, 3e-3, atol=1e-9)
     assert off.false.sum() == ((exact.penetration < -off.bound) & (exact.penetration > -3e-3)).sum() > 10
@@ -34,7 +35,8 @@ def test_a_point_without_an_answer_has_no_error() -> None:
     silent = hits._replace(penetration=np.where(hits.penetration > 0, hits.penetration, -np.inf))
     off = errors_of(method, near, silent)
     assert np.isnan(off.depth[hits.penetration <= 0]).all()
-    assert not (off.missed.any() or off.false.any())
+    assert not off.missed.any()
+    assert not off.false.any()
 
 
 @pytest.mark.parametrize(("md", "slope"), [((SHOE, SHOE + 0.2), True), ((70.0, 90.0), False)])
