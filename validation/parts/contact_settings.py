@@ -21,7 +21,7 @@ DRIFTS = (2.0, 1.0, 0.25)
 
 
 def is_plugin(name: str) -> bool:
-    """Whether a method is a plugin's; of one of the suite rivals' code is not asked, which is no input of its studies."""
+    """Whether a method is of a plugin; of one of the suite rivals are not asked, whose code its studies do not read."""
     return name not in contact.METHODS and name in contact.REGISTRY.plugins()
 
 
