@@ -236,8 +236,8 @@ def surface_bore(drawn: Drawn) -> None:
 def at_last_shoe(drawn: Drawn) -> None:
     """The equivalent density at the last of several shoes is that of the annulus that ends there.
 
-    The new end of an interval cuts a piece of the annulus in two: where the fluid changes within one, its loss is that of
-    the mean density.
+    The new end of an interval cuts a piece of the annulus in two. Where the fluid changes within one, its loss is that
+    of the mean density.
     """
     rows = drawn.raw["wellbore"]["intervals"]
     applies(base(drawn).hydraulics and len(rows) > 1 and drawn.raw["mud"].get("eccentricity") != "string")
