@@ -15,8 +15,8 @@ from tests.equivalence.table import applies, statement
 # Chords of cylinders that miss the arc by this much [m].
 FINE = 2e-4
 # Cylinders that are cut elsewhere, and shoes that are blended over the length of a cell or of an overlap.
-# Where cylinders end elsewhere, and for each degree of the kinks between them: a string that lies over a kink is pressed
-# on there, and most of this is contact force.
+# Where cylinders end elsewhere, and for each degree of their kinks: a string that lies over a kink is pressed on there,
+# and most of this is contact force.
 CUT_ELSEWHERE, EACH_DEGREE = 2e-3, 0.02
 AT_SHOE = 1e-3  # where the wall leads otherwise from one size to the next, over the same length
 HYDRAULIC = ("standpipe", "bore", "annulus", "ecd", "pump", "lift_N")
