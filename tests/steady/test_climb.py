@@ -4,8 +4,18 @@ import numpy as np
 import pytest
 
 from fctd.model.section import section_of
-from fctd.steady.climb import LOW_FRICTION, Climb, Step, _next, climb, close, lock_up
-from fctd.steady.problem import Share
+from fctd.steady.climb import (
+    LOW_FRICTION,
+    MANY_ITERATIONS,
+    SMALLEST_STEP,
+    Climb,
+    Step,
+    climb,
+    close,
+    come_to_rest,
+    lock_up,
+)
+from fctd.steady.problem import Problem, Share
 from tests.steady.buckled import level_case, problem_of
 
 
@@ -33,13 +43,18 @@ def test_the_push_of_a_straight_string_is_its_friction() -> None:
         assert -step.hookload == pytest.approx(push, rel=2e-3)
 
 
-def test_a_path_goes_on_by_more_than_rounding() -> None:
-    """A push that has grown by thirty orders leaves no way to lock-up; steps at one share have no root between them."""
+def test_steps_do_not_shrink_to_rounding(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A string that takes many iterations at each step goes on all the same: two steps at one share have no root."""
     problem = problem_of(level_case(0.5, length=30.0, segment=3.0, friction=0.1))
-    path = climb(problem)
-    path.steps[:] = [Step(0.5, -2 * problem.weight), Step(0.6, -1e30)]
-    path.balances[-1] = path.balances[-1]._replace(share=Share(0.6, 1.0))
-    assert _next(problem, path, 0.1, 2.0).friction > 0.6
+    relaxed = come_to_rest
+
+    def slowly(problem: Problem, iterations: int, share: Share) -> tuple[int, int]:
+        return relaxed(problem, iterations, share)[0], 10 * MANY_ITERATIONS
+
+    monkeypatch.setattr("fctd.steady.climb.come_to_rest", slowly)
+    friction = [step.share for step in climb(problem).steps]
+    assert friction[-1] == 1.0
+    assert np.diff(friction)[:-1].min() >= SMALLEST_STEP - 1e-12
 
 
 def test_preparation_comes_before_each_step() -> None:
