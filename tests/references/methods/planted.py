@@ -1,0 +1,90 @@
+"""Methods and engines with planted faults, in a hole of 240 m."""
+
+from importlib.metadata import EntryPoint
+from typing import Any
+
+import numpy as np
+import pytest
+
+from fctd.arena.exact_hole import ExactHole
+from fctd.arrays import Array, Contacts
+from fctd.case.load import Case
+from fctd.mechanics import state
+from fctd.model.pieces import FRICTION
+from fctd.simulation.run import Run
+from references import contact, engines, registry
+from references.contact.own import ArcOptions, Arcs
+from references.engines import StepOptions
+from references.engines.own import Fctd
+from tests.references.wells import bent_case
+
+FACTOR = 0.9  # of the friction of the faulty engine
+OFF = 3.0  # [deg] by which the normals of the faulty method are off
+
+
+def well(**more: Any) -> Case:
+    """The bent hole of 240 m, whose string turns."""
+    turning = {"kind": "rotate_off_bottom", "at_md": 200, "duration": 5, "rpm": 60, "ramp_time": 0.2}
+    case = bent_case()
+    raw = case.model_dump(exclude_none=True, exclude={"file"})
+    return Case.model_validate(raw | {"operations": [turning], "mud": {"density": 1200, "viscosity": 0}} | more)
+
+
+class Leaning(Arcs):
+    """The arcs, whose normals are OFF around the axis."""
+
+    name = "leaning"
+
+    def __init__(self, case: Case, options: Any) -> None:
+        super().__init__(case, ArcOptions())
+        self.exact = ExactHole(case.wellbore)
+
+    def query(self, points: Array, radii: Array) -> Contacts:
+        hits = super().query(points, radii)
+        along = self.exact.at(hits.md)[1]
+        turn = np.radians(OFF)
+        normal = np.cos(turn) * hits.normal + np.sin(turn) * np.cross(along, hits.normal)
+        return hits._replace(normal=normal / np.linalg.norm(normal, axis=1)[:, None])
+
+
+class Lost(Arcs):
+    """The arcs, with a penetration that is no number at contacts."""
+
+    name = "lost"
+
+    def query(self, points: Array, radii: Array) -> Contacts:
+        hits = super().query(points, radii)
+        return hits._replace(penetration=np.where(hits.penetration > 0, np.nan, hits.penetration))
+
+
+class Raising(Arcs):
+    """A method that raises in its query."""
+
+    name = "raising"
+
+    def query(self, points: Array, radii: Array) -> Contacts:
+        raise ZeroDivisionError("of mine")
+
+
+class Slippery(Fctd):
+    """FCTD as an engine with FACTOR of the friction."""
+
+    name = "slippery"
+
+    def __init__(self, options: Any) -> None:
+        super().__init__(StepOptions())
+
+    def begin(self, run: Run) -> Any:
+        run.hole = run.hole.with_friction(FACTOR * run.hole.intervals[:, FRICTION])
+        state.row(run.S, state.FRICTION, run.segments)[:] *= FACTOR
+        return super().begin(run)
+
+
+def plant(monkeypatch: pytest.MonkeyPatch, **more: str) -> None:
+    """Register the methods and the engine as plugins; more : further methods, "module:class" by name."""
+    methods = {name: f"{__name__}:{name.title()}" for name in ("leaning", "lost", "raising")} | more
+    points = {
+        contact.REGISTRY.group: [EntryPoint(name, value, contact.REGISTRY.group) for name, value in methods.items()],
+        engines.REGISTRY.group: [EntryPoint("slippery", f"{__name__}:Slippery", engines.REGISTRY.group)],
+    }
+    monkeypatch.setattr(registry, "_entry_points", lambda group: tuple(points[group]))
