@@ -18,7 +18,17 @@ from references.engines import StepOptions, StringEngine, gate
 from references.engines.own import Fctd
 from references.methods import asked
 from references.methods.in_hole import POINTS, contract_of, costs, errors, hole_of, points_near
-from references.methods.loop import OVERRUN, OverrunError, Swapped, Tell, loads_of, mean_forces, step_cost, timed_run
+from references.methods.loop import (
+    OVERRUN,
+    OverrunError,
+    Swapped,
+    Tell,
+    failed_checks,
+    loads_of,
+    mean_forces,
+    step_cost,
+    timed_run,
+)
 from references.methods.window import Plan, plan_of
 from references.timing.footprint import measured_apart
 from references.timing.stopwatch import machine
@@ -119,7 +129,9 @@ class Comparing:
         run, stepper = timed_run(self.plan, engine)
         self.own.predicted_s = self.alone = time.perf_counter() - began
         self.forces = mean_forces(stepper)
-        self.own.loads, self.own.status = loads_of(run, stepper, self.forces, self.md), "measured"
+        self.shared = failed_checks(run)
+        self.own.loads = loads_of(run, stepper, self.forces, self.md, self.shared)
+        self.own.status = "measured"
         self.own.broken = _broken(engine)
 
     def _frames(self, row: Row) -> None:
@@ -216,7 +228,7 @@ class Comparing:
             row.loads_reason = f"{type(error).__name__}: {error}"
             row.status = "failed"
         else:
-            row.loads = loads_of(run, stepper, self.forces, self.md)
+            row.loads = loads_of(run, stepper, self.forces, self.md, self.shared)
 
 
 def _broken(engine: StringEngine) -> list[str]:

@@ -126,8 +126,20 @@ def timed_run(
     return run, timed.stepper
 
 
-def loads_of(run: EngineRun, stepper: TimedStepper, own: Array | None, md: Array) -> Loads:
-    """The loads of a run; own : contact forces (n,) [N] of the engine's own arcs, md (n,) of its points [m]."""
+def failed_checks(run: EngineRun) -> set[str]:
+    """The checks that a run fails."""
+    return set(run.checks.loc[~run.checks["passed"].astype(bool), "check"])
+
+
+def loads_of(
+    run: EngineRun, stepper: TimedStepper, own: Array | None, md: Array, shared: Collection[str] = ()
+) -> Loads:
+    """The loads of a run.
+
+    own : contact forces (n,) [N] of the engine's own arcs, md (n,) of its points [m].  shared : checks that the
+    engine's own run fails, so that the string and not the method is what they tell of.
+    """
+    valid = run.status == "valid" or failed_checks(run) <= set(shared)
     forces = mean_forces(stepper)
     means: Mapping[str, float] = dict(hann_means(run.history)) if len(run.history) else {}
 
@@ -136,9 +148,9 @@ def loads_of(run: EngineRun, stepper: TimedStepper, own: Array | None, md: Array
 
     off = np.abs(forces - own) if own is not None and forces.shape == own.shape else np.full(len(md), np.nan)
     worst = int(np.nanargmax(off)) if np.isfinite(off).any() else None
-    message = "; ".join(filter(None, (run.message, run.note)))
+    message = "; ".join(filter(None, ("" if valid else run.message, run.note)))
     return Loads(
-        status=run.status, message=message, hookload_N=number(means.get("hookload_N")),
+        status="valid" if valid else run.status, message=message, hookload_N=number(means.get("hookload_N")),
         surface_torque_N_m=number(means.get("surface_torque_N_m")),
         sum_r_mu_fn_N_m=number(means.get("sum_r_mu_fn_N_m")),
         force_off_N=None if worst is None else float(off[worst]),

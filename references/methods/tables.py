@@ -117,7 +117,7 @@ def far_off(row: Row, own: Row) -> Iterator[str]:
         off = _off(getattr(row.loads, column), getattr(own.loads, column)).number
         if off is not None and abs(off) > TOLD:
             side = "above" if off > 0 else "below"
-            yield f"{row.label}: {words} {abs(off):.1f} % {side} that of the engine's own arcs"
+            yield f"{words} {abs(off):.1f} % {side} that of the engine's own arcs"
 
 
 def steps(rows: Sequence[Row]) -> Table:
@@ -138,20 +138,29 @@ def steps(rows: Sequence[Row]) -> Table:
 
 
 def reasons(rows: Sequence[Row]) -> Iterator[str]:
-    """What is wrong, and what was left out, a line each."""
+    """What is wrong, and what was left out, a line each, with the names of all rows of which it is said."""
+    said: dict[str, list[str]] = {}
     for row in rows:
-        if row.reason:
-            yield f"{row.label}: {row.status}: {row.reason}"
-        what = "the contract of contact methods" if row.kind == "contact" else "the gate before any speed"
-        for finding in row.broken or []:
-            yield f"{row.label} breaks {what}: {finding}"
-        if row.loads is not None and row.loads.message:
-            yield f"{row.label}: {row.loads.status}: {row.loads.message}"
-        yield from far_off(row, rows[0])
-        if row.loads_reason:
-            yield f"{row.label}: no loads: {row.loads_reason}"
-        for remark in row.remarks:
-            yield f"{row.label}: remark: {remark}"
+        for text in _said(row, rows[0]):
+            said.setdefault(text, []).append(row.label)
+    for text, labels in said.items():
+        yield f"{', '.join(labels)}: {text}"
+
+
+def _said(row: Row, own: Row) -> Iterator[str]:
+    """What is said of a row."""
+    if row.reason:
+        yield f"{row.status}: {row.reason}"
+    what = "contract of contact methods" if row.kind == "contact" else "gate before any speed"
+    for finding in row.broken or []:
+        yield f"breaks the {what}: {finding}"
+    if row.loads is not None and row.loads.message:
+        yield f"{row.loads.status}: {row.loads.message}"
+    yield from far_off(row, own)
+    if row.loads_reason:
+        yield f"no loads: {row.loads_reason}"
+    for remark in row.remarks:
+        yield f"remark: {remark}"
 
 
 def print_comparison(comparison: Comparison, units: System) -> None:

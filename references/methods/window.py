@@ -95,7 +95,7 @@ def plan_of(case: Case, which: str | None = None) -> Plan:
     else:
         notes = ("the bit does not turn as planned in the window: loads swing with it",)
     if run.status != "valid":
-        notes += (f"the engine's own run is {run.status}: {run.message}",)
+        notes += (f"the engine's own run is {run.status}, and no other is held to that check: {run.message}",)
     moved = planned.operations[0]
     described = WindowOf(
         operation=KINDS[moved.kind].label, from_md_m=moved.start_md, to_md_m=moved.end_md, start_s=window.start,

@@ -54,7 +54,7 @@ def test_planted_faults_stand_in_the_tables(
     printed, told = capsys.readouterr()
     (wall,) = (line for line in printed.splitlines() if line.split()[:2] == ["leaning", "BROKEN"] and " 3 " in line)
     assert wall
-    assert "leaning breaks the contract of contact methods: Penetration and normal" in told
+    assert "leaning: breaks the contract of contact methods: Penetration and normal" in told
     # A tenth less friction, which presses the string the less up the wall: N grows by half a percent.
     assert re.search(r"engine slippery: torque 9\.\d % below that of the engine's own arcs", told)
     assert "2 torsional periods" in printed

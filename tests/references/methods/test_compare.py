@@ -7,6 +7,7 @@ import pytest
 
 from fctd.arena.result import Comparison, Row
 from fctd.case.errors import InputError
+from references.engines import checks
 from references.methods import asked, compare_methods
 from references.methods.window import plan_of
 from tests.references.methods.planted import FACTOR, OFF, plant, well
@@ -105,6 +106,15 @@ def test_the_window_has_whole_periods_and_turns() -> None:
     assert run.history["bit_rpm"].mean() == pytest.approx(60, rel=0.05)
     # A uniform rod, fixed at the top: four times its length over the speed of shear waves, 0.25 s with 200 m.
     assert window.period_s == pytest.approx(0.25, rel=0.05)
+
+
+def test_a_check_that_the_own_run_fails_is_told_of_the_string_and_not_of_a_method(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(checks, "DEEPEST", 1e-9)  # the string lies deeper in the wall than that
+    found = compare_methods(well(), ["arcs"], quick=True)
+    assert "end points inside the hole" in " ".join(found.notes)
+    assert rows(found)["arcs"].verdict == "kept"
 
 
 @pytest.mark.parametrize(("kind", "ends"), [("trip_in", (None, 190.0)), ("trip_out", (190.0, None))])
