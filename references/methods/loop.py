@@ -25,7 +25,8 @@ from references.engines.own import Fctd
 from references.engines.run import InWindows, hann_means, run_window
 from references.methods.window import RECORDS, Plan
 
-PROBE = 20  # steps of FCTD's, over which an engine is timed before its loads
+# Steps of FCTD's over which an engine is timed before its loads, in parts: the first of them may compile.
+PROBE, PARTS = 20, 4
 # A run that has taken so many times what was expected ends.
 OVERRUN = 3.0
 Tell = Callable[[float], object]  # with the share that is done
@@ -167,7 +168,10 @@ def mean_forces(stepper: TimedStepper) -> Array:
 
 
 def step_cost(plan: Plan, engine: StringEngine) -> float:
-    """Processor time of the window in an engine [s], expected from PROBE steps of it."""
-    short = plan._replace(window=Window(plan.window.start, PROBE * plan.described.step_s))
+    """Processor time of the window in an engine [s], expected from the quickest part of PROBE steps of it."""
+    lasts = PROBE * plan.described.step_s
+    record = plan.case.record.model_copy(update={"interval": lasts / PARTS})
+    case = plan.case.model_copy(update={"record": record})
+    short = plan._replace(case=case, window=Window(plan.window.start, lasts))
     _, stepper = timed_run(short, engine)
     return min(stepper.costs) * plan.window.duration / stepper.step

@@ -1,5 +1,6 @@
 """Methods and engines with planted faults, in a hole of 240 m."""
 
+import time
 from importlib.metadata import EntryPoint
 from typing import Any
 
@@ -80,11 +81,36 @@ class Slippery(Fctd):
         return super().begin(run)
 
 
+class Starting(Fctd):
+    """FCTD as an engine that begins with half a second of work, as one does that compiles."""
+
+    name = "starting"
+
+    def __init__(self, options: Any) -> None:
+        super().__init__(StepOptions())
+
+    def begin(self, run: Run) -> Any:
+        stepper = super().begin(run)
+        advance, waited = stepper.advance, []
+
+        def first(motion: Any, duration: float) -> None:
+            until = time.process_time() + (0.0 if waited else 0.5)
+            while time.process_time() < until:
+                pass
+            waited.append(True)
+            advance(motion, duration)
+
+        stepper.advance = first
+        return stepper
+
+
 def plant(monkeypatch: pytest.MonkeyPatch, **more: str) -> None:
     """Register the methods and the engine as plugins; more : further methods, "module:class" by name."""
     methods = {name: f"{__name__}:{name.title()}" for name in ("leaning", "lost", "raising")} | more
     points = {
         contact.REGISTRY.group: [EntryPoint(name, value, contact.REGISTRY.group) for name, value in methods.items()],
-        engines.REGISTRY.group: [EntryPoint("slippery", f"{__name__}:Slippery", engines.REGISTRY.group)],
+        engines.REGISTRY.group: [
+            EntryPoint(name, f"{__name__}:{name.title()}", engines.REGISTRY.group) for name in ("slippery", "starting")
+        ],
     }
     monkeypatch.setattr(registry, "_entry_points", lambda group: tuple(points[group]))

@@ -141,6 +141,14 @@ def test_what_does_not_fit_the_budget_has_no_loads_and_says_what_it_would_take()
     assert found["arcs"].sound
 
 
+def test_what_an_engine_compiles_at_first_is_not_expected_of_every_step(monkeypatch: pytest.MonkeyPatch) -> None:
+    plant(monkeypatch)
+    row = rows(compare_methods(well(), [], ["starting"], quick=True))["engine starting"]
+    assert row.loads is not None
+    assert row.predicted_s is not None
+    assert row.predicted_s < 0.02 * row.loads.steps  # [s]: half a second in 20 steps is 0.025 s a step
+
+
 def test_an_interruption_keeps_the_rows_that_are_there() -> None:
     def stop(what: str, done: float, _: float) -> None:
         if what.endswith(": loads") and done > 1.1:
