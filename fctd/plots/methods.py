@@ -14,8 +14,8 @@ from fctd.plots.palette import CASES, QUIET
 from fctd.plots.style import LINE_STYLES, RC, Sheet
 from fctd.results.unit_systems import System, shown
 
-WIDTH, PANEL = 11.0, 4.4  # of the sheet, height of the panels [in]
-LEFT, SIDE, NAMES, BETWEEN = 0.75, 3.6, 1.9, 0.9  # of the first panel, of its column of names, before the second [in]
+WIDTH, PANEL = 9.6, 4.0  # of the sheet, height of the panels [in]
+LEFT, SIDE, NAMES, BETWEEN = 0.75, 3.2, 1.5, 0.8  # of the first panel, of its column of names, before the second [in]
 EXACT: Final = 1e-9  # [m]: what is off by less is exact but for rounding, and stands this far below all others
 BELOW: Final = 30.0
 LINEAR: Final = 10.0  # [N]: differences of forces below it have a linear scale
@@ -124,7 +124,7 @@ def _along(axes: Axes, comparison: Comparison, rows: Sequence[Row], looks: dict[
     """Contact forces of each method less those of the engine's own arcs, over measured depth."""
     force, metre = shown("contact_force_N", units), shown("md_m", units)
     axes.set(
-        xlabel=f"contact force less that of the engine's own arcs, {force.label}",
+        xlabel=f"contact force less that of the own arcs, {force.label}",
         ylabel=f"measured depth, {metre.label}", title="Where methods part",
     )  # fmt: skip
     own = next((row.loads for row in comparison.rows if row.loads is not None), None)

@@ -64,6 +64,7 @@ def compare_methods(
     comparing = Comparing(plan, rows, [row for row in more if row.name != OWN or row.options], budget, quick, progress)
     comparing.began = began
     comparison = comparing.comparison
+    comparison.digest = case.digest
     if missing + absent:
         comparison.notes.append(f"not installed, and so left out: {', '.join(dict.fromkeys(missing + absent))}")
     try:
@@ -142,6 +143,8 @@ class Comparing:
             self.build_s[row.label] = time.perf_counter() - began
             row.pieces = int(method.pieces)
             row.errors = errors(method, self.near)
+            if row.errors.points < len(self.near.md):
+                row.remarks.append(f"errors of the first {row.errors.points} points alone, since it is slow")
         except InputError as error:
             row.status, row.reason = "refused", str(error)
         except Exception as error:  # of a method from anywhere
@@ -150,7 +153,8 @@ class Comparing:
             self.built[row.label], row.status = method, "measured"
         if row.status != "refused":
             found = contact.REGISTRY.options(row.name, row.options).model_dump(exclude_unset=True)
-            row.broken, row.remarks = contract_of(contact.method_class(row.name), found, quick=self.quick)
+            row.broken, remarks = contract_of(contact.method_class(row.name), found, quick=self.quick)
+            row.remarks += remarks
 
     def _memory(self, row: Row) -> None:
         """Memory and time of building a method, in a process of its own."""

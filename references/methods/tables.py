@@ -193,6 +193,11 @@ def print_comparison(comparison: Comparison, units: System) -> None:
         )  # fmt: skip
         print_table(loads(rows, rows[0], units), words=FOLD, numbers=FOLD, struck=struck)
         print_table(steps(rows), words=FOLD, numbers=FOLD, struck=struck)
+    machine = comparison.machine
+    screen.print(
+        f"times on {machine['processor']}, {machine['cores']} cores, load average {machine['load average']}",
+        soft_wrap=True,
+    )
     end = "interrupted after" if comparison.interrupted else "compared in"
     screen.print(f"{counted(len(rows), 'row')} {end} {comparison.seconds:.0f} s", soft_wrap=True)
 

@@ -67,6 +67,23 @@ class Raising(Arcs):
         raise ZeroDivisionError("of mine")
 
 
+class Slow(Arcs):
+    """A method whose first query lasts, or each point of all of them."""
+
+    name = "slow"
+    first, each = 0.5, 0.0  # [s]
+
+    def __init__(self, case: Case, options: Any) -> None:
+        super().__init__(case, ArcOptions())
+
+    def query(self, points: Array, radii: Array) -> Contacts:
+        until = time.process_time() + self.first + self.each * len(points)
+        self.first = 0.0
+        while time.process_time() < until:
+            pass
+        return super().query(points, radii)
+
+
 class Slippery(Fctd):
     """FCTD as an engine with FACTOR of the friction."""
 

@@ -8,9 +8,10 @@ import pytest
 from fctd.arena.result import Comparison, Row
 from fctd.case.errors import InputError
 from references.engines import checks
-from references.methods import asked, compare_methods
+from references.methods import asked, compare_methods, in_hole
+from references.methods.in_hole import POINTS
 from references.methods.window import plan_of
-from tests.references.methods.planted import FACTOR, OFF, plant, well
+from tests.references.methods.planted import FACTOR, OFF, Slow, plant, well
 
 OWN = "engine fctd"
 
@@ -128,6 +129,25 @@ def test_a_trip_is_cut_to_its_deepest_end(kind: str, ends: tuple[float | None, f
     assert abs(window.to_md_m - window.from_md_m) < 5.0
 
 
+@pytest.mark.parametrize(
+    "operation",
+    [
+        {"kind": "back_ream", "from_md": 190, "to_md": 150, "speed": 0.5, "rpm": 60},
+        {"kind": "ream_in", "from_md": 150, "to_md": 190, "speed": 0.5, "rpm": 60},
+        {"kind": "drill_rotating", "from_md": 150, "to_md": 190, "speed": 0.01, "rpm": 60},
+    ],
+    ids=lambda operation: operation["kind"],
+)
+def test_every_kind_of_operation_has_a_window(operation: dict[str, Any]) -> None:
+    case = well(operations=[operation], bit={"weight_on_bit": 1e4, "rock": {}})
+    found = compare_methods(case, ["arcs"], quick=True)
+    own, arcs = rows(found)[OWN].loads, rows(found)["arcs"].loads
+    assert own is not None
+    assert arcs is not None
+    assert own.hookload_N == pytest.approx(arcs.hookload_N, rel=1e-5)
+    assert found.digest == case.digest
+
+
 def test_a_case_without_operations_rotates_at_its_deepest() -> None:
     case = well(operations=[])
     assert plan_of(case).described.to_md_m == pytest.approx(case.deepest)
@@ -147,6 +167,16 @@ def test_what_an_engine_compiles_at_first_is_not_expected_of_every_step(monkeypa
     assert row.loads is not None
     assert row.predicted_s is not None
     assert row.predicted_s < 0.02 * row.loads.steps  # [s]: half a second in 20 steps is 0.025 s a step
+
+
+@pytest.mark.parametrize(("each", "points"), [(0.0, POINTS), (1e-3, 500)])
+def test_a_slow_method_is_asked_for_fewer_points(each: float, points: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What it does at first alone does not make it slow."""
+    monkeypatch.setattr(in_hole, "MOST", 0.5)
+    monkeypatch.setattr(Slow, "each", each)
+    near = in_hole.points_near(in_hole.hole_of(well())[0], POINTS, 0.05)
+    found = in_hole.errors(Slow(well(), None), near)
+    assert found.points == pytest.approx(points, rel=0.1)
 
 
 def test_an_interruption_keeps_the_rows_that_are_there() -> None:
