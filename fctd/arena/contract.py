@@ -11,6 +11,7 @@ from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fctd.arena.errors import AXIAL, ROUNDING, errors_of
 from fctd.arena.exact_hole import ExactHole
@@ -110,7 +111,7 @@ class LeftOutError(Exception):
     """Why a method refuses a hole that it need not take, as a sentence."""
 
 
-def _share(part: Array) -> str:
+def _share(part: NDArray[Any]) -> str:
     return f"{int(np.sum(part))} of {len(part)}"
 
 

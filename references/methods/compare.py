@@ -29,6 +29,7 @@ from references.methods.loop import (
     step_cost,
     timed_run,
 )
+from references.methods.stopping import remembering
 from references.methods.window import Plan, plan_of
 from references.timing.footprint import measured_apart
 from references.timing.stopwatch import machine
@@ -68,7 +69,9 @@ def compare_methods(
     if missing + absent:
         comparison.notes.append(f"not installed, and so left out: {', '.join(dict.fromkeys(missing + absent))}")
     try:
-        comparing.compare()
+        with remembering() as again:
+            comparing.again = again
+            comparing.compare()
     except KeyboardInterrupt:
         comparison.interrupted = True
         for row in comparison.rows:
@@ -84,8 +87,9 @@ class Comparing:
     def __init__(
         self, plan: Plan, methods: list[Row], others: list[Row], budget: float, quick: bool, progress: Progress
     ) -> None:
-        self.plan, self.methods, self.engines, self.quick, self.progress = plan, methods, others, quick, progress
+        self.plan, self.methods, self.engines, self.quick, self._tell = plan, methods, others, quick, progress
         self.budget, self.began = budget, time.perf_counter()
+        self.again: Callable[[], None] = lambda: None  # raises a Ctrl-C that a library has caught
         self.md = plan.own.profile["md_m"].to_numpy(float)[1:]
         about = packages.about(OWN)
         self.own = Row(kind="engine", name=OWN, package=OWN, version=about.version, licence=about.licence)
@@ -118,6 +122,11 @@ class Comparing:
             self.progress(f"{row.label}: memory", k, len(able))
             self._memory(row)
         self._loops(able)
+
+    def progress(self, what: str, done: float, total: float) -> None:
+        """Tell what is done; raises a Ctrl-C that a library has caught."""
+        self.again()
+        self._tell(what, done, total)
 
     @property
     def left(self) -> float:

@@ -1,6 +1,6 @@
 """A comparison on the screen: verdicts first, then errors and costs of a point, then loads."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 from fctd.arena.result import Comparison, Quartiles, Row
 from fctd.case.text import counted, printable
@@ -167,8 +167,7 @@ def print_comparison(comparison: Comparison, units: System) -> None:
     """Print a comparison: what was compared, verdicts with their reasons, errors and costs, loads."""
     rows, window = comparison.rows, comparison.window
     methods = [row for row in rows if row.kind == "contact"]
-    struck = [k for k, row in enumerate(rows) if row.struck]
-    print_table(verdicts(rows), words=FOLD, numbers=FOLD, struck=struck)
+    _print(verdicts, rows)
     for line in reasons(rows):
         messages.print(printable(line), soft_wrap=True)
     for note in comparison.notes:
@@ -179,9 +178,8 @@ def print_comparison(comparison: Comparison, units: System) -> None:
             f"errors of the wall in this hole, by {comparison.reference}: {points.points} points within 15 mm of "
             f"touching, {points.touching} touch", style="bold", soft_wrap=True,
         )  # fmt: skip
-        marked = [k for k, row in enumerate(methods) if row.struck]
-        print_table(frames(methods), words=FOLD, numbers=FOLD, struck=marked)
-        print_table(costs(methods), words=FOLD, numbers=FOLD, struck=marked)
+        _print(frames, [row for row in methods if row.errors is not None])
+        _print(costs, [row for row in methods if row.cost is not None])
         _say_units(comparison, methods)
     if window is not None and rows[0].loads is not None:
         metre = shown("md_m", units)
@@ -191,8 +189,8 @@ def print_comparison(comparison: Comparison, units: System) -> None:
             f"{window.duration_s:.3g} s: {window.whole} {window.vibration} periods of {window.period_s:.3g} s; "
             f"{counted(window.segments, 'segment')}", style="bold", soft_wrap=True,
         )  # fmt: skip
-        print_table(loads(rows, rows[0], units), words=FOLD, numbers=FOLD, struck=struck)
-        print_table(steps(rows), words=FOLD, numbers=FOLD, struck=struck)
+        _print(lambda each: loads(each, rows[0], units), [row for row in rows if row.loads is not None])
+        _print(steps, [row for row in rows if row.loads is not None or row.predicted_s is not None])
     machine = comparison.machine
     screen.print(
         f"times on {machine['processor']}, {machine['cores']} cores, load average {machine['load average']}",
@@ -200,6 +198,12 @@ def print_comparison(comparison: Comparison, units: System) -> None:
     )
     end = "interrupted after" if comparison.interrupted else "compared in"
     screen.print(f"{counted(len(rows), 'row')} {end} {comparison.seconds:.0f} s", soft_wrap=True)
+
+
+def _print(table: Callable[[Sequence[Row]], Table], rows: Sequence[Row]) -> None:
+    """Print a table of rows, if there are any; what is broken is struck through."""
+    if rows:
+        print_table(table(rows), words=FOLD, numbers=FOLD, struck=[k for k, row in enumerate(rows) if row.struck])
 
 
 def _say_units(comparison: Comparison, methods: Sequence[Row]) -> None:

@@ -1,5 +1,7 @@
 """Methods and engines with planted faults, in a hole of 240 m."""
 
+import contextlib
+import signal
 import time
 from importlib.metadata import EntryPoint
 from typing import Any
@@ -65,6 +67,23 @@ class Raising(Arcs):
 
     def query(self, points: Array, radii: Array) -> Contacts:
         raise ZeroDivisionError("of mine")
+
+
+class Deaf(Arcs):
+    """A method that catches a Ctrl-C, and goes on."""
+
+    name = "deaf"
+    asked = 0
+
+    def __init__(self, case: Case, options: Any) -> None:
+        super().__init__(case, ArcOptions())
+
+    def query(self, points: Array, radii: Array) -> Contacts:
+        Deaf.asked += 1
+        with contextlib.suppress(BaseException):
+            if Deaf.asked == 100:
+                signal.raise_signal(signal.SIGINT)
+        return super().query(points, radii)
 
 
 class Slow(Arcs):

@@ -1,5 +1,6 @@
 """Contact methods and engines on one well: planted faults are seen, failures are rows, an interruption keeps rows."""
 
+import signal
 from typing import Any
 
 import numpy as np
@@ -193,6 +194,14 @@ def test_an_interruption_keeps_the_rows_that_are_there() -> None:
     assert finished.errors is not None
     assert stopped.loads_reason == "interrupted"
     assert stopped.errors is not None
+
+
+def test_a_ctrl_c_that_a_library_catches_is_not_lost(monkeypatch: pytest.MonkeyPatch) -> None:
+    plant(monkeypatch, deaf="tests.references.methods.planted:Deaf")
+    handler = signal.getsignal(signal.SIGINT)
+    found = compare_methods(well(), ["deaf", "arcs"], quick=True)
+    assert found.interrupted
+    assert signal.getsignal(signal.SIGINT) is handler
 
 
 def test_meshes_have_frames_alone_in_a_quick_comparison() -> None:
