@@ -95,6 +95,7 @@ class Comparing:
         self.own = Row(kind="engine", name=OWN, package=OWN, version=about.version, licence=about.licence)
         self.built: dict[str, ContactMethod] = {}
         self.build_s: dict[str, float] = {}  # by the clock, with imports
+        self.busy = 1.0  # time by the clock over that of the processor, on a machine that others use
         hole, reference = hole_of(plan.case)
         radius = float(np.median(plan.own_radii))
         self.near = points_near(hole, POINTS, radius)
@@ -115,7 +116,9 @@ class Comparing:
         able = [row for row in able if row.label in self.built]
         self.progress("cost of a point", 0, 1)
         near = self.near.part(slice(0, min(len(self.md), CALL)))
+        began, worked = time.perf_counter(), time.process_time()
         found, self.comparison.kernel_ns = costs(self.built, near)
+        self.busy = max((time.perf_counter() - began) / max(time.process_time() - worked, 1e-9), 1.0)
         for row in able:
             row.cost = found.get(row.label)
         for k, row in enumerate([] if self.quick else able):
@@ -196,8 +199,10 @@ class Comparing:
                     waiting.append(row)
         waiting.sort(key=lambda row: row.predicted_s or 0.0)
         for k, row in enumerate(waiting):
-            if (row.predicted_s or 0.0) > self.left:
-                row.loads_reason = f"expected to take {row.predicted_s:.3g} s, and {max(self.left, 0):.3g} s are left"
+            expected = self.busy * (row.predicted_s or 0.0)
+            if expected > self.left:
+                left = max(self.left, 0.0)
+                row.loads_reason = f"expected to take {expected:.3g} s by the clock, and {left:.3g} s are left"
                 continue
 
             def tell(share: float, label: str = row.label, done: int = k) -> None:
