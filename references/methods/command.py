@@ -53,7 +53,7 @@ def methods_command(
         float, typer.Option("--budget", min=1.0, help="Wall-clock time in s: what does not fit has no loads.")
     ] = BUDGET,
     quick: Annotated[
-        bool, typer.Option("--quick", help="At most a minute: no loads of meshes, no memory, a shorter contract.")
+        bool, typer.Option("--quick", help="A first look, within a minute: no loads of meshes, no memory.")
     ] = False,
     out: Annotated[Path | None, typer.Option("--out", metavar="FILE", help=f"The table, {', '.join(TABLES)}.")] = None,
     plot: Annotated[

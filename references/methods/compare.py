@@ -50,8 +50,8 @@ def compare_methods(
 
     methods, engine : names, texts "name,key=value", or pairs of name and options; "all" stands for all that are
     installed.  operation : its number in the case, from 1, or its kind.  budget : wall-clock time [s] in which loads
-    are computed, those that are expected to be cheapest first.  quick : at most a minute: meshes have no loads, the
-    contract no long holes, and memory is not measured.
+    are computed, those that are expected to be cheapest first.  quick : a first look, of a minute: meshes have no
+    loads, the contract no long holes, and memory is not measured.
 
     Ctrl-C ends it with the rows so far.  Raises InputError for a case that cannot be simulated, and for an unknown name
     or option; whatever else fails is a row with its reason.
@@ -188,7 +188,7 @@ class Comparing:
             if self.quick and isinstance(self.built[row.label], MeshMethod):
                 row.loads_reason = MESHES
             elif row.cost is None:
-                row.loads_reason = "it failed where its points were timed"
+                row.status, row.reason = "failed", "it raised an error where its points were timed"
             else:
                 row.predicted_s = self.alone + 1e-9 * row.cost.point_ns.median * points * steps
                 waiting.append(row)
