@@ -10,12 +10,14 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from fctd.arena.result import Comparison, Row
+from fctd.plots.labels import width_of
 from fctd.plots.palette import CASES, QUIET
-from fctd.plots.style import LINE_STYLES, RC, Sheet
+from fctd.plots.style import LINE_STYLES, POINTS, RC, Sheet
 from fctd.results.unit_systems import System, shown
 
-WIDTH, PANEL = 9.6, 4.0  # of the sheet, height of the panels [in]
-LEFT, SIDE, NAMES, BETWEEN = 0.75, 3.2, 1.5, 0.8  # of the first panel, of its column of names, before the second [in]
+PANEL, RIGHT = 4.0, 3.15  # height of the panels, width of the second [in]
+LEFT, SIDE, BETWEEN = 0.75, 3.2, 1.0  # before the first panel, its width, between its names and the second [in]
+SMALL = 7.5  # size of the names [pt]
 EXACT: Final = 1e-9  # [m]: what is off by less is exact but for rounding, and stands this far below all others
 BELOW: Final = 30.0
 LINEAR: Final = 10.0  # [N]: differences of forces below it have a linear scale
@@ -40,14 +42,17 @@ def methods_figure(comparison: Comparison, units: System = "si") -> Figure:
         )
     with mpl.rc_context(RC):
         handles = [
-            Line2D([], [], color=_colour(row, looks[row.label]), linestyle=_dash(looks[row.label]), label=row.label)
+            Line2D(
+                [], [], color=_colour(row, looks[row.label]), linestyle=_dash(row, looks[row.label]), label=row.label
+            )
             for row in run
         ]
-        sheet = Sheet(WIDTH, PANEL + 0.7, f"{comparison.case}: contact methods", lines, handles)
+        names = max((width_of(_name(row), SMALL) for row in timed), default=0.0) / POINTS
+        begin = LEFT + SIDE + names + BETWEEN
+        sheet = Sheet(begin + RIGHT + 0.2, PANEL + 0.7, f"{comparison.case}: contact methods", lines, handles)
         left = sheet.axes(LEFT, 0.3, SIDE, PANEL - 0.1)
         _cost_against_error(left, timed, looks)
-        begin = LEFT + SIDE + NAMES + BETWEEN
-        right = sheet.axes(begin, 0.3, WIDTH - begin - 0.2, PANEL - 0.1)
+        right = sheet.axes(begin, 0.3, RIGHT, PANEL - 0.1)
         _along(right, comparison, run, looks, units)
     return sheet.figure
 
@@ -56,8 +61,19 @@ def _colour(row: Row, k: int) -> str:
     return QUIET if row.struck else CASES[k % len(CASES)]
 
 
-def _dash(k: int) -> Any:
-    return LINE_STYLES[k // len(CASES) % len(LINE_STYLES)]
+def _dash(row: Row, k: int) -> Any:
+    return LINE_STYLES[(k if row.struck else k // len(CASES)) % len(LINE_STYLES)]
+
+
+def _exact(row: Row) -> bool:
+    """Whether a method has no error but that of rounding."""
+    return row.errors is not None and (row.errors.largest_penetration_m or 0.0) <= EXACT
+
+
+def _name(row: Row) -> str:
+    """Name of a method, and what is to be said of it."""
+    said = {"exact": _exact(row), "breaks the contract": bool(row.broken)}
+    return ", ".join([row.label, *(words for words, so in said.items() if so)])
 
 
 def _cost_against_error(axes: Axes, rows: Sequence[Row], looks: dict[str, int]) -> None:
@@ -90,34 +106,34 @@ def _cost_against_error(axes: Axes, rows: Sequence[Row], looks: dict[str, int]) 
     )
     heights = _apart([height for height, *_ in wanted])
     for height, (_, x, y, row) in zip(heights, wanted, strict=True):
-        words = [row.label, *(["exact"] if y == floor else []), *(["breaks the contract"] if row.broken else [])]
         axes.annotate(
-            ", ".join(words), (x, y), xytext=(1.03, height),
-            textcoords="axes fraction", va="center", fontsize=7.5, color=_colour(row, looks[row.label]),
-            annotation_clip=False, parse_math=False,
-            arrowprops={"arrowstyle": "-", "color": QUIET, "linewidth": 0.4, "shrinkA": 0, "shrinkB": 3},
+            _name(row), (x, y), xytext=(1.03, height), textcoords="axes fraction", va="center", fontsize=SMALL,
+            color=_colour(row, looks[row.label]), annotation_clip=False, parse_math=False,
+            arrowprops={
+                "arrowstyle": "-", "color": QUIET, "linewidth": 0.4, "shrinkA": 0, "shrinkB": 3, "relpos": (0, 0.5),
+            },
         )  # fmt: skip
 
 
 def _apart(heights: Sequence[float]) -> list[float]:
-    """Heights in order, moved so that two are STEP apart: those that are too close spread about their middle."""
+    """Heights in order, moved so that two are STEP apart, or less where there are many of them.
+
+    Those that are too close spread about their middle.
+    """
+    step = min(STEP, 1 / max(len(heights) - 1, 1))
     groups: list[list[float]] = []
     for height in heights:
         groups.append([height])
-        while len(groups) > 1 and _lowest(groups[-1]) - _highest(groups[-2]) < STEP:
+        while len(groups) > 1 and _lowest(groups[-1], step) - _lowest(groups[-2], step) < step * len(groups[-2]):
             last = groups.pop()
             groups[-1] += last
-    return [_lowest(group) + STEP * k for group in groups for k in range(len(group))]
+    return [_lowest(group, step) + step * k for group in groups for k in range(len(group))]
 
 
-def _lowest(group: Sequence[float]) -> float:
+def _lowest(group: Sequence[float], step: float) -> float:
     """Where the first name of a group stands, so that all of them are within the panel."""
-    span = STEP * (len(group) - 1)
+    span = step * (len(group) - 1)
     return min(max(sum(group) / len(group) - 0.5 * span, 0.0), 1.0 - span)
-
-
-def _highest(group: Sequence[float]) -> float:
-    return _lowest(group) + STEP * (len(group) - 1)
 
 
 def _along(axes: Axes, comparison: Comparison, rows: Sequence[Row], looks: dict[str, int], units: System) -> None:
@@ -136,6 +152,6 @@ def _along(axes: Axes, comparison: Comparison, rows: Sequence[Row], looks: dict[
         forces = np.array([] if row.loads is None else row.loads.forces_N, dtype=float)
         if forces.shape == base.shape:
             k = looks[row.label]
-            axes.plot((forces - base) * force.factor, md, color=_colour(row, k), linestyle=_dash(k), linewidth=1.0)
+            axes.plot((forces - base) * force.factor, md, color=_colour(row, k), linestyle=_dash(row, k), linewidth=1.0)
     axes.set_xscale("symlog", linthresh=LINEAR * force.factor, linscale=0.5)
     axes.invert_yaxis()

@@ -102,7 +102,7 @@ class Comparing:
         self.comparison = Comparison(
             case=plan.case.name, digest=plan.case.digest, reference=reference, window=plan.described,
             md_m=self.md.tolist(), rows=[self.own, *methods, *others], budget_s=budget, quick=quick,
-            machine={**machine(), "load average": ", ".join(f"{each:.1f}" for each in os.getloadavg())},
+            machine={**machine(), "load average": _load()},
             notes=list(plan.notes),
         )  # fmt: skip
 
@@ -247,6 +247,11 @@ class Comparing:
             row.status = "failed"
         else:
             row.loads = loads_of(run, stepper, self.forces, self.md, self.shared)
+
+
+def _load() -> str:
+    """Load average of the machine over 1, 5 and 15 minutes; Windows has none."""
+    return ", ".join(f"{each:.1f}" for each in os.getloadavg()) if hasattr(os, "getloadavg") else "unknown"
 
 
 def _broken(engine: StringEngine) -> list[str]:

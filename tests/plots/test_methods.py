@@ -1,6 +1,7 @@
 """The picture of a comparison: names of all methods, bars of quartiles, names that do not meet."""
 
 import numpy as np
+import pytest
 
 from fctd.arena.result import Comparison, Cost, Quartiles, Row, WallErrors
 from fctd.plots.methods import STEP, _apart, methods_figure
@@ -41,3 +42,13 @@ def test_names_keep_apart_and_in_the_panel() -> None:
         assert found[0] >= -1e-9
         assert found[-1] <= 1 + 1e-9
     assert _apart([0.2, 0.5, 0.8]) == [0.2, 0.5, 0.8]
+    many = _apart([0.5] * 40)
+    assert (many[0], many[-1]) == pytest.approx((0.0, 1.0), abs=1e-9)
+
+
+def test_long_names_do_not_reach_into_the_second_panel() -> None:
+    figure = methods_figure(compared({"a method with a name, and an option=1 m": 1e-3}))
+    left, right = figure.axes
+    figure.canvas.draw()
+    ends = [text.get_window_extent().x1 for text in left.texts]
+    assert max(ends) < right.get_tightbbox().x0
