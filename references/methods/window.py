@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from fctd.arena.result import WindowOf
 from fctd.arrays import Array
 from fctd.case.errors import InputError, nearest
@@ -18,8 +20,10 @@ from references.engines import EngineRun, StepOptions, Window
 from references.engines.own import Fctd
 from references.engines.run import hann_means, run_window
 
-WHOLE = 2  # periods of the slowest vibration in a window: a Hann window over them keeps none of its swing
-RAMP, REST = 3, 2  # periods over which the operation begins, and those after it before the window
+WHOLE = 2  # periods of the slowest vibration in a window, at least: a Hann window over them keeps none of its swing
+RAMP, REST = 3, 2  # periods over which the operation begins, and those after it before the window, at least
+# The string also swings across the hole, by the second whatever its length: the least time of each [s].
+LEAST_RAMP, LEAST_REST, LEAST_WINDOW = 10.0, 5.0, 2.0
 RECORDS = 60  # of a window
 TRIES = 5  # of a later start, where the bit does not turn yet
 SPARE = 1e-3  # [s] of the operation after the window
@@ -84,14 +88,15 @@ def plan_of(case: Case, which: str | None = None) -> Plan:
     string = lay_out(case, deepest)
     turning = operation.rpm > 0
     period = period_of(string) if turning else axial_period_of(string)
-    ramp = max(operation.ramp_time, RAMP * period)
-    window = Window(ramp + REST * period, WHOLE * period)
+    ramp = max(operation.ramp_time, RAMP * period, LEAST_RAMP)
+    whole = max(WHOLE, int(np.ceil(LEAST_WINDOW / period)))
+    window = Window(ramp + max(REST * period, LEAST_REST), whole * period)
     notes: tuple[str, ...] = ()
     for _ in range(TRIES):
         planned, run = _run(case, operation, ramp, window)
         if not turning or _turns(run, operation.rpm):
             break
-        window = Window(window.start + WHOLE * period, window.duration)
+        window = Window(window.start + window.duration, window.duration)
     else:
         notes = ("the bit does not turn as planned in the window: loads swing with it",)
     if run.status != "valid":
@@ -99,7 +104,7 @@ def plan_of(case: Case, which: str | None = None) -> Plan:
     moved = planned.operations[0]
     described = WindowOf(
         operation=KINDS[moved.kind].label, from_md_m=moved.start_md, to_md_m=moved.end_md, start_s=window.start,
-        duration_s=window.duration, vibration="torsional" if turning else "axial", period_s=period, whole=WHOLE,
+        duration_s=window.duration, vibration="torsional" if turning else "axial", period_s=period, whole=whole,
         segments=len(run.profile) - 1, step_s=run.step,
     )  # fmt: skip
     return Plan(planned, window, described, run, string.contact_radius(), notes)

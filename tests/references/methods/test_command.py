@@ -57,7 +57,7 @@ def test_planted_faults_stand_in_the_tables(
     assert "leaning: breaks the contract of contact methods: Penetration and normal" in told
     # A tenth less friction, which presses the string the less up the wall: N grows by half a percent.
     assert re.search(r"engine slippery: torque 9\.\d % below that of the engine's own arcs", told)
-    assert "2 torsional periods" in printed
+    assert "8 torsional periods of 0.25" in printed  # 2 s
 
 
 @pytest.mark.parametrize("suffix", ["csv", "parquet", "json"])
@@ -73,7 +73,7 @@ def test_a_file_has_all_rows(suffix: str, case: Path, tmp_path: Path, monkeypatc
     assert table["setting"].to_list() == ["engine fctd", "arcs"]
     assert table["hookload_N"].notna().all()
     if suffix == "csv":
-        assert json.loads(out.with_name("compared.csv.json").read_text())["window"]["whole"] == 2
+        assert json.loads(out.with_name("compared.csv.json").read_text())["window"]["whole"] == 8
 
 
 def test_a_picture_is_written(case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

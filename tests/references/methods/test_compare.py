@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+import fctd
 from fctd.arena.result import Comparison, Row
 from fctd.case.errors import InputError
 from references.engines import checks
@@ -61,6 +62,15 @@ def test_exact_methods_have_no_error_and_the_loads_of_the_engine(compared: Compa
     assert row.loads.hookload_N == pytest.approx(own.loads.hookload_N, rel=1e-6)
     assert row.loads.force_off_N < 1.0
     assert row.loads.energy_error < 1e-3
+
+
+def test_the_window_has_the_loads_of_the_steady_string(compared: Comparison) -> None:
+    """The start leaves no swing that the mean over two periods would keep."""
+    own = rows(compared)[OWN].loads
+    assert own is not None
+    steady = fctd.equilibrium(well(), operation="rotate_off_bottom", bit_depth=200)
+    assert own.hookload_N == pytest.approx(steady.hookload, rel=1e-4)
+    assert own.surface_torque_N_m == pytest.approx(steady.surface_torque, rel=5e-3)
 
 
 def test_cylinders_are_off_by_the_sagitta_at_most(compared: Comparison) -> None:
@@ -127,7 +137,7 @@ def test_a_trip_is_cut_to_its_deepest_end(kind: str, ends: tuple[float | None, f
     assert window.vibration == "axial"
     for given, found in zip(ends, (window.from_md_m, window.to_md_m), strict=True):
         assert given is None or found == given
-    assert abs(window.to_md_m - window.from_md_m) < 5.0
+    assert abs(window.to_md_m - window.from_md_m) < 8.0
 
 
 @pytest.mark.parametrize(
