@@ -187,9 +187,13 @@ def in_cells(caliper: Caliper, top: Array, bottom: Array) -> tuple[Array, Array]
 
 
 def sample(pieces: Array, sampling: Sampling) -> Array:
-    """The table of pieces (m, ...) of arcs with the columns of a sampled hole."""
-    top = pieces[:, contact.START_MD]
+    """The table of pieces (m, ...) of arcs with the columns of a sampled hole.
+
+    Below its end the hole goes on as it was measured there: a string with its bit at the end stretches beyond it.
+    """
+    top = pieces[:, contact.START_MD].copy()
     bottom = top + pieces[:, contact.LENGTH]
+    top[-1], bottom[-1] = top[-2], bottom[-2]
     middle = 0.5 * (top + bottom)
     nominal = np.full(len(pieces), np.nan)  # where the hole is cased
     for first, last, radius in sampling.open_hole:
@@ -213,12 +217,15 @@ def sample(pieces: Array, sampling: Sampling) -> Array:
     angles = np.linspace(0.0, 2 * np.pi, POINTS * cells, endpoint=False)
     wall = wall_around(measured[known], start, angles)
     is_round = np.ones(len(known), np.bool_)
+    # From which the cells deviate: at a shoe the radius of the table changes along the piece.
+    of = pieces[known]
+    at_middle = of[:, contact.HOLE_RADIUS] + 0.5 * of[:, contact.RADIUS_GAIN] * of[:, contact.LENGTH]
     for k, radius in enumerate(sampling.radii):
         ways, corners = wall[:, ::POINTS], np.zeros((len(known), cells, 2))
         if radius:
             ways = np.empty((len(known), cells))
             roll_disc(wall, radius, cells, ways, corners)
-        deviation = ways + radius - nominal[known, None]
+        deviation = ways + radius - at_middle[:, None]
         deviation[np.abs(deviation) < ROUND] = 0.0
         at = sampled.TABLES + k * size + 1
         of_cells = np.concatenate([deviation[:, :, None], corners], axis=2)

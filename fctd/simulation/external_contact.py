@@ -123,18 +123,21 @@ def _after(S, top, n, laws, pipe, feed, rate, dt, radii, penetration, normal, md
 
 
 class QueriedWall:
-    """A contact method as a Wall: the loop of ``dynamics.advance`` with the walls that the method returns."""
+    """A contact method as a Wall: the loop of ``dynamics.advance`` with the walls that the method returns.
+
+    judged : whether its answers are compared with the hole at every record.
+    """
 
     # In the corner between two facets of a mesh a point's only contact alternates between them.
     jumps = True
     seams = False
 
-    def __init__(self, method: WallQuery, hole: Wellbore, segments: int) -> None:
+    def __init__(self, method: WallQuery, hole: Wellbore, segments: int, *, judged: bool = True) -> None:
         if not hasattr(method, "query"):
             expected = "an object with name and query, as references.contact.build(name, case) makes one"
             raise InputError(expected, key="contact", value=method if isinstance(method, str) else repr(method))
         self.name, self._method = method.name, method
-        self._hole = hole
+        self._hole, self._judged = hole, judged
         self._wall = hole.nominal_wall()  # of its radii the penetration does not depend
         self._segments = segments
         self._points = np.empty((segments, 3))
@@ -152,14 +155,15 @@ class QueriedWall:
             self._hold(wrong, of, radii, hits)
 
     def refresh(self, string: MovingString) -> None:
-        """See ``Wall.refresh``; the answers are compared with the hole itself, as at every record."""
+        """See ``Wall.refresh``."""
         S = string.S
         radii = self._radii(S)
         _points(S, self._segments, self._points)
         hits = self._query(radii)
         wrong, of = _store(S, self._segments, radii, *hits, self._wall)
         self._hold(wrong, of, radii, hits)
-        self._compare(radii, hits)
+        if self._judged:
+            self._compare(radii, hits)
 
     def _radii(self, S: Array) -> Array:
         return state.row(S, state.RADIUS, self._segments).copy()

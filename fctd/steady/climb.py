@@ -21,6 +21,7 @@ from fctd.steady.stability import push_aside
 LOW_FRICTION = 0.1
 # Steps of the share of the loads.  A step grows after few iterations of the one before, and shrinks after many.
 FIRST_STEP, SMALLEST_STEP, LARGEST_STEP = 0.1, 3e-3, 0.25
+LEAST_STEP = 1e-9  # towards lock-up
 FEW_ITERATIONS, MANY_ITERATIONS, STEP_GROWTH, STEP_SHRINKAGE = 70, 150, 1.5, 0.67
 # A push aside ends one slow mode or several.  A string that still has one after this number of pushes is followed as
 # it is.
@@ -267,7 +268,8 @@ def _next(problem: Problem, path: Climb, step: float, end: float) -> Share:
     if weight < 1:
         return Share(friction, min(weight + step, 1.0))
     if _push(problem, path) > PUSHED_WEIGHTS * problem.weight and len(path.steps) > 1:
-        step = min(step, LOCK_UP_APPROACH * (_extrapolated(path.steps) - friction))
+        # A push that has grown beyond all bounds leaves no way at all, and a path goes on by more than rounding.
+        step = max(min(step, LOCK_UP_APPROACH * (_extrapolated(path.steps) - friction)), LEAST_STEP)
     return Share(min(friction + step, end), 1.0)
 
 

@@ -33,7 +33,10 @@ BRAKE = 5.0
 
 
 class NoWall:
-    """A contact method without contacts: its time is that of the call from Python."""
+    """A contact method without contacts: its time is that of the call from Python.
+
+    In whose loop nothing looks where the string is, since it has left its hole.
+    """
 
     name = "none"
 
@@ -80,7 +83,8 @@ def without_wall(run: Run) -> Run:
 
 def asking(run: Run, method: Any) -> Run:
     """The same state with a contact method that is asked from Python at every step."""
-    return copy_of(run, wall=QueriedWall(method, run.hole, run.segments))
+    wall = QueriedWall(method, run.hole, run.segments, judged=not isinstance(method, NoWall))
+    return copy_of(run, wall=wall)
 
 
 def touching(run: Run) -> float:

@@ -115,7 +115,7 @@ def given_damping(drawn: Drawn) -> None:
 @statement("flow squeezes steel by its pressures")
 def squeezed(drawn: Drawn) -> None:
     """What flow adds to the strain is (1 - 2ν)(p_o A_o - p_i A_i)/(E A_s), of its pressures halfway along a segment."""
-    applies(not drawn.has("plug") and drawn.case.end != "closed" and has_flow_curve(drawn.case))
+    applies(not drawn.has("plug", "packer_bore") and drawn.case.end != "closed" and has_flow_curve(drawn.case))
     laid = base(drawn).laid
     flowing = laid.in_flow(SteadyRates(0.0, 1.0, FLOW))
     string, circuit = laid.string, flowing.circuit

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from fctd.arena.exact_hole import ExactHole
 from tests.equivalence.answers import ARM, EXACT, ROUNDING, Answers, base, changed, plain, same, to_rounding
 from tests.equivalence.draws import Drawn
 from tests.equivalence.holes import INCH, Raw
@@ -14,7 +15,10 @@ from tests.equivalence.table import applies, statement
 # Chords of cylinders that miss the arc by this much [m].
 FINE = 2e-4
 # Cylinders that are cut elsewhere, and shoes that are blended over the length of a cell or of an overlap.
-CUT_ELSEWHERE = 2e-3
+# Where cylinders end elsewhere, and for each degree of their kinks: a string that lies over a kink is pressed on there,
+# and most of this is contact force.
+CUT_ELSEWHERE, EACH_DEGREE = 2e-3, 0.02
+AT_SHOE = 1e-3  # where the wall leads otherwise from one size to the next, over the same length
 HYDRAULIC = ("standpipe", "bore", "annulus", "ecd", "pump", "lift_N")
 
 
@@ -67,12 +71,11 @@ def split_interval(drawn: Drawn) -> None:
         top = rows[k - 1]["to_md"] if k else 0.0
         rows.insert(k, rows[k] | {"to_md": top + dice.number(0.1, 0.9) * (rows[k]["to_md"] - top)})
 
-    bound = CUT_ELSEWHERE if drawn.raw["wellbore"]["geometry"] == "cylinders" else ROUNDING
     # Where a string lies is interpolated to the middles of what hydraulics cut there, and beside each of them the
     # annulus has the mean radius that a caliper measured: its gradient falls with the third power of the clearance.
     cut = drawn.raw["mud"].get("eccentricity") == "string" or drawn.has("caliper")
     flow = HYDRAULIC if cut else ()
-    same(drawn, changed(drawn, split), bound, but=("ecd_shoe", "profile", *flow))
+    same(drawn, changed(drawn, split), cut_elsewhere(drawn), but=("ecd_shoe", "profile", *flow))
 
 
 @statement("hole below the bit")
@@ -87,7 +90,17 @@ def longer_hole(drawn: Drawn) -> None:
         stations.append([stations[-1][0] + 40.0, *stations[-1][1:]])
         raw["wellbore"]["intervals"][-1]["to_md"] += 40.0
 
-    same(drawn, changed(drawn, lengthen), CUT_ELSEWHERE if hole["geometry"] == "cylinders" else ROUNDING)
+    same(drawn, changed(drawn, lengthen), cut_elsewhere(drawn))
+
+
+def cut_elsewhere(drawn: Drawn) -> float:
+    """The bound of a hole whose pieces end elsewhere: arcs are the same hole, chords have their kinks elsewhere."""
+    hole = drawn.case.wellbore
+    if hole.geometry != "cylinders":
+        return ROUNDING
+    curvature = ExactHole(hole).curvature
+    kink = curvature * hole.cylinder_length if hole.cylinder_length else (8 * hole.chord_tolerance * curvature) ** 0.5
+    return max(CUT_ELSEWHERE, EACH_DEGREE * math.degrees(kink))
 
 
 def without_north(drawn: Drawn) -> bool:
@@ -172,12 +185,13 @@ def sampled_arcs(drawn: Drawn) -> None:
 
 @statement("round caliper = circle")
 def round_caliper(drawn: Drawn) -> None:
-    """Arms of one length measure a circle, as a `diameter` says it; the shoe is then as long as a cell."""
+    """Arms of one length measure a circle, as a `diameter` says it; the shoe is then as long as some cells."""
     hole = drawn.raw["wellbore"]
     applies(
         hole["geometry"] == "arcs" and hole["intervals"][-1].get("kind") == "open" and not drawn.has("centralisers")
     )
-    dice = drawn.dice(5)
+    dice, components = drawn.dice(5), drawn.case.string.components
+    cut = all(part.segments is not None or part.segment_length is not None for part in components)
 
     def measure(raw: Raw) -> None:
         hole, arms, radii = raw["wellbore"], dice.pick([1, 2, 3, 4]), dice.chance(0.5)
@@ -186,9 +200,10 @@ def round_caliper(drawn: Drawn) -> None:
         rows = [[md, *[size] * arms] for md in (0.0, total)]
         hole |= {"geometry": "sampled", "cell": 0.4}
         hole["caliper"] = {"rows": rows, "values": "radius" if radii else "diameter"}
-        hole["intervals"][-1]["diameter"] *= 1.02  # which what was measured replaces
+        if cut:  # default segments are cut for the clearance of the nominal hole
+            hole["intervals"][-1]["diameter"] *= 1.02  # which what was measured replaces
 
-    same(drawn, changed(drawn, measure), CUT_ELSEWHERE, but=("profile",))
+    same(drawn, changed(drawn, measure), AT_SHOE, but=("profile",))
 
 
 @statement("arcs = fine cylinders")

@@ -202,8 +202,11 @@ def drop_at_density(drawn: Drawn) -> None:
 
 @statement("joints in flow = pipe of their diameters")
 def joints_in_flow(drawn: Drawn) -> None:
-    """Mud flows past resolved tool joints, and through their bore, as past pipe that is as wide."""
-    applies(drawn.has("joint"))
+    """Mud flows past resolved tool joints, and through their bore, as past pipe that is as wide.
+
+    In one fluid: where it changes within a segment the segment has the mean, and other segments are cut otherwise.
+    """
+    applies(drawn.has("joint") and len(drawn.raw["mud"].get("outside", ())) < 2)
 
     def resolve(raw: Raw) -> None:
         if drawn.raw["mud"].get("eccentricity") == "string":

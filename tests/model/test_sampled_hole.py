@@ -12,7 +12,7 @@ from fctd.mechanics import contact, sampled
 from fctd.model.frames import hole_frame
 from fctd.model.perturbed import with_noise
 from fctd.model.sampled_hole import in_cells, turns, wall_around
-from fctd.model.wellbore import build_wellbore
+from fctd.model.wellbore import Wellbore, build_wellbore
 from tests.calipers import BORE, FIRST, LAST, SIZES, bent_case, bent_hole, rough, sampled_hole
 from tests.cases import make_case, pipe
 
@@ -66,6 +66,26 @@ def test_casing_and_gaps_keep_the_size_of_their_interval() -> None:
     hole = build_wellbore(bent_case("sampled", caliper={"rows": sorted(rows)}))
     wall = hole.walls(hole.at(np.array([480.0, 560.0, 950.0]))[0])
     np.testing.assert_allclose(wall.radius, [0.15, 0.13, 0.5 * BORE], atol=1e-9)
+
+
+def test_a_measured_circle_is_that_circle_at_its_shoe_and_below_its_end() -> None:
+    """Whatever the nominal size is: no ledge lies below the casing, nor where the string stretches past the end."""
+    stations, shoe, total = [[0, 0, 0], [200, 20, 0], [400, 60, 30]], 250.0, 400.0
+
+    def hole_of(nominal: float, **more: object) -> Wellbore:
+        sizes = [{"to_md": shoe, "diameter": 0.3154, "friction": 0.2, "kind": "cased"},
+                 {"to_md": total, "diameter": nominal, "friction": 0.2, "kind": "open"}]  # fmt: skip
+        return build_wellbore(make_case(stations, [pipe(100, 10)], wellbore={"intervals": sizes, **more}))
+
+    caliper = {"rows": [[0.0, 0.3112], [total, 0.3112]]}
+    circle = hole_of(0.3112, geometry="arcs")
+    measured = hole_of(0.33, geometry="sampled", caliper=caliper, cell=0.1)
+    md = np.append(np.linspace(shoe - 0.3, shoe + 0.5, 60), [390.0, total - 0.05, total + 0.3, total + 2.0])
+    points = circle.off_axis(md, np.zeros(64), np.full(64, 0.1))
+    radius, expected = measured.walls(points).radius, circle.walls(points).radius
+    assert radius.min() > 0.5 * 0.3112 - 1e-4
+    assert radius.max() < 0.5 * 0.3154 + 1e-4
+    np.testing.assert_allclose(radius[60:], expected[60:], atol=1e-9)
 
 
 @pytest.mark.parametrize("borders", [[630.0], [600.03, 600.04, 700.0], [560.0, 1000.0 - 1e-3]])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fctd.model.section import section_of
-from fctd.steady.climb import LOW_FRICTION, Climb, Step, climb, close, lock_up
+from fctd.steady.climb import LOW_FRICTION, Climb, Step, _next, climb, close, lock_up
 from fctd.steady.problem import Share
 from tests.steady.buckled import level_case, problem_of
 
@@ -31,6 +31,15 @@ def test_the_push_of_a_straight_string_is_its_friction() -> None:
     for step in climb(problem).steps[:4]:
         push = problem.weight_on_bit + 0.2 * step.share * s.weight * (60.0 - 1.5)  # half a segment lies on the clamp
         assert -step.hookload == pytest.approx(push, rel=2e-3)
+
+
+def test_a_path_goes_on_by_more_than_rounding() -> None:
+    """A push that has grown by thirty orders leaves no way to lock-up; steps at one share have no root between them."""
+    problem = problem_of(level_case(0.5, length=30.0, segment=3.0, friction=0.1))
+    path = climb(problem)
+    path.steps[:] = [Step(0.5, -2 * problem.weight), Step(0.6, -1e30)]
+    path.balances[-1] = path.balances[-1]._replace(share=Share(0.6, 1.0))
+    assert _next(problem, path, 0.1, 2.0).friction > 0.6
 
 
 def test_preparation_comes_before_each_step() -> None:

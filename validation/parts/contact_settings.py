@@ -20,6 +20,11 @@ CELLS = (0.04, 0.028, 0.02, 0.014)
 DRIFTS = (2.0, 1.0, 0.25)
 
 
+def is_plugin(name: str) -> bool:
+    """Whether a method is of a plugin; of one of the suite rivals are not asked, whose code its studies do not read."""
+    return name not in contact.METHODS and name in contact.REGISTRY.plugins()
+
+
 def settings(name: str, quick: bool) -> Iterator[dict[str, Any]]:
     """Options of a method, from coarse to fine: quick, one of them.
 
@@ -27,7 +32,7 @@ def settings(name: str, quick: bool) -> Iterator[dict[str, Any]]:
     """
     method = contact.method_class(name)
     keys = method.Options.model_fields
-    if name in contact.REGISTRY.plugins():
+    if is_plugin(name):
         tried = list(settings_of(method))
         yield from (tried[len(tried) // 2 :][:1] if quick else tried)
     elif "cell" in keys:
@@ -50,7 +55,7 @@ def settings(name: str, quick: bool) -> Iterator[dict[str, Any]]:
 
 def label(name: str, options: Mapping[str, Any]) -> str:
     """The name of a setting in tables and figures."""
-    if name in contact.REGISTRY.plugins():
+    if is_plugin(name):
         return ", ".join([name, *(f"{key} {value}" for key, value in options.items())])
     if "cell" in options:
         kind = ", linear" if options.get("interpolation") == "linear" else ""

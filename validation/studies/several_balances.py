@@ -7,7 +7,7 @@ import pandas as pd
 from validation.harness.study import Check, Context, Outcome, Study
 from validation.parts.noisy_rows import ABOVE, BEYOND, SEEDS, carried_row, row_of, straight, wells
 
-STRAIGHT, WELLS = 106, 3  # strings
+STRAIGHT, WELLS = 250, 3  # strings
 QUICK = 3  # of them
 KINDS = "resolve", "feed"
 AS_CUT = 3  # each third string is also solved with the segments of its case

@@ -3,19 +3,13 @@
 import numpy as np
 import pytest
 
+from fctd.arena.contract import Trial
 from fctd.case.errors import InputError
 from fctd.model.wellbore import build_wellbore
 from references import contact
 from references.rivals import METHODS
 from tests.references.contact import test_methods as contract
-from tests.references.contact.test_methods import (  # noqa: F401 (the contract, collected for the methods of this file)
-    test_a_query_with_another_number_of_points,
-    test_each_point_has_its_own_radius,
-    test_methods_without_clearance_return_no_values_for_clear_points,
-    test_points_beyond_the_wall_are_deeper_than_their_radius,
-    test_results_do_not_depend_on_earlier_queries,
-    test_the_exact_hole_within_the_geometric_error,
-)
+from tests.references.contact.test_methods import test_the_contract as test_the_contract
 from tests.references.wells import HOLE, RADIUS, bent_case
 
 pytestmark = pytest.mark.rivals
@@ -29,10 +23,9 @@ SETTINGS = [
 
 
 @pytest.fixture(params=SETTINGS, ids=[f"{name}-{'-'.join(map(str, options.values()))}" for name, options in SETTINGS])
-def method(request: pytest.FixtureRequest) -> contact.ContactMethod:
-    """A method built for the case of the contract."""
-    name, options = request.param
-    return contact.build(name, contract.CASE, **options)
+def trial(request: pytest.FixtureRequest) -> Trial:
+    """A method of a rival in the holes of the contract."""
+    return contract.trial_of(*request.param)
 
 
 @pytest.mark.parametrize("name", METHODS)
