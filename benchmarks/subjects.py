@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from benchmarks import reference_kernel
 from benchmarks.strings import drilling, tripping
 from fctd import Case, load_case
 from fctd.case.errors import InputError
@@ -27,6 +26,7 @@ from fctd.simulation.simulate import Simulation
 from fctd.steady.equilibrium import Solver
 from fctd.steady.torque_drag import chart_rows
 from references import contact
+from references.timing import reference_kernel
 
 CASE = Path(__file__).parents[1] / "validation" / "cases" / "curved_chain.toml"
 REFERENCE, FREE, CYLINDERS, ARCS = "reference", "step, contact-free", "step, cylinders", "step, arcs"

@@ -12,8 +12,8 @@ import time
 from pathlib import Path
 from typing import Any
 
-from benchmarks import reference_kernel
 from benchmarks.subjects import Subject, subjects
+from references.timing import reference_kernel
 from references.timing.stopwatch import turn
 
 PROTOCOL = 1

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 import fctd
 from fctd import plots
+from fctd.arena.result import Comparison
 from fctd.case.units import in_steps
 from fctd.hydraulics.pressures import circulation
 from fctd.model.depths import usual_depths
@@ -18,6 +19,7 @@ from fctd.monitoring.roadmap import roadmap as fan_of
 from fctd.monitoring.series import read_series
 from fctd.plots.flow import losses_panels
 from fctd.plots.loads import ChartLook
+from fctd.plots.methods import methods_figure
 from fctd.plots.wear import wear_panels
 from fctd.store.parquet import read_frame
 from fctd.sweep.dataset import open_dataset
@@ -162,11 +164,16 @@ def _tables(*names: str) -> dict[str, pd.DataFrame]:
     return {name: read_frame(STUDY / f"{name}.parquet") for name in names}
 
 
+def methods() -> Figure:
+    """Contact methods and engines on the example well, from the stored result of the command."""
+    return methods_figure(Comparison.model_validate_json((ROOT / "docs" / "methods.json").read_text(encoding="utf-8")))
+
+
 PICTURES: dict[str, Callable[[], Figure]] = {
     "overview": overview, "chart": chart, "compare": compare, "limits": limits, "feeding": feeding, "monitor": monitor,
     "roadmap": roadmap, "run": run, "hydraulics": hydraulics, "wear": wear,
     "public_well": public_well, "judged_rows": judged_rows,
-    "bands": bands, "stick_slip": stick_slip,
+    "bands": bands, "stick_slip": stick_slip, "methods": methods,
 }  # fmt: skip
 # Those drawn from the stored study of a public well, whose data are not part of the project.
 STUDY = ROOT / "validation" / "results" / "volve_f4"

@@ -17,6 +17,7 @@ from fctd.cli.simulate import RunOutput, simulate_file
 from fctd.store.run_folder import about_of
 from references import contact, engines
 from references.contact import REGISTRY, ContactMethod, build, frames
+from references.methods.command import methods_command
 from references.registry import absent, label
 
 PROGRAM = "python -m references simulate"
@@ -114,6 +115,9 @@ def engine_command(
         screen.print(f"  {'passed' if row.passed else 'FAILED'}  {row.check}: {row.value:.3g} (at most {row.bound:g})")
     if run.status != "valid":
         raise typer.Exit(1)
+
+
+app.command("methods")(methods_command)
 
 
 @app.command("check")

@@ -11,6 +11,7 @@ from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fctd.arena.errors import AXIAL, ROUNDING, errors_of
 from fctd.arena.exact_hole import ExactHole
@@ -61,11 +62,18 @@ class Trial:
     def __init__(self, method: type[ContactMethod], options: Mapping[str, Any]) -> None:
         self.method, self.options = method, dict(options)
         self.near = cache(lambda: self.build(case_of("contract", STATIONS, SIZES)))
-        self.far = cache(lambda: self.build(case_of("far", FAR, [(9000.0, 0.2159)])))
+        self.far = cache(self._build_far)
 
     def build(self, case: Case) -> ContactMethod:
         """The method for the hole of a case, with its options."""
         return built(self.method, case, self.options)
+
+    def _build_far(self) -> ContactMethod:
+        """The method for nine kilometres, which it may refuse in words."""
+        try:
+            return self.build(case_of("far", FAR, [(9000.0, 0.2159)]))
+        except InputError as error:
+            raise LeftOutError(f"it refuses a hole of nine kilometres: {error}") from error
 
     def ask(self, method: ContactMethod, points: Array, radii: Array) -> Contacts:
         """The answers to points; BrokenError where they are none."""
@@ -99,7 +107,11 @@ class BrokenError(Exception):
     """What is wrong with a method, as a sentence."""
 
 
-def _share(part: Array) -> str:
+class LeftOutError(Exception):
+    """Why a method refuses a hole that it need not take, as a sentence."""
+
+
+def _share(part: NDArray[Any]) -> str:
     return f"{int(np.sum(part))} of {len(part)}"
 
 
@@ -330,6 +342,8 @@ def held(demand: Demand, trial: Trial) -> Finding:
         return Finding(words, demand(trial), demand in REMARKS)
     except BrokenError as error:
         return Finding(words, str(error))
+    except LeftOutError as error:
+        return Finding(words, str(error), remark=True)
     except Exception as error:  # of a method from anywhere
         return Finding(words, f"it raises {type(error).__name__}: {error}")
 

@@ -69,7 +69,9 @@ class Rule(NamedTuple):
 
     def __str__(self) -> str:
         bound = f"{self.kind.replace('_', ' ')} {self.bound:g}"
-        return f"{self.name}: {self.value:.3g} {self.unit}".rstrip() + f" ({bound})"
+        # With as many digits as tell the value from its bound.
+        digits = next((k for k in range(3, 7) if f"{self.value:.{k}g}" != f"{self.bound:.{k}g}"), 3)
+        return f"{self.name}: {self.value:.{digits}g} {self.unit}".rstrip() + f" ({bound})"
 
 
 def examine(engine: StringEngine) -> list[Rule]:

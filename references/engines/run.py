@@ -9,6 +9,7 @@ import pandas as pd
 
 from fctd.case.load import Case
 from fctd.mechanics import topdrive
+from fctd.mechanics.faults import UnstableError
 from fctd.results.status import RunStatus
 from fctd.simulation.run import Run
 from fctd.simulation.simulate import Simulation
@@ -19,7 +20,7 @@ from references.engines.checks import examine
 def run_window(case: Case, window: Window, engine: "InWindows") -> EngineRun:
     """Run a window in an engine, record as ``fctd.simulate`` does, and hold it to the checks.
 
-    Raises InputError, and UnstableError when the string does not settle before the start.
+    Raises InputError, and UnstableError when the string does not settle before the start or breaks in the first step.
     """
     simulation = Simulation(case, window=window, engine=engine)
     run = simulation.run
@@ -37,6 +38,8 @@ def run_window(case: Case, window: Window, engine: "InWindows") -> EngineRun:
     finally:
         stepper.close()
     broken = simulation.message
+    if not simulation.recorder.history:
+        raise UnstableError(broken)
     result = simulation.result()
     checks = examine(run, window.start, result.history, result.profile, result.energy, broken)
     failed = [f"{row.check} ({row.value:.3g}, at most {row.bound:g})" for row in checks.itertuples() if not row.passed]

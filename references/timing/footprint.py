@@ -4,6 +4,7 @@ import json
 import subprocess
 import sys
 import time
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,12 @@ def footprint(name: str, case: Case, **options: Any) -> tuple[float, float]:
     Raises InputError as ``build`` does.
     """
     build(name, case, **options)  # raises errors here, not in the other process
-    request = json.dumps({"name": name, "case": case.model_dump(mode="json"), "options": options})
+    return measured_apart(name, case, options)
+
+
+def measured_apart(name: str, case: Case, options: Mapping[str, Any]) -> tuple[float, float]:
+    """The same of a method that is known to be built; CalledProcessError where the other process cannot build it."""
+    request = json.dumps({"name": name, "case": case.model_dump(mode="json"), "options": dict(options)})
     done = subprocess.run(
         [sys.executable, "-m", "references.timing.footprint"],
         input=request, capture_output=True, text=True, check=True, cwd=Path(__file__).parents[2],

@@ -38,12 +38,17 @@ def units_for(work: Callable[[int], object], aim: float) -> int:
 
 
 def race(
-    actions: Mapping[str, Action], counts: Mapping[str, float], rounds: int, baseline: str | Mapping[str, str]
+    actions: Mapping[str, Action],
+    counts: Mapping[str, float],
+    rounds: int,
+    baseline: str | Mapping[str, str],
+    clock: Callable[[], float] | None = None,
 ) -> pd.DataFrame:
     """Time each action once per round, after one round that is not counted.
 
     counts : number of units (points, segment-steps, simulated seconds) in a call of each action.
-    baseline : the action that is the denominator of the ratios, one for all or one for each action.
+    baseline : the action that is the denominator of the ratios, one for all or one for each action.  clock : [s], by
+    default the wall's; that of the process leaves out the time in which other processes have its core.
     Returns a row per action: name, units, rounds, ns (median per unit), ns_low, ns_high (quartiles), ns_least (the
     fastest round, least disturbed by other processes), and ratio, ratio_low, ratio_high to the baseline, from
     the ratios within the rounds.
@@ -51,7 +56,7 @@ def race(
     order = list(actions)
     for name in order:
         actions[name]()
-    turns = [turn(actions, counts, time.perf_counter, backwards=k % 2 == 1) for k in range(rounds)]
+    turns = [turn(actions, counts, clock or time.perf_counter, backwards=k % 2 == 1) for k in range(rounds)]
     per_unit = {name: np.array([taken[name] for taken in turns]) for name in order}
     rows = []
     for name in order:

@@ -168,6 +168,20 @@ def test_a_package_that_is_missing_is_no_finding() -> None:
         next(examine(Missing))
 
 
+def test_a_hole_of_nine_kilometres_may_be_refused_in_words() -> None:
+    class Short(Exact):
+        """Takes holes of a kilometre."""
+
+        def __init__(self, case: Case, options: Any) -> None:
+            if (deepest := case.wellbore.intervals[-1].to_md) > 1000:
+                raise InputError("at most 1000 m", key="wellbore", value=deepest)
+            super().__init__(case, options)
+
+    told = [found for found in examine(Short) if found.says]
+    assert all(found.kept for found in told)
+    assert "it refuses a hole of nine kilometres: wellbore = 9000.0: expected at most 1000 m" in told[0].says
+
+
 def test_a_remark_keeps_the_contract() -> None:
     assert Finding("search", "slow", remark=True).kept
     assert not Finding("search", "wrong").kept

@@ -49,6 +49,7 @@ def test_a_sampled_wall_has_no_exact_contacts() -> None:
 def test_the_arena_needs_numpy_and_pydantic_alone() -> None:
     """Who judges a method elsewhere need not install the engine's packages."""
     heavy = "numba", "scipy", "pandas", "pint", "pyarrow", "typer", "rich"
-    asked = f"import sys, fctd.arena.contract; print([name for name in {heavy} if name in sys.modules])"
+    needed = "import sys, fctd.arena.contract, fctd.arena.result"
+    asked = f"{needed}; print([name for name in {heavy} if name in sys.modules])"
     done = subprocess.run([sys.executable, "-c", asked], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from numba import njit
 
-from benchmarks import reference_kernel as kernel
 from benchmarks.worker import reference_digest
+from references.timing import reference_kernel as kernel
 
 # Every record in benchmarks/history/ is in units of this source.  A new reference kernel needs new records.
 SOURCE = "306194ad3d1aa4e0"
@@ -25,7 +25,7 @@ def test_its_source_is_unchanged() -> None:
 @pytest.mark.slow
 def test_its_compiled_code_is_in_the_cache_folder_of_fctd() -> None:
     """Not next to its source, where another user may have no write permission."""
-    program = "from benchmarks import reference_kernel as k; print(k.reference_kernel.stats.cache_path)"
+    program = "from references.timing import reference_kernel as k; print(k.reference_kernel.stats.cache_path)"
     done = subprocess.run(
         [sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, check=True,
         env={key: value for key, value in os.environ.items() if key != "NUMBA_CACHE_DIR"},

@@ -23,6 +23,7 @@ from fctd.sweep.run import prepare
 from fctd.sweep.spec import read_sweep
 from fctd.view import still
 from references import __main__ as references
+from references.methods.asked import REGISTRIES
 from reports import figures
 from tests.browsers import needs_browser
 from tests.case import survey_files
@@ -48,13 +49,14 @@ SHORT_WINDOW = "--start 5 --duration 1.5"
 # Friction and weight on bit with which the string of the guide locks up after half a minute.
 LOCKED_UP = '--friction 0.45 --set bit.weight_on_bit="120 kN"'
 # Guides whose engines and meshes, or searches for limits, run for seconds each.
-SLOW = {"references.md", "report.md", "sweep.md"}
+SLOW = {"methods.md", "references.md", "report.md", "sweep.md"}
 # What a Python block prints.
 PRINTED = {
     "README.md": ["converged", "contact_angle_deg"],
     "calibrate.md": ["friction.cased", "inside95"],
     "adding_a_contact_method.md": ["completed straight_down"],
     "hydraulics.md": ["standpipe_Pa", "fastest_m_s"],
+    "methods.md": ["engine fctd passed", "cylinders, cylinder_length=1 m kept", "rotating off bottom"],
     "monitor.md": ["friction_low", "the apparent friction factor is"],
     "references.md": ["valid 42", "settled hook load"],
     "steady.md": ["converged", "trip_out", "weight_on_bit_N", "[(3000.0, '0.5')]"],
@@ -161,8 +163,9 @@ def exit_code_0() -> Iterator[None]:
 
 def need_what_it_names(command: str) -> None:
     """Skip a command whose optional package is missing."""
-    for package in re.findall(r"--(?:contact|engine) (\w+)", command):
-        pytest.importorskip(package)
+    for kind, name in re.findall(r"--(contact|engine) (\w+)", command):
+        if REGISTRIES[kind].installed_version(name) is None:
+            pytest.skip(f"{name} is not installed")
 
 
 def run_command(command: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -150,3 +150,9 @@ def test_a_rule_that_is_broken_says_what_was_measured() -> None:
     assert gate.verdict([rule], touching=False).startswith("failed")
     table = gate.table({"one": [rule], "two": [rule._replace(value=1.0)]})
     assert table[["engine", "passed"]].to_numpy().tolist() == [["one", False], ["two", True]]
+
+
+def test_a_broken_rule_shows_as_many_digits_as_tell_it_from_its_bound() -> None:
+    rule = gate.Rule("share", 0.89991, "at_least", 0.9, "", "friction is μN")
+    assert not rule.passed
+    assert str(rule) == "share: 0.8999 (at least 0.9)"

@@ -74,3 +74,13 @@ def test_units_fill_a_call(cost: float, monkeypatch: pytest.MonkeyPatch) -> None
     units = stopwatch.units_for(work, 0.01)
     assert units == 1 if cost > 0.01 else 0.005 < units * cost < 0.015
     assert len(calls) < 20
+
+
+def test_a_race_by_another_clock() -> None:
+    clock = [0.0]
+
+    def act() -> None:
+        clock[0] += 1e-6
+
+    table = stopwatch.race({"a": act}, {"a": 10}, 3, "a", clock=lambda: clock[0])
+    assert table["ns"].to_list() == pytest.approx([100.0])

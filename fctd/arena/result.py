@@ -1,0 +1,254 @@
+"""The result of a comparison of contact methods and engines on one well: one schema for screen, files and pictures.
+
+Values are SI but for the units that names state.  ``model_dump_json`` writes a comparison, ``model_validate_json``
+reads it, with numpy and pydantic alone.
+"""
+
+import math
+from collections.abc import Sequence
+from typing import Any, Literal
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field
+
+SCHEMA = 1
+# measured: it answered, whatever its answers are worth.  not run: nothing was asked of it.
+Status = Literal["measured", "failed", "refused", "not installed", "not run"]
+Kind = Literal["contact", "engine"]
+
+
+class _Part(BaseModel):
+    """A part of a result: it has no other keys, and a number that is not finite is null in JSON."""
+
+    model_config = ConfigDict(extra="forbid", ser_json_inf_nan="null")
+
+
+class Quartiles(_Part):
+    """A measured time or ratio: its median, and the quartiles of its rounds."""
+
+    median: float
+    low: float
+    high: float
+
+    @classmethod
+    def of(cls, values: Sequence[float]) -> "Quartiles":
+        """The quartiles of values, at least one."""
+        low, median, high = np.percentile(np.asarray(values, dtype=float), [25, 50, 75])
+        return cls(median=float(median), low=float(low), high=float(high))
+
+    def times(self, factor: float) -> "Quartiles":
+        """The same in another unit."""
+        return Quartiles(median=factor * self.median, low=factor * self.low, high=factor * self.high)
+
+
+class WallErrors(_Part):
+    """Errors of a method's wall at points near the wall of the hole.
+
+    points : asked; touching : of them, by the reference; no_answer : without a penetration or a clearance.
+    largest_penetration_m : error where the method has an answer; largest_angle_deg : of a normal where the point
+    touches too.  missed, false_contacts : points
+    that touch by the reference alone, and by the method alone.
+    """
+
+    points: int
+    touching: int
+    no_answer: int
+    largest_penetration_m: float | None
+    largest_angle_deg: float | None
+    missed: int
+    false_contacts: int
+
+
+class Cost(_Part):
+    """What a method costs.
+
+    points : of a call.  point_ns : processor time of a point; kernels : the same in columns of the reference kernel,
+    from ratios within the rounds.  memory_MB, build_s : growth of resident memory and time of building it.
+    """
+
+    points: int
+    point_ns: Quartiles
+    kernels: Quartiles
+    memory_MB: float | None = None
+    build_s: float | None = None
+
+
+class Loads(_Part):
+    """Loads of a string over the window, means under a Hann window.
+
+    status, message : of the checks of the run.  force_off_N, force_off_md_m : largest difference of a contact force
+    from that of the engine's own arcs, and where; forces_N : of the contact points from the top.  step_us : processor
+    time of a step.  energy_error : of the window, a jump from one wall to the other included.
+    """
+
+    status: str
+    message: str
+    hookload_N: float | None
+    surface_torque_N_m: float | None
+    sum_r_mu_fn_N_m: float | None
+    force_off_N: float | None
+    force_off_md_m: float | None
+    forces_N: list[float | None] = Field(repr=False)
+    step_us: Quartiles
+    step_s: float
+    steps: int
+    energy_error: float | None
+
+
+class Row(_Part):
+    """A contact method or an engine.
+
+    status, reason : of its answers.  broken : what it breaks of the contract of contact methods, or of the gate of
+    engines; None where it was not held to them.  remarks : what breaks neither.  loads_reason : why it has no loads;
+    predicted_s : the time that they were expected to take.
+    """
+
+    kind: Kind
+    name: str
+    options: dict[str, Any] = {}
+    package: str = ""
+    version: str | None = None
+    licence: str | None = None
+    status: Status = "not run"
+    reason: str = ""
+    broken: list[str] | None = None
+    remarks: list[str] = []
+    pieces: int | None = None
+    errors: WallErrors | None = None
+    cost: Cost | None = None
+    predicted_s: float | None = None
+    loads: Loads | None = None
+    loads_reason: str = ""
+
+    @property
+    def label(self) -> str:
+        """Name and options; "engine" before those of an engine, since libraries are both."""
+        name = f"engine {self.name}" if self.kind == "engine" else self.name
+        return ", ".join([name, *(f"{key}={value}" for key, value in self.options.items())])
+
+    @property
+    def struck(self) -> bool:
+        """Whether its numbers are struck through: it breaks the contract or the gate, or its run is invalid."""
+        return bool(self.broken) or (self.loads is not None and self.loads.status != "valid")
+
+    @property
+    def sound(self) -> bool:
+        """Whether nothing that was asked of it failed; a row that was not run for its cost is sound."""
+        return self.status in ("measured", "not run") and not self.struck
+
+    @property
+    def verdict(self) -> str:
+        """In a word or two."""
+        if self.status not in ("measured", "not run"):
+            return self.status
+        if self.broken:
+            return "BROKEN" if self.kind == "contact" else "FAILED"
+        if self.loads is not None and self.loads.status != "valid":
+            return self.loads.status
+        return "" if self.broken is None else "kept" if self.kind == "contact" else "passed"
+
+
+class WindowOf(_Part):
+    """The window of the loads: what the string does, from where to where [m], when [s], and the slowest vibration.
+
+    whole : of its periods in the window.
+    """
+
+    operation: str
+    from_md_m: float
+    to_md_m: float
+    start_s: float
+    duration_s: float
+    vibration: Literal["torsional", "axial"]
+    period_s: float
+    whole: int
+    segments: int
+    step_s: float
+
+    @property
+    def steps(self) -> int:
+        """Of the engine's own."""
+        return max(math.ceil(self.duration_s / self.step_s), 1)
+
+
+class Comparison(_Part):
+    """Contact methods and engines on one well.
+
+    case, digest : its name, and the hash of its contents.  reference : of the errors.  md_m : of the contact points in
+    the window, from the top.  kernel_ns : processor time of a column of the reference kernel.  machine : what times
+    depend on.  notes : what a reader of the numbers has to know.  interrupted : whether Ctrl-C ended it.
+    """
+
+    schema_version: int = SCHEMA
+    case: str
+    digest: str
+    reference: str
+    window: WindowOf | None = None
+    md_m: list[float] = Field(default=[], repr=False)
+    rows: list[Row] = []
+    kernel_ns: Quartiles | None = None
+    machine: dict[str, str] = {}
+    budget_s: float
+    quick: bool = False
+    seconds: float = 0.0
+    notes: list[str] = []
+    interrupted: bool = False
+
+    @property
+    def sound(self) -> bool:
+        """Whether nothing that was asked for failed."""
+        return not self.interrupted and all(row.sound for row in self.rows)
+
+    def flat(self) -> list[dict[str, Any]]:
+        """A row of plain cells for each method and engine, all with the same columns; nan for a number it has not."""
+        return [_flat(row) for row in self.rows]
+
+
+def _flat(row: Row) -> dict[str, Any]:
+    errors, cost, loads = row.errors, row.cost, row.loads
+    nan = float("nan")
+
+    def number(value: float | None) -> float:
+        return nan if value is None else float(value)
+
+    def three(name: str, value: Quartiles | None) -> dict[str, float]:
+        return {
+            name: nan if value is None else value.median,
+            f"{name}_low": nan if value is None else value.low,
+            f"{name}_high": nan if value is None else value.high,
+        }
+
+    return {
+        "kind": row.kind,
+        "name": row.name,
+        "setting": row.label,
+        "verdict": row.verdict,
+        "status": row.status,
+        "reason": row.reason,
+        "broken": "; ".join(row.broken or []),
+        "remarks": "; ".join(row.remarks),
+        "package": row.package,
+        "version": row.version or "",
+        "licence": row.licence or "",
+        "pieces": number(row.pieces),
+        **{
+            name: number(None if errors is None else getattr(errors, name))
+            for name in WallErrors.model_fields
+        },
+        "points_of_a_call": number(None if cost is None else cost.points),
+        **three("point_ns", None if cost is None else cost.point_ns),
+        **three("point_kernels", None if cost is None else cost.kernels),
+        "memory_MB": number(None if cost is None else cost.memory_MB),
+        "build_s": number(None if cost is None else cost.build_s),
+        "run": "" if loads is None else loads.status,
+        "run_message": row.loads_reason if loads is None else loads.message,
+        "predicted_s": number(row.predicted_s),
+        **{
+            name: number(None if loads is None else getattr(loads, name))
+            for name in ("hookload_N", "surface_torque_N_m", "sum_r_mu_fn_N_m", "force_off_N", "force_off_md_m")
+        },
+        **three("step_us", None if loads is None else loads.step_us),
+        "step_s": number(None if loads is None else loads.step_s),
+        "steps": number(None if loads is None else loads.steps),
+        "energy_error": number(None if loads is None else loads.energy_error),
+    }  # fmt: skip

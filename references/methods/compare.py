@@ -1,0 +1,259 @@
+"""Compare contact methods and engines on any well: errors and cost of a point in its hole, and loads of its string."""
+
+import os
+import subprocess
+import time
+from collections.abc import Callable, Iterable
+
+import numpy as np
+
+from fctd.arena.method import ContactMethod
+from fctd.arena.result import Comparison, Row
+from fctd.case.errors import InputError
+from fctd.case.load import Case
+from fctd.mechanics.faults import UnstableError
+from references import contact, engines, packages
+from references.contact.tube_mesh import MeshMethod
+from references.engines import StepOptions, StringEngine, gate
+from references.engines.own import Fctd
+from references.methods import asked
+from references.methods.in_hole import POINTS, contract_of, costs, errors, hole_of, points_near
+from references.methods.loop import (
+    OVERRUN,
+    OverrunError,
+    Swapped,
+    Tell,
+    failed_checks,
+    loads_of,
+    mean_forces,
+    step_cost,
+    timed_run,
+)
+from references.methods.stopping import remembering
+from references.methods.window import Plan, plan_of
+from references.timing.footprint import measured_apart
+from references.timing.stopwatch import machine
+
+BUDGET, QUICK = 300.0, 60.0  # [s] by the clock; the longest of a quick comparison
+OWN = "fctd"  # the engine's own arcs, with which others are compared
+CALL = 1000  # points of a call in the race, at most; as many as the string has contact points
+MESHES = "a mesh, which has frames alone in a quick comparison"
+# Called with what is done, how many of it, and of how many.
+Progress = Callable[[str, float, float], object]
+
+
+def compare_methods(
+    case: Case, methods: Iterable[asked.Wanted] = (asked.ALL,), engine: Iterable[asked.Wanted] = (), *,
+    operation: str | None = None, budget: float = BUDGET, quick: bool = False, progress: Progress = lambda *_: None,
+) -> Comparison:  # fmt: skip
+    """Compare contact methods and engines on the hole, string and operation of a case.
+
+    methods, engine : names, texts "name,key=value", or pairs of name and options; "all" stands for all that are
+    installed.  operation : its number in the case, from 1, or its kind.  budget : wall-clock time [s] in which loads
+    are computed, those that are expected to be cheapest first.  quick : a first look, of a minute: meshes have no
+    loads, the contract no long holes, and memory is not measured.
+
+    Ctrl-C ends it with the rows so far.  Raises InputError for a case that cannot be simulated, and for an unknown name
+    or option; whatever else fails is a row with its reason.
+    """
+    began = time.perf_counter()
+    progress("the engine's own loads", 0, 1)
+    rows, missing = asked.rows_of("contact", methods)
+    more, absent = asked.rows_of("engine", engine)
+    plan = plan_of(case, operation)
+    budget = min(budget, QUICK) if quick else budget
+    comparing = Comparing(plan, rows, [row for row in more if row.name != OWN or row.options], budget, quick, progress)
+    comparing.began = began
+    comparison = comparing.comparison
+    comparison.digest = case.digest
+    if missing + absent:
+        comparison.notes.append(f"not installed, and so left out: {', '.join(dict.fromkeys(missing + absent))}")
+    try:
+        with remembering() as again:
+            comparing.again = again
+            comparing.compare()
+    except KeyboardInterrupt:
+        comparison.interrupted = True
+        for row in comparison.rows:
+            if row.loads is None and not row.loads_reason and row.status in ("measured", "not run"):
+                row.loads_reason = "interrupted"
+    comparison.seconds = time.perf_counter() - began
+    return comparison
+
+
+class Comparing:
+    """A comparison that is being made; ``comparison`` has what is known so far."""
+
+    def __init__(
+        self, plan: Plan, methods: list[Row], others: list[Row], budget: float, quick: bool, progress: Progress
+    ) -> None:
+        self.plan, self.methods, self.engines, self.quick, self._tell = plan, methods, others, quick, progress
+        self.budget, self.began = budget, time.perf_counter()
+        self.again: Callable[[], None] = lambda: None  # raises a Ctrl-C that a library has caught
+        self.md = plan.own.profile["md_m"].to_numpy(float)[1:]
+        about = packages.about(OWN)
+        self.own = Row(kind="engine", name=OWN, package=OWN, version=about.version, licence=about.licence)
+        self.built: dict[str, ContactMethod] = {}
+        self.build_s: dict[str, float] = {}  # by the clock, with imports
+        self.busy = 1.0  # time by the clock over that of the processor, on a machine that others use
+        hole, reference = hole_of(plan.case)
+        radius = float(np.median(plan.own_radii))
+        self.near = points_near(hole, POINTS, radius)
+        self.comparison = Comparison(
+            case=plan.case.name, digest=plan.case.digest, reference=reference, window=plan.described,
+            md_m=self.md.tolist(), rows=[self.own, *methods, *others], budget_s=budget, quick=quick,
+            machine={**machine(), "load average": _load()},
+            notes=list(plan.notes),
+        )  # fmt: skip
+
+    def compare(self) -> None:
+        """Fill the rows: what is cheap first."""
+        self._own_loads()
+        able = [row for row in self.methods if row.status == "not run"]
+        for k, row in enumerate(able):
+            self.progress(f"{row.label}: errors, contract", k, len(able))
+            self._frames(row)
+        able = [row for row in able if row.label in self.built]
+        self.progress("cost of a point", 0, 1)
+        near = self.near.part(slice(0, min(len(self.md), CALL)))
+        began, worked = time.perf_counter(), time.process_time()
+        found, self.comparison.kernel_ns = costs(self.built, near)
+        self.busy = max((time.perf_counter() - began) / max(time.process_time() - worked, 1e-9), 1.0)
+        for row in able:
+            row.cost = found.get(row.label)
+        for k, row in enumerate([] if self.quick else able):
+            self.progress(f"{row.label}: memory", k, len(able))
+            self._memory(row)
+        self._loops(able)
+
+    def progress(self, what: str, done: float, total: float) -> None:
+        """Tell what is done; raises a Ctrl-C that a library has caught."""
+        self.again()
+        self._tell(what, done, total)
+
+    @property
+    def left(self) -> float:
+        """Time of the budget that is left [s]."""
+        return self.budget - (time.perf_counter() - self.began)
+
+    def _own_loads(self) -> None:
+        """The loads of the engine's own arcs, and what such a run takes."""
+        began, engine = time.perf_counter(), Fctd(StepOptions())
+        run, stepper = timed_run(self.plan, engine)
+        self.own.predicted_s = self.alone = time.perf_counter() - began
+        self.forces = mean_forces(stepper)
+        self.shared = failed_checks(run)
+        self.own.loads = loads_of(run, stepper, self.forces, self.md, self.shared)
+        self.own.status = "measured"
+        self.own.broken = _broken(engine)
+
+    def _frames(self, row: Row) -> None:
+        """Build a method, find its errors in this hole, and hold it to the contract; whatever it raises is a reason."""
+        try:
+            began = time.perf_counter()
+            method = contact.build(row.name, self.plan.case, **row.options)
+            self.build_s[row.label] = time.perf_counter() - began
+            row.pieces = int(method.pieces)
+            row.errors = errors(method, self.near)
+            if row.errors.points < len(self.near.md):
+                row.remarks.append(f"errors of the first {row.errors.points} points alone, since it is slow")
+        except InputError as error:
+            row.status, row.reason = "refused", str(error)
+        except Exception as error:  # of a method from anywhere
+            row.status, row.reason = "failed", f"{type(error).__name__}: {error}"
+        else:
+            self.built[row.label], row.status = method, "measured"
+        if row.status != "refused":
+            found = contact.REGISTRY.options(row.name, row.options).model_dump(exclude_unset=True)
+            row.broken, remarks = contract_of(contact.method_class(row.name), found, quick=self.quick)
+            row.remarks += remarks
+
+    def _memory(self, row: Row) -> None:
+        """Memory and time of building a method, in a process of its own."""
+        if row.cost is None:
+            return
+        if 2 * self.build_s[row.label] > self.left:
+            row.remarks.append(f"memory was not measured: it took {self.build_s[row.label]:.3g} s to build")
+            return
+        try:
+            row.cost.memory_MB, row.cost.build_s = measured_apart(row.name, self.plan.case, row.options)
+        except (subprocess.CalledProcessError, TypeError, ValueError) as error:
+            row.remarks.append(f"memory was not measured: {type(error).__name__} in a process of its own")
+
+    def _loops(self, able: list[Row]) -> None:
+        """Loads, the cheapest first, while the expected time fits the budget."""
+        steps, points = self.plan.described.steps, len(self.md)
+        waiting: list[Row] = []
+        for row in able:
+            if self.quick and isinstance(self.built[row.label], MeshMethod):
+                row.loads_reason = MESHES
+            elif row.cost is None:
+                row.status, row.reason = "failed", "it raised an error where its points were timed"
+            else:
+                row.predicted_s = self.alone + 1e-9 * row.cost.point_ns.median * points * steps
+                waiting.append(row)
+        for k, row in enumerate(self.engines):
+            if row.status == "not run":
+                self.progress(f"{row.label}: gate", k, len(self.engines))
+                if self._hold(row):
+                    waiting.append(row)
+        waiting.sort(key=lambda row: row.predicted_s or 0.0)
+        for k, row in enumerate(waiting):
+            expected = self.busy * (row.predicted_s or 0.0)
+            if expected > self.left:
+                left = max(self.left, 0.0)
+                row.loads_reason = f"expected to take {expected:.3g} s by the clock, and {left:.3g} s are left"
+                continue
+
+            def tell(share: float, label: str = row.label, done: int = k) -> None:
+                self.progress(f"{label}: loads", done + share, len(waiting))
+
+            self._loads(row, tell)
+
+    def _hold(self, row: Row) -> bool:
+        """Hold an engine to the gate, and time some of its steps; False where it cannot run the case."""
+        if self.left < 0:
+            row.loads_reason = "the budget is spent"
+            return False
+        try:
+            engine = engines.build(row.name, **row.options)
+            row.predicted_s = self.alone + step_cost(self.plan, engine)
+            row.broken = _broken(engine)
+        except InputError as error:
+            row.status, row.reason = "refused", str(error)
+            return False
+        except Exception as error:  # of an engine from anywhere
+            row.status, row.reason = "failed", f"{type(error).__name__}: {error}"
+            return False
+        row.status = "measured"
+        return True
+
+    def _loads(self, row: Row, tell: Tell) -> None:
+        """The loads of a method or an engine over the window."""
+        try:
+            engine: StringEngine = (
+                Swapped(self.built[row.label]) if row.kind == "contact" else engines.build(row.name, **row.options)
+            )
+            run, stepper = timed_run(self.plan, engine, tell, OVERRUN * (row.predicted_s or np.inf) + 1.0)
+        except InputError as error:
+            row.loads_reason = str(error)
+            row.status = "refused" if row.kind == "engine" else row.status
+        except UnstableError as error:
+            row.loads_reason, row.status = str(error), "failed"
+        except OverrunError as error:
+            row.loads_reason = f"stopped: {error}, expected {row.predicted_s:.3g} s for all"
+        except Exception as error:  # of a method or an engine from anywhere
+            row.loads_reason = f"{type(error).__name__}: {error}"
+            row.status = "failed"
+        else:
+            row.loads = loads_of(run, stepper, self.forces, self.md, self.shared)
+
+
+def _load() -> str:
+    """Load average of the machine over 1, 5 and 15 minutes; Windows has none."""
+    return ", ".join(f"{each:.1f}" for each in os.getloadavg()) if hasattr(os, "getloadavg") else "unknown"
+
+
+def _broken(engine: StringEngine) -> list[str]:
+    """The rules of the gate that an engine breaks."""
+    return [str(rule) for rule in gate.examine(engine) if not rule.passed]
