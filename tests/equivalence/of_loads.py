@@ -33,7 +33,8 @@ def frictionless(drawn: Drawn) -> None:
     less what the flow carries.
 
     Chords of segments of h [m] in a curvature κ are short by (hκ)²/24, and lie off the axis by h²κ/8 or the clearance;
-    at its ends the string takes in and leaves its bending energy, EI κ²/2 a metre.
+    at its ends the string takes in and leaves its bending energy, EI κ²/2 a metre.  Among cylinders of ℓ each segment
+    is lifted as its cylinder leads, up to half a kink, κℓ/2, off the direction of the hole.
     """
     applies(not drawn.has("axial_damping", "caliper", "centralisers", "packer_bore", "tortuosity", "swivel"))
 
@@ -54,6 +55,13 @@ def frictionless(drawn: Drawn) -> None:
     # Of each segment its chord, and its place in the clearance, which turns with the hole.
     bound = float(np.abs(weight) @ (string.length * turned**2 / 24 + 0.15 * turned)) + 1e-6 * answers.weight
     bound = 2 * (bound + float(0.5 * string.of("EI").max() * (turned / string.length).max() ** 2))
+    spec = answers.case.wellbore
+    if spec.geometry == "cylinders":
+        curvature = turned / string.length
+        kink = (
+            curvature * spec.cylinder_length if spec.cylinder_length else np.sqrt(8 * spec.chord_tolerance * curvature)
+        )
+        bound += float(np.abs(weight) @ (0.5 * kink * string.length))
     compared = 0
     for kind in KINDS:
         point, of = answers[kind], KINDS[kind]
