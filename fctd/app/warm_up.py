@@ -34,7 +34,7 @@ def warm_up() -> None:
     rows = chart_rows(case, ["trip_out", "rotate_off_bottom"], DEPTHS)
     point = equilibrium(case, "trip_out", 90.0)
     tables = *({"solver": {"buckling": way}} for way in RESOLVING), {"contact": {"helical_force": "analytic"}}
-    for table in (*tables, {"wellbore": SMALL["wellbore"] | OVAL}):
+    for table in (*tables, tables[0] | {"wellbore": SMALL["wellbore"] | OVAL}):
         buckled = Case.model_validate(SMALL | {"bit": {"weight_on_bit": 1e5}} | table)
         equilibrium(buckled, "drill_sliding", 90.0)
     strings = of_points([point])
