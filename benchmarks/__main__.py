@@ -46,6 +46,8 @@ def gate_command(folder: History = history.HISTORY) -> None:
         screen.print("no release is recorded: nothing to compare with")
         return
     file, record = last
+    if record.accepted:
+        screen.print(f"the baseline of {record.date:%Y-%m-%d} accepts: {record.accepted}")
     outcome = gate(record, file, report)
     if not outcome.verdicts:
         screen.print(outcome.how)
@@ -85,18 +87,21 @@ def compare_command(folder: History = history.HISTORY) -> None:
 def record_command(
     folder: History = history.HISTORY,
     release: Annotated[str, typer.Option("--release", help="Name of the release; default: FCTD's version.")] = "",
+    accept: Annotated[
+        str, typer.Option("--accept", metavar="REASON", help="What became slower, and why it is accepted.")
+    ] = "",
 ) -> None:
     """Measure and store a record for comparison with later runs; the sources have to be committed."""
     changed = history.uncommitted()
     if changed:
         raise InputError("everything committed, since a record names its commit", key="git", value=changed)
-    screen.print(str(history.write(measured(release), folder)))
+    screen.print(str(history.write(measured(release, accept), folder)))
 
 
-def measured(release: str = "") -> history.Record:
+def measured(release: str = "", accepted: str = "") -> history.Record:
     """Measure the kernels; returns the record."""
     costs, subjects = measure.alone(PROCESSES, report=report)
-    return history.record_of(costs, subjects, release or version("fctd"))
+    return history.record_of(costs, subjects, release or version("fctd"), accepted)
 
 
 if __name__ == "__main__":

@@ -68,6 +68,7 @@ class Record(BaseModel):
     versions: dict[str, str]
     reference_ns: float
     kernels: Annotated[dict[str, Kernel], Field(min_length=1)]
+    accepted: str = ""  # what became slower since the record before, and why this is the baseline all the same
 
     @property
     def ratios(self) -> Costs:
@@ -103,7 +104,7 @@ def sources_of(root: Path) -> str:
     return sources_digest(root)
 
 
-def record_of(costs: Costs, subjects: dict[str, Any], release: str) -> Record:
+def record_of(costs: Costs, subjects: dict[str, Any], release: str, accepted: str = "") -> Record:
     """The record of a measurement of these sources, now."""
     kernels = {
         name: Kernel(
@@ -118,7 +119,7 @@ def record_of(costs: Costs, subjects: dict[str, Any], release: str) -> Record:
         release=release, date=datetime.now(UTC).replace(microsecond=0), commit=found.pop("commit", ""),
         sources=sources_of(ROOT), reference=reference_digest(), processor=processor(),
         versions=found, reference_ns=_round(statistics.median(costs[REFERENCE])),
-        kernels=kernels,
+        kernels=kernels, accepted=accepted,
     )  # fmt: skip
 
 
