@@ -137,12 +137,14 @@ def test_a_measurement_becomes_a_record(monkeypatch: pytest.MonkeyPatch) -> None
 
 
 def test_a_record_needs_committed_sources(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr(commands, "measured", lambda release="": record_here(release=release))
+    monkeypatch.setattr(commands, "measured", lambda release, accepted: record_here(release=release, accepted=accepted))
     monkeypatch.setattr(history, "uncommitted", lambda: " M fctd/joints.py")
     with pytest.raises(InputError, match="everything committed"):
         invoke("record", "--history", str(tmp_path))
     monkeypatch.setattr(history, "uncommitted", lambda: "")
-    assert invoke("record", "--history", str(tmp_path), "--release", "3.0")[0] == 0
+    assert invoke("record", "--history", str(tmp_path), "--release", "3.0", "--accept", "a slower step")[0] == 0
     found = history.last_release(tmp_path)
     assert found is not None
-    assert found[1].release == "3.0"
+    assert (found[1].release, found[1].accepted) == ("3.0", "a slower step")
+    _, text = invoke("gate", "--history", str(tmp_path))
+    assert "accepts: a slower step" in text
