@@ -1,7 +1,7 @@
 """``python -m references``: list contact methods and string engines, and run a case with one of them."""
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 from rich.table import Table
@@ -9,7 +9,6 @@ from rich.table import Table
 from fctd.arena.contract import examine
 from fctd.case.errors import InputError
 from fctd.case.load import Case, load_case
-from fctd.case.raw_case import parse_override
 from fctd.cli.keeping import AcceptChanges, CheckpointEvery, OptionalCase, Restart, Resume, SaveOptions
 from fctd.cli.main import run
 from fctd.cli.options import CaseFile, Csv, Friction, Out, Overrides, Quiet, changes_of, screen
@@ -17,6 +16,7 @@ from fctd.cli.simulate import RunOutput, simulate_file
 from fctd.store.run_folder import about_of
 from references import contact, engines
 from references.contact import REGISTRY, ContactMethod, build, frames
+from references.methods.asked import options_of
 from references.methods.command import methods_command
 from references.registry import absent, label
 
@@ -83,7 +83,7 @@ def simulate_command(
         raise InputError("a method of 'list'", key="--contact")
 
     def method(case: Case) -> ContactMethod:
-        return build(str(contact), case, **_chosen(options))
+        return build(str(contact), case, **options_of(options))
 
     more = {"contact": contact, "options": options}
     simulate_file(
@@ -105,7 +105,7 @@ def engine_command(
     """Run a window of a case in another engine; print its final loads and the result of each check."""
     changes = changes_of(overrides, friction)
     case = load_case(case_file, changes)
-    run = engines.build(engine, **_chosen(options)).run(case, engines.Window(start, duration))
+    run = engines.build(engine, **options_of(options)).run(case, engines.Window(start, duration))
     last = run.history.iloc[-1]
     screen.print(f"{engine}: {run.status}", f"({run.message})" if run.message else "")
     if run.note:
@@ -132,7 +132,7 @@ def check_command(
     for name in methods:
         method = contact.method_class(name)
         table = Table("demand", "", "what is wrong", title=name, title_justify="left")
-        for found in examine(method, REGISTRY.options(name, _chosen(options)).model_dump(exclude_unset=True)):
+        for found in examine(method, REGISTRY.options(name, options_of(options)).model_dump(exclude_unset=True)):
             word = "remark" if found.remark else "BROKEN"
             table.add_row(found.demand, word if found.says else "kept", found.says)
             broken = broken or not found.kept
@@ -149,17 +149,6 @@ def frames_command(
     """Write points near the wall of four holes with their exact contacts, for contact methods elsewhere."""
     frames.write(out, count)
     screen.print(f"{out}: {count} points in each of {len(frames.holes())} holes")
-
-
-def _chosen(options: list[str]) -> dict[str, Any]:
-    """Options from texts KEY=VALUE; InputError for a text without a value."""
-    chosen: dict[str, Any] = {}
-    for text in options:
-        key, given, _ = text.partition("=")
-        if not given:
-            raise InputError("KEY=VALUE", key="--option", value=text)
-        chosen[key] = parse_override(text)[1]
-    return chosen
 
 
 if __name__ == "__main__":

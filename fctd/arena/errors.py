@@ -36,10 +36,18 @@ class Errors:
     turn: Array
 
 
+def deviations(frame: Frame, found: Contacts) -> tuple[NDArray[np.bool_], Array, Array]:
+    """Which points have an answer (n,); errors of penetration (n,) [m] and of direction (n,) [rad], nan without one."""
+    known = np.isfinite(found.penetration)
+    blank = np.where(known, 0.0, np.nan)
+    cosine = np.clip(np.sum(found.normal * frame.exact.normal, axis=1), -1, 1)
+    return known, blank + found.penetration - frame.exact.penetration, blank + np.arccos(cosine)
+
+
 def errors_of(method: ContactMethod, frame: Frame, found: Contacts) -> Errors:
     """The errors of the contacts that a method found at the points of a frame."""
     exact = frame.exact
-    known = np.isfinite(found.penetration)
+    known, off, angle = deviations(frame, found)
     bounds = {k: method.error_bound(k) for k in np.unique(frame.hole.curvatures(frame.md)).tolist()}
     both = np.array([bounds[k] for k in frame.hole.curvatures(frame.md).tolist()]).reshape(-1, 2)
     # Beside a shoe a wall may have its own slope, where the exact contact is that of a cylinder of its radius there.
@@ -48,15 +56,13 @@ def errors_of(method: ContactMethod, frame: Frame, found: Contacts) -> Errors:
     offset = exact.penetration + frame.hole.radii(exact.md) - frame.radii
     # A wall that is aside by its bound turns the normal by that over the distance from the axis.
     turn = both[:, 1] + _slope(frame, AXIAL) + np.arcsin(np.minimum(depth / np.maximum(offset, 1e-9), 1)) + 1e-6
-    cosine = np.clip(np.sum(found.normal * exact.normal, axis=1), -1, 1)
-    blank = np.where(known, 0.0, np.nan)
     return Errors(
         known,
         (exact.penetration > depth) & ~(found.penetration > 0),
         (exact.penetration < -depth) & (found.penetration > 0),
-        blank + found.penetration - exact.penetration,
-        blank + np.arccos(cosine),
-        blank + found.md - exact.md,
+        off,
+        angle,
+        np.where(known, found.md - exact.md, np.nan),
         depth,
         turn,
     )

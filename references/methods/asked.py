@@ -20,13 +20,18 @@ def read(wanted: Wanted, key: str) -> tuple[str, dict[str, Any]]:
     if not isinstance(wanted, str):
         return wanted[0], dict(wanted[1])
     name, *texts = (part.strip() for part in wanted.split(","))
+    return name, options_of(texts, InputError("NAME or NAME,KEY=VALUE,…", key=key, value=wanted))
+
+
+def options_of(texts: Iterable[str], wrong: InputError | None = None) -> dict[str, Any]:
+    """Options from texts KEY=VALUE; InputError for a text without a value, by default of ``--option``."""
     chosen: dict[str, Any] = {}
     for text in texts:
         option, given, _ = text.partition("=")
         if not given:
-            raise InputError("NAME or NAME,KEY=VALUE,…", key=key, value=wanted)
+            raise wrong or InputError("KEY=VALUE", key="--option", value=text)
         chosen[option.strip()] = parse_override(text)[1]
-    return name, chosen
+    return chosen
 
 
 def rows_of(kind: Kind, wanted: Iterable[Wanted]) -> tuple[list[Row], list[str]]:

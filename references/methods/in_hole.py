@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 
 from fctd.arena.contract import DEMANDS, Demand, Trial, far_away, held, options, search
+from fctd.arena.errors import deviations
 from fctd.arena.exact_hole import ExactHole
-from fctd.arena.frames import SEED, Frame, frame
+from fctd.arena.frames import BAND, SEED, Frame, frame
 from fctd.arena.method import ContactMethod
 from fctd.arena.result import Cost, Quartiles, WallErrors
 from fctd.arrays import Array, Contacts
@@ -75,7 +76,7 @@ def points_near(hole: ExactHole, count: int, radius: float) -> Frame:
     rng = np.random.default_rng(SEED)
     outward = near.places - hole.at(near.md)[0]
     wall = near.exact
-    by = rng.uniform(-0.015, 0.015, count) - wall.penetration
+    by = rng.uniform(-BAND, BAND, count) - wall.penetration
     return Frame(hole, near.md, near.places + (by / np.linalg.norm(outward, axis=1))[:, None] * outward, near.radii)
 
 
@@ -93,12 +94,11 @@ def errors(method: ContactMethod, near: Frame) -> WallErrors:
     found = method.query(near.places.copy(), near.radii.copy())
     penetration, normal = (np.asarray(part, dtype=float) for part in found[:2])
     exact = near.exact
-    touching, known = exact.penetration > 0, np.isfinite(penetration)
+    touching = exact.penetration > 0
     if penetration.shape != exact.penetration.shape or normal.shape != exact.normal.shape:
         raise ValueError(f"query returns the shapes {penetration.shape}, {normal.shape} for {len(near.md)} points")
-    off = np.abs(penetration - exact.penetration)[known]
-    cosine = np.clip(np.sum(normal * exact.normal, axis=1)[known & touching], -1, 1)
-    angle = np.degrees(np.arccos(cosine))  # a clear point has no use for a normal
+    known, depth, turn = deviations(near, Contacts(penetration, normal, exact.md))
+    off, angle = np.abs(depth[known]), np.degrees(turn[known & touching])  # a clear point has no use for a normal
     return WallErrors(
         points=len(near.md),
         touching=int(touching.sum()),

@@ -62,7 +62,7 @@ def turned(hits: Contacts, by: float) -> Contacts:
 
 def test_the_exact_hole_keeps_all_of_it() -> None:
     found = list(examine(Exact))
-    assert [(each.demand, each.says) for each in found if each.says] == []
+    assert [(each.demand, each.says) for each in found if not each.kept] == []
     assert len(found) == len(DEMANDS)
 
 

@@ -87,7 +87,6 @@ def test_costs_have_quartiles_in_ns_and_in_units_of_the_reference_kernel(compare
         assert cost is not None
         for value in (cost.point_ns, cost.kernels):
             assert 0 < value.low <= value.median <= value.high
-        assert cost.kernels.median == pytest.approx(cost.point_ns.median / compared.kernel_ns.median, rel=0.5)
     step = rows(compared)["arcs"].loads
     assert step is not None
     assert step.step_us.low <= step.step_us.median <= step.step_us.high
