@@ -168,11 +168,22 @@ def need_what_it_names(command: str) -> None:
             pytest.skip(f"{name} is not installed")
 
 
+def program_of(command: str) -> str | None:
+    """The program of a command, None if it is none that a test runs."""
+    return next((program for program in PROGRAMS if command.startswith(f".venv/bin/{program} ")), None)
+
+
+@pytest.mark.parametrize("document", [d for d in DOCUMENTS if d not in CHAINED], ids=name)
+def test_each_command_is_of_a_program_that_tests_run_or_is_listed(document: Path) -> None:
+    unknown = [line for line in commands(document) if not (program_of(line) or line.startswith(tuple(NOT_RUN)))]
+    assert not unknown
+
+
 def run_command(command: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Run a command of a guide, and check that it writes what it names."""
     need_what_it_names(command)
-    program = next((program for program in PROGRAMS if command.startswith(f".venv/bin/{program} ")), None)
-    assert program is not None, f"a program that this test does not know: {command}"
+    program = program_of(command)
+    assert program is not None
     monkeypatch.setattr(sys, "argv", [program, *shlex.split(shorter(command).removeprefix(f".venv/bin/{program} "))])
     with exit_code_0():
         main.run(PROGRAMS[program])
