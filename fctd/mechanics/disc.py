@@ -140,8 +140,10 @@ def roll_disc(wall, radius, cells, ways, corners):
             if between(normal[following] - normal[q]) > TWO_PLACES:
                 second = place[following] + (count if following == 0 else 0)
                 one, other = corner(wall, row, q, place[q], second, radius)
-                middle[q] = one + 0.5 * between(other - one)
-                half[q] = max(min(0.5 * between(other - one), STEEPEST), 0.0)
+                # Both may be one place after all, whose normal turns fast: rounding alone would then pick the middle.
+                if between(other - one) > TWO_PLACES:
+                    middle[q] = one + 0.5 * between(other - one)
+                    half[q] = min(0.5 * between(other - one), STEEPEST)
         for k in range(cells):
             q = k * per_cell
             ways[row, k] = way[q]
