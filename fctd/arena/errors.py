@@ -36,18 +36,13 @@ class Errors:
     turn: Array
 
 
-def deviations(frame: Frame, found: Contacts) -> tuple[NDArray[np.bool_], Array, Array]:
-    """Which points have an answer (n,); errors of penetration (n,) [m] and of direction (n,) [rad], nan without one."""
-    known = np.isfinite(found.penetration)
-    blank = np.where(known, 0.0, np.nan)
-    cosine = np.clip(np.sum(found.normal * frame.exact.normal, axis=1), -1, 1)
-    return known, blank + found.penetration - frame.exact.penetration, blank + np.arccos(cosine)
-
-
 def errors_of(method: ContactMethod, frame: Frame, found: Contacts) -> Errors:
     """The errors of the contacts that a method found at the points of a frame."""
     exact = frame.exact
-    known, off, angle = deviations(frame, found)
+    known = np.isfinite(found.penetration)
+    blank = np.where(known, 0.0, np.nan)
+    off = blank + found.penetration - exact.penetration
+    angle = blank + np.arccos(np.clip(np.sum(found.normal * exact.normal, axis=1), -1, 1))
     bounds = {k: method.error_bound(k) for k in np.unique(frame.hole.curvatures(frame.md)).tolist()}
     both = np.array([bounds[k] for k in frame.hole.curvatures(frame.md).tolist()]).reshape(-1, 2)
     # Beside a shoe a wall may have its own slope, where the exact contact is that of a cylinder of its radius there.

@@ -56,6 +56,10 @@ class ExactHole:
         """Radii of the hole (n,) [m] at measured depths (n,) [m]."""
         return np.asarray(np.interp(md, *self._sizes))
 
+    def wall(self, md: Array, angle: Array) -> Array:
+        """Distances of the wall from the axis (n,) [m], at angles (n,) [rad] from the high side clockwise."""
+        return self.radii(md)
+
     def off_axis(self, md: Array, angle: Array, distance: Array) -> Array:
         """Points (n, 3) [m] beside the axis; angle (n,) [rad] from the high side clockwise, distance (n,) [m]."""
         axis, tangent = self.at(md)

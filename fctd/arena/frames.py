@@ -47,7 +47,7 @@ def frame(
     rng = np.random.default_rng(seed)
     top, bottom = md or (hole.md[0] + 5.0, hole.md[1] - 5.0)
     depths, angle = rng.uniform(top, bottom, count), rng.uniform(0, 2 * np.pi, count)
-    distance = hole.radii(depths) - radius + rng.uniform(-BAND, BAND, count)
+    distance = hole.wall(depths, angle) - radius + rng.uniform(-BAND, BAND, count)
     return Frame(hole, depths, hole.off_axis(depths, angle, distance), np.full(count, radius))
 
 

@@ -1,12 +1,14 @@
 """What a contact method is: a class that is built for the hole of a case, and answers queries of points."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, ClassVar, Protocol
 
 from fctd.arrays import Array, Contacts
 from fctd.case.errors import Table
 from fctd.case.load import Case
 from fctd.case.raw_case import checked
+
+Settings = Sequence[Mapping[str, Any]]  # options that belong together, a mapping for each setting
 
 
 class ContactMethod(Protocol):
@@ -15,7 +17,7 @@ class ContactMethod(Protocol):
     name : under which it is registered.  distribution : the package that provides it.  does : one line for users.
     gives_clearance : whether a penetration below 0 is the true clearance; otherwise it is −inf, and normal and
     md are nan.  Options : a pydantic model of its settings; the ``examples`` of an option are the values that studies
-    try, from coarse to fine.
+    try, from coarse to fine.  A class may have ``settings`` of the type Settings instead.
     """
 
     name: str
@@ -48,9 +50,11 @@ class ContactMethod(Protocol):
 
 
 def settings_of(method: type[ContactMethod]) -> Iterator[dict[str, Any]]:
-    """Options that a comparison tries, from coarse to fine: the examples of each; the defaults where it gives none."""
+    """Options that a comparison tries, from coarse to fine: the settings of a method, else the examples of each option;
+    the defaults where it gives none."""
     fields = method.Options.model_fields
-    yield from [{key: value} for key, field in fields.items() for value in field.examples or ()] or [{}]
+    examples = [{key: value} for key, field in fields.items() for value in field.examples or ()]
+    yield from map(dict, getattr(method, "settings", ()) or examples or [{}])
 
 
 def built(method: type[ContactMethod], case: Case, options: Mapping[str, Any]) -> ContactMethod:

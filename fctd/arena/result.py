@@ -5,10 +5,10 @@ reads it, with numpy and pydantic alone.
 """
 
 import math
-from collections.abc import Sequence
 from typing import Any, Literal
 
 import numpy as np
+from numpy.typing import ArrayLike
 from pydantic import BaseModel, ConfigDict, Field
 
 SCHEMA = 1
@@ -31,7 +31,7 @@ class Quartiles(_Part):
     high: float
 
     @classmethod
-    def of(cls, values: Sequence[float]) -> "Quartiles":
+    def of(cls, values: ArrayLike) -> "Quartiles":
         """The quartiles of values, at least one."""
         low, median, high = np.percentile(np.asarray(values, dtype=float), [25, 50, 75])
         return cls(median=float(median), low=float(low), high=float(high))
@@ -44,33 +44,40 @@ class Quartiles(_Part):
 class WallErrors(_Part):
     """Errors of a method's wall at points near the wall of the hole.
 
-    points : asked; touching : of them, by the reference; no_answer : without a penetration or a clearance.
-    largest_penetration_m : error where the method has an answer; largest_angle_deg : of a normal where the point
-    touches too.  missed, false_contacts : points
-    that touch by the reference alone, and by the method alone.
+    region : of the hole; empty for all of it.  points : asked; touching : of them, by the reference; no_answer :
+    without a penetration or a clearance.  largest_penetration_m, rms_penetration_m : errors where the method has an
+    answer; largest_angle_deg : of a normal where the point touches too; largest_md_m : of the measured depth.
+    depth_over_bound, angle_over_bound : the largest errors in parts of what the geometry of the method allows there.
+    missed, false_contacts : points that touch by the reference alone, and by the method alone; missed_beyond_m : how
+    much deeper than its bound the deepest of the missed lies.
     """
 
+    region: str = ""
     points: int
     touching: int
     no_answer: int
     largest_penetration_m: float | None
+    rms_penetration_m: float | None = None
     largest_angle_deg: float | None
+    largest_md_m: float | None = None
+    depth_over_bound: float | None = None
+    angle_over_bound: float | None = None
     missed: int
+    missed_beyond_m: float = 0.0
     false_contacts: int
 
 
 class Cost(_Part):
     """What a method costs.
 
-    points : of a call.  point_ns : processor time of a point; kernels : the same in columns of the reference kernel,
-    from ratios within the rounds.  memory_MB, build_s : growth of resident memory and time of building it.
+    points : of a call.  point_ns : processor time of a point; kernels, arcs : the same in columns of the reference
+    kernel, and in points of the engine's own arcs, from ratios within the rounds.
     """
 
     points: int
     point_ns: Quartiles
     kernels: Quartiles
-    memory_MB: float | None = None
-    build_s: float | None = None
+    arcs: Quartiles | None = None
 
 
 class Loads(_Part):
@@ -99,8 +106,10 @@ class Row(_Part):
     """A contact method or an engine.
 
     status, reason : of its answers.  broken : what it breaks of the contract of contact methods, or of the gate of
-    engines; None where it was not held to them.  remarks : what breaks neither.  loads_reason : why it has no loads;
-    predicted_s : the time that they were expected to take.
+    engines; None where it was not held to them.  remarks : what breaks neither.  errors, regions : at all points, and
+    at those of each region.  costs : of a point, in calls of each size.  memory_MB, build_s : growth of resident
+    memory and time of building it.  loads_reason : why it has no loads; predicted_s : the time that they were expected
+    to take.
     """
 
     kind: Kind
@@ -115,7 +124,10 @@ class Row(_Part):
     remarks: list[str] = []
     pieces: int | None = None
     errors: WallErrors | None = None
-    cost: Cost | None = None
+    regions: list[WallErrors] = []
+    costs: list[Cost] = []
+    memory_MB: float | None = None
+    build_s: float | None = None
     predicted_s: float | None = None
     loads: Loads | None = None
     loads_reason: str = ""
@@ -125,6 +137,11 @@ class Row(_Part):
         """Name and options; "engine" before those of an engine, since libraries are both."""
         name = f"engine {self.name}" if self.kind == "engine" else self.name
         return ", ".join([name, *(f"{key}={value}" for key, value in self.options.items())])
+
+    @property
+    def cost(self) -> Cost | None:
+        """The first of the costs: in calls of as many points as the string has."""
+        return self.costs[0] if self.costs else None
 
     @property
     def struck(self) -> bool:
@@ -233,13 +250,14 @@ def _flat(row: Row) -> dict[str, Any]:
         "pieces": number(row.pieces),
         **{
             name: number(None if errors is None else getattr(errors, name))
-            for name in WallErrors.model_fields
+            for name in WallErrors.model_fields if name != "region"
         },
         "points_of_a_call": number(None if cost is None else cost.points),
         **three("point_ns", None if cost is None else cost.point_ns),
         **three("point_kernels", None if cost is None else cost.kernels),
-        "memory_MB": number(None if cost is None else cost.memory_MB),
-        "build_s": number(None if cost is None else cost.build_s),
+        **three("point_arcs", None if cost is None else cost.arcs),
+        "memory_MB": number(row.memory_MB),
+        "build_s": number(row.build_s),
         "run": "" if loads is None else loads.status,
         "run_message": row.loads_reason if loads is None else loads.message,
         "predicted_s": number(row.predicted_s),

@@ -10,6 +10,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.arena.method import Settings
 from fctd.arrays import Array, Contacts
 from fctd.case import units
 from fctd.case.errors import Table
@@ -31,6 +32,7 @@ class AxisFrame:
     does: ClassVar[str] = "offset from the axis in the section of a fixed measured depth, no search"
     gives_clearance = True
     Options: ClassVar[type[Table]] = AxisFrameOptions
+    settings: ClassVar[Settings] = ({"drift": 2.0}, {"drift": 1.0}, {"drift": 0.25})
 
     def __init__(self, case: Case, options: AxisFrameOptions) -> None:
         self.options, self.hole = options, build_wellbore(case)

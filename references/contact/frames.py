@@ -15,16 +15,13 @@ import pandas as pd
 import pyarrow as pa
 from pyarrow import parquet
 
+from fctd.arena.frames import SEED, case_of, frame
 from fctd.case.load import Case
-from fctd.model.frames import hole_frame
-from fctd.model.wellbore import build_wellbore, find_contacts
 from fctd.store.origin import versions
 from fctd.store.parquet import read_table
 from fctd.store.whole_file import whole_file
+from references.contact.reference_hole import hole_of
 
-RADIUS = 0.051  # contact radius of the string [m]
-BAND = 0.015  # points lie within this distance of touching [m]
-SEED = 20261128
 Stations = list[list[float]]  # measured depth [m], inclination [deg], azimuth [deg]
 TURN: Stations = [[0, 0, 0], [200, 0, 0], [500, 60, 0], [740, 60, 55], [900, 60, 55]]
 S_WELL: Stations = [[0, 0, 0], [150, 0, 0], [450, 70, 30], [650, 70, 30], [950, 5, 30], [1000, 5, 30]]
@@ -51,15 +48,9 @@ def frames(count: int, names: Collection[str] | None = None) -> pd.DataFrame:
     for name, case in holes().items():
         if names is not None and name not in names:
             continue
-        hole, rng = build_wellbore(case), np.random.default_rng(SEED)
-        md, angle = rng.uniform(5.0, hole.total_depth - 5.0, count), rng.uniform(0, 2 * np.pi, count)
-        axis, tangent = hole.at(md)
-        high, right = hole_frame(tangent)
-        towards = np.cos(angle)[:, None] * high + np.sin(angle)[:, None] * right
-        wall = hole.radii_towards(md, towards[:, None])[:, 0]
-        places = axis + (wall - RADIUS + rng.uniform(-BAND, BAND, count))[:, None] * towards
-        hits = find_contacts(hole, places, RADIUS)
-        columns = np.column_stack([places, np.full(count, RADIUS), hits.penetration, hits.normal, hits.md])
+        near = frame(hole_of(case)[0], count)
+        hits = near.exact
+        columns = np.column_stack([near.places, near.radii, hits.penetration, hits.normal, hits.md])
         parts.append(pd.DataFrame(columns, columns=NUMBERS).assign(hole=name))
     return pd.concat(parts, ignore_index=True)[["hole", *NUMBERS]]
 
@@ -88,16 +79,13 @@ def read(path: Path) -> tuple[pd.DataFrame, dict[str, Case]]:
 
 def _case(name: str, stations: Stations, diameter: float, washed_out: bool = False) -> Case:
     bottom = stations[-1][0]
-    hole: dict[str, Any] = {
-        "stations": stations, "geometry": "sampled" if washed_out else "arcs",
-        "intervals": [{"to_md": bottom, "diameter": diameter, "friction": 0.2, "kind": "open"}],
-    }  # fmt: skip
+    hole: dict[str, Any] = {}
     if washed_out:
         md = np.arange(20.0, bottom - 20.0, 0.5)
         # An oval that turns along the hole, wider by up to 12 % every 60 m.
         wide = 1 + 0.12 * np.maximum(np.sin(2 * np.pi * md / 60), 0.0)
         turned = 2 * np.pi * md[:, None] / 300 + np.pi / 4 * np.arange(8)
         radii = 0.5 * diameter * wide[:, None] * (1 + 0.03 * np.cos(2 * turned))
-        hole["caliper"] = {"rows": np.column_stack([md, radii]).tolist(), "values": "radius"}
-    pipe = {"name": "pipe", "outer_diameter": 2 * RADIUS, "inner_diameter": 0.06, "segment_length": 10.0}
-    return Case.model_validate({"name": name, "wellbore": hole, "string": {"components": [pipe]}})
+        rows = np.column_stack([md, radii]).tolist()
+        hole = {"geometry": "sampled", "caliper": {"rows": rows, "values": "radius"}}
+    return case_of(name, stations, [(bottom, diameter)], **hole)

@@ -8,11 +8,12 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from fctd.arena.method import Settings
 from fctd.arrays import Array, Contacts
 from fctd.case.errors import Table
 from fctd.case.load import Case
 from references.contact import need
-from references.contact.tube_mesh import MeshMethod, TubeOptions, build_tube
+from references.contact.tube_mesh import MESHES, MeshMethod, TubeOptions, build_tube
 
 
 class LibIgl(MeshMethod):
@@ -23,6 +24,7 @@ class LibIgl(MeshMethod):
     does: ClassVar[str] = "closest points on a triangle mesh through a tree of boxes, double precision"
     gives_clearance = True
     Options: ClassVar[type[Table]] = TubeOptions
+    settings: ClassVar[Settings] = (*MESHES, *(mesh | {"smooth_normals": True} for mesh in MESHES))
 
     def __init__(self, case: Case, options: TubeOptions) -> None:
         igl = need("igl", self.name)

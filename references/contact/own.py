@@ -5,6 +5,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from numba import njit
 
+from fctd.arena.method import Settings
 from fctd.arrays import Array, Contacts
 from fctd.case import units
 from fctd.case.errors import Table
@@ -113,6 +114,9 @@ class Cylinders(_CachedOwners):
     name = "cylinders"
     does: ClassVar[str] = "point in cylinder with overlap, each point keeps its cylinder between queries"
     Options: ClassVar[type[Table]] = CylinderOptions
+    settings: ClassVar[Settings] = tuple(
+        {"cylinder_length": length, "overlap": min(0.2, 0.5 * length)} for length in (10.0, 5.0, 2.0, 0.5)
+    )
 
     def __init__(self, case: Case, options: CylinderOptions) -> None:
         super().__init__(_hole(case, "cylinders", options))

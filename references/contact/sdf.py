@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import spline_filter
 from scipy.spatial import cKDTree
 
+from fctd.arena.method import Settings
 from fctd.arrays import Array, Contacts
 from fctd.case import units
 from fctd.case.errors import InputError, Table
@@ -41,6 +42,9 @@ LENGTH, BEFORE, TOP, STRETCH = range(15, 19)
 SPLINE, THIRD = 1 / 24, 1.5 * np.sqrt(2)
 
 
+CELLS = (0.04, 0.028, 0.02, 0.014)  # [m]: what studies try
+
+
 class SdfOptions(TubeOptions):
     """cell : distance of grid points [m].  source : what is sampled; by default the hole if it is round, else a mesh.
 
@@ -60,6 +64,10 @@ class Sdf:
     does: ClassVar[str] = "distance sampled on grids along the hole, for any wall, interpolated"
     gives_clearance = True
     Options: ClassVar[type[Table]] = SdfOptions
+    settings: ClassVar[Settings] = (
+        *({"cell": cell} for cell in CELLS),
+        *({"cell": cell, "interpolation": "linear"} for cell in CELLS[::2]),
+    )
 
     def __init__(self, case: Case, options: SdfOptions) -> None:
         self.options, self.hole = options, build_wellbore(case)

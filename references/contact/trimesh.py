@@ -4,11 +4,12 @@ from typing import ClassVar
 
 import numpy as np
 
+from fctd.arena.method import Settings
 from fctd.arrays import Array, Contacts
 from fctd.case.errors import Table
 from fctd.case.load import Case
 from references.contact import need
-from references.contact.tube_mesh import MeshMethod, TubeOptions, build_tube
+from references.contact.tube_mesh import MESHES, MeshMethod, TubeOptions, build_tube
 from references.registry import import_optional
 
 
@@ -20,6 +21,7 @@ class TriMesh(MeshMethod):
     does: ClassVar[str] = "closest points on a triangle mesh through an R-tree, written in Python"
     gives_clearance = True
     Options: ClassVar[type[Table]] = TubeOptions
+    settings: ClassVar[Settings] = MESHES[:2]  # milliseconds a point
 
     def __init__(self, case: Case, options: TubeOptions) -> None:
         import_optional("rtree", "rtree", self.name, "contact")

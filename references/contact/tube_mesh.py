@@ -8,12 +8,13 @@ open.
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from fctd.arena.method import Settings
 from fctd.arrays import Array, Contacts
 from fctd.case import units
 from fctd.case.errors import InputError, Table
@@ -23,6 +24,10 @@ from fctd.model.wellbore import Wellbore, build_wellbore
 from references.registry import import_optional
 
 MOST_TRIANGLES = 20_000_000
+# What studies try, from coarse to fine: facets around and distance of rings [m].
+MESHES = tuple(
+    {"facets": facets, "ring_spacing": ring} for facets, ring in ((12, 4.0), (24, 2.0), (48, 2.0), (96, 1.0))
+)
 
 
 class TubeOptions(Table):
@@ -157,6 +162,7 @@ class Tube:
 class MeshMethod(ABC):
     """Common part of the contact methods that query the tube mesh."""
 
+    settings: ClassVar[Settings] = MESHES
     tube: Tube
 
     @abstractmethod

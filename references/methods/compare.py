@@ -3,21 +3,25 @@
 import os
 import subprocess
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
+from fctd.arena.frames import Frame, frame
 from fctd.arena.method import ContactMethod
 from fctd.arena.result import Comparison, Row
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.mechanics.faults import UnstableError
 from references import contact, engines, packages
+from references.contact.reference_hole import EXACT, hole_of
 from references.contact.tube_mesh import MeshMethod
 from references.engines import StepOptions, StringEngine, gate
 from references.engines.own import Fctd
 from references.methods import asked
-from references.methods.in_hole import POINTS, contract_of, costs, errors, hole_of, points_near
+from references.methods.in_hole import POINTS, contract_of, costs, errors
 from references.methods.loop import (
     OVERRUN,
     OverrunError,
@@ -35,7 +39,8 @@ from references.timing.footprint import measured_apart
 from references.timing.stopwatch import machine
 
 BUDGET, QUICK = 300.0, 60.0  # [s] by the clock; the longest of a quick comparison
-OWN = "fctd"  # the engine's own arcs, with which others are compared
+OWN = "fctd"  # the engine with its own arcs, with which others are compared
+ARCS = "arcs"  # the row of them as a contact method, if there is one
 CALL = 1000  # points of a call in the race, at most; as many as the string has contact points
 MESHES = "a mesh, which has frames alone in a quick comparison"
 # Called with what is done, how many of it, and of how many.
@@ -60,9 +65,9 @@ def compare_methods(
     progress("the engine's own loads", 0, 1)
     rows, missing = asked.rows_of("contact", methods)
     more, absent = asked.rows_of("engine", engine)
-    plan = plan_of(case, operation)
-    budget = min(budget, QUICK) if quick else budget
-    comparing = Comparing(plan, rows, [row for row in more if row.name != OWN or row.options], budget, quick, progress)
+    preset = preset_of(case, operation, quick=quick)
+    others = [row for row in more if row.name != OWN or row.options]
+    comparing = Comparing(preset, rows, others, min(budget, QUICK) if quick else budget, quick, progress)
     comparing.began = began
     comparison = comparing.comparison
     comparison.digest = case.digest
@@ -81,50 +86,85 @@ def compare_methods(
     return comparison
 
 
+@dataclass(frozen=True)
+class Preset:
+    """What is measured.
+
+    case, near : a hole, and points near its wall for errors and costs; reference : of the errors.  regions : names (n,)
+    of the parts of the hole in which the points lie.  sizes : points of a call.  contract, memory : whether methods
+    are held to the contract; the rows whose memory is measured.  plan : of the loads, None where there are none; meshes
+    : whether meshes have loads.
+    """
+
+    case: Case
+    near: Frame
+    reference: str = EXACT
+    regions: NDArray[np.str_] | None = None
+    sizes: tuple[int, ...] = (CALL,)
+    contract: bool = False
+    memory: Callable[[Row], bool] = lambda _: False
+    plan: Plan | None = None
+    meshes: bool = True
+
+
+def preset_of(case: Case, operation: str | None, *, quick: bool) -> Preset:
+    """All that can be measured on the hole, string and operation of a case; see ``compare_methods``."""
+    plan = plan_of(case, operation)
+    hole, reference = hole_of(plan.case)
+    near = frame(hole, POINTS, radius=float(np.median(plan.own_radii)))
+    return Preset(
+        plan.case, near, reference, sizes=(min(plan.described.segments, CALL),), contract=True,
+        memory=lambda _: not quick, plan=plan, meshes=not quick,
+    )  # fmt: skip
+
+
 class Comparing:
     """A comparison that is being made; ``comparison`` has what is known so far."""
 
     def __init__(
-        self, plan: Plan, methods: list[Row], others: list[Row], budget: float, quick: bool, progress: Progress
-    ) -> None:
-        self.plan, self.methods, self.engines, self.quick, self._tell = plan, methods, others, quick, progress
+        self, preset: Preset, methods: list[Row], others: Sequence[Row] = (), budget: float = np.inf,
+        quick: bool = False, progress: Progress = lambda *_: None,
+    ) -> None:  # fmt: skip
+        self.preset, self.methods, self.engines, self.quick, self._tell = preset, methods, others, quick, progress
         self.budget, self.began = budget, time.perf_counter()
         self.again: Callable[[], None] = lambda: None  # raises a Ctrl-C that a library has caught
-        self.md = plan.own.profile["md_m"].to_numpy(float)[1:]
-        about = packages.about(OWN)
-        self.own = Row(kind="engine", name=OWN, package=OWN, version=about.version, licence=about.licence)
         self.built: dict[str, ContactMethod] = {}
         self.build_s: dict[str, float] = {}  # by the clock, with imports
         self.busy = 1.0  # time by the clock over that of the processor, on a machine that others use
-        hole, reference = hole_of(plan.case)
-        radius = float(np.median(plan.own_radii))
-        self.near = points_near(hole, POINTS, radius)
+        plan, rows = preset.plan, [*methods, *others]
+        if plan is not None:
+            self.md = plan.own.profile["md_m"].to_numpy(float)[1:]
+            about = packages.about(OWN)
+            self.own = Row(kind="engine", name=OWN, package=OWN, version=about.version, licence=about.licence)
+            rows.insert(0, self.own)
         self.comparison = Comparison(
-            case=plan.case.name, digest=plan.case.digest, reference=reference, window=plan.described,
-            md_m=self.md.tolist(), rows=[self.own, *methods, *others], budget_s=budget, quick=quick,
-            machine={**machine(), "load average": _load()},
-            notes=list(plan.notes),
+            case=preset.case.name, digest=preset.case.digest, reference=preset.reference,
+            window=None if plan is None else plan.described, md_m=[] if plan is None else self.md.tolist(), rows=rows,
+            budget_s=budget, quick=quick, machine={**machine(), "load average": _load()},
+            notes=[] if plan is None else list(plan.notes),
         )  # fmt: skip
 
     def compare(self) -> None:
         """Fill the rows: what is cheap first."""
-        self._own_loads()
+        if self.preset.plan is not None:
+            self._own_loads(self.preset.plan)
         able = [row for row in self.methods if row.status == "not run"]
         for k, row in enumerate(able):
             self.progress(f"{row.label}: errors, contract", k, len(able))
             self._frames(row)
         able = [row for row in able if row.label in self.built]
         self.progress("cost of a point", 0, 1)
-        near = self.near.part(slice(0, min(len(self.md), CALL)))
         began, worked = time.perf_counter(), time.process_time()
-        found, self.comparison.kernel_ns = costs(self.built, near)
+        found, self.comparison.kernel_ns = costs(self.built, self.preset.near, self.preset.sizes, ARCS)
         self.busy = max((time.perf_counter() - began) / max(time.process_time() - worked, 1e-9), 1.0)
         for row in able:
-            row.cost = found.get(row.label)
-        for k, row in enumerate([] if self.quick else able):
-            self.progress(f"{row.label}: memory", k, len(able))
+            row.costs = found[row.label]
+        weighed = [row for row in able if self.preset.memory(row)]
+        for k, row in enumerate(weighed):
+            self.progress(f"{row.label}: memory", k, len(weighed))
             self._memory(row)
-        self._loops(able)
+        if self.preset.plan is not None:
+            self._loops(self.preset.plan, able)
 
     def progress(self, what: str, done: float, total: float) -> None:
         """Tell what is done; raises a Ctrl-C that a library has caught."""
@@ -136,10 +176,10 @@ class Comparing:
         """Time of the budget that is left [s]."""
         return self.budget - (time.perf_counter() - self.began)
 
-    def _own_loads(self) -> None:
+    def _own_loads(self, plan: Plan) -> None:
         """The loads of the engine's own arcs, and what such a run takes."""
         began, engine = time.perf_counter(), Fctd(StepOptions())
-        run, stepper = timed_run(self.plan, engine)
+        run, stepper = timed_run(plan, engine)
         self.own.predicted_s = self.alone = time.perf_counter() - began
         self.forces = mean_forces(stepper)
         self.shared = failed_checks(run)
@@ -151,11 +191,11 @@ class Comparing:
         """Build a method, find its errors in this hole, and hold it to the contract; whatever it raises is a reason."""
         try:
             began = time.perf_counter()
-            method = contact.build(row.name, self.plan.case, **row.options)
+            method = contact.build(row.name, self.preset.case, **row.options)
             self.build_s[row.label] = time.perf_counter() - began
             row.pieces = int(method.pieces)
-            row.errors = errors(method, self.near)
-            if row.errors.points < len(self.near.md):
+            row.errors, row.regions = errors(method, self.preset.near, self.preset.regions)
+            if row.errors.points < len(self.preset.near.md):
                 row.remarks.append(f"errors of the first {row.errors.points} points alone, since it is slow")
         except InputError as error:
             row.status, row.reason = "refused", str(error)
@@ -163,7 +203,7 @@ class Comparing:
             row.status, row.reason = "failed", f"{type(error).__name__}: {error}"
         else:
             self.built[row.label], row.status = method, "measured"
-        if row.status != "refused":
+        if self.preset.contract and row.status != "refused":
             found = contact.REGISTRY.options(row.name, row.options).model_dump(exclude_unset=True)
             row.broken, remarks = contract_of(contact.method_class(row.name), found, quick=self.quick)
             row.remarks += remarks
@@ -176,16 +216,16 @@ class Comparing:
             row.remarks.append(f"memory was not measured: it took {self.build_s[row.label]:.3g} s to build")
             return
         try:
-            row.cost.memory_MB, row.cost.build_s = measured_apart(row.name, self.plan.case, row.options)
+            row.memory_MB, row.build_s = measured_apart(row.name, self.preset.case, row.options)
         except (subprocess.CalledProcessError, TypeError, ValueError) as error:
             row.remarks.append(f"memory was not measured: {type(error).__name__} in a process of its own")
 
-    def _loops(self, able: list[Row]) -> None:
+    def _loops(self, plan: Plan, able: list[Row]) -> None:
         """Loads, the cheapest first, while the expected time fits the budget."""
-        steps, points = self.plan.described.steps, len(self.md)
+        steps, points = plan.described.steps, len(self.md)
         waiting: list[Row] = []
         for row in able:
-            if self.quick and isinstance(self.built[row.label], MeshMethod):
+            if not self.preset.meshes and isinstance(self.built[row.label], MeshMethod):
                 row.loads_reason = MESHES
             elif row.cost is None:
                 row.status, row.reason = "failed", "it raised an error where its points were timed"
@@ -195,7 +235,7 @@ class Comparing:
         for k, row in enumerate(self.engines):
             if row.status == "not run":
                 self.progress(f"{row.label}: gate", k, len(self.engines))
-                if self._hold(row):
+                if self._hold(plan, row):
                     waiting.append(row)
         waiting.sort(key=lambda row: row.predicted_s or 0.0)
         for k, row in enumerate(waiting):
@@ -208,16 +248,16 @@ class Comparing:
             def tell(share: float, label: str = row.label, done: int = k) -> None:
                 self.progress(f"{label}: loads", done + share, len(waiting))
 
-            self._loads(row, tell)
+            self._loads(plan, row, tell)
 
-    def _hold(self, row: Row) -> bool:
+    def _hold(self, plan: Plan, row: Row) -> bool:
         """Hold an engine to the gate, and time some of its steps; False where it cannot run the case."""
         if self.left < 0:
             row.loads_reason = "the budget is spent"
             return False
         try:
             engine = engines.build(row.name, **row.options)
-            row.predicted_s = self.alone + step_cost(self.plan, engine)
+            row.predicted_s = self.alone + step_cost(plan, engine)
             row.broken = _broken(engine)
         except InputError as error:
             row.status, row.reason = "refused", str(error)
@@ -228,13 +268,13 @@ class Comparing:
         row.status = "measured"
         return True
 
-    def _loads(self, row: Row, tell: Tell) -> None:
+    def _loads(self, plan: Plan, row: Row, tell: Tell) -> None:
         """The loads of a method or an engine over the window."""
         try:
             engine: StringEngine = (
                 Swapped(self.built[row.label]) if row.kind == "contact" else engines.build(row.name, **row.options)
             )
-            run, stepper = timed_run(self.plan, engine, tell, OVERRUN * (row.predicted_s or np.inf) + 1.0)
+            run, stepper = timed_run(plan, engine, tell, OVERRUN * (row.predicted_s or np.inf) + 1.0)
         except InputError as error:
             row.loads_reason = str(error)
             row.status = "refused" if row.kind == "engine" else row.status

@@ -1,88 +1,40 @@
 """Contact methods in the hole of a case: errors at points near its wall, the contract, and what a point costs."""
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fctd.arena.contract import DEMANDS, Demand, Trial, far_away, held, options, search
-from fctd.arena.errors import deviations
-from fctd.arena.exact_hole import ExactHole
-from fctd.arena.frames import BAND, SEED, Frame, frame
+from fctd.arena.errors import Errors, errors_of
+from fctd.arena.frames import Frame
 from fctd.arena.method import ContactMethod
 from fctd.arena.result import Cost, Quartiles, WallErrors
 from fctd.arrays import Array, Contacts
-from fctd.case.load import Case
-from fctd.model.frames import hole_frame
-from fctd.model.wellbore import build_wellbore, find_contacts
 from references.timing import reference_kernel
-from references.timing.stopwatch import race
+from references.timing.stopwatch import Action, turn
 
 POINTS = 2000  # near the wall, for the errors
 FEW, MOST = 20, 10.0  # points that are asked first; time [s] that all of them may take
-ROUNDS = 15  # of the race
+ROUNDS, FEW_ROUNDS, MANY = 15, 3, 1_000_000  # of the race; with calls of so many points
+SLID = 0.5  # way of the string between two queries [m]
 PASSES = 200  # of the reference kernel in a round
 # [s] of a turn in the race: a slower method is asked for fewer points, a faster one several times.
 LONGEST, SHORTEST = 0.1, 2e-3
+LONGEST_CALL = 1.0  # [s] of a larger call than the first
 KERNEL = "reference kernel"
 # Demands on other holes or on other options, which take most of the time.
 LONG: tuple[Demand, ...] = (far_away, options, search)
-EXACT = "exact circular arcs"
-SAMPLED = "the engine's sampled wall of the caliper: a wall that is no circle has no exact arcs"
 
 
-class SampledHole(ExactHole):
-    """The sampled wall of a case in the place of exact arcs, as the engine has it."""
+def errors(
+    method: ContactMethod, near: Frame, regions: NDArray[np.str_] | None = None
+) -> tuple[WallErrors, list[WallErrors]]:
+    """Errors of a method at points, of a slow one at the first of them, and of the points of each region (n,).
 
-    def __init__(self, case: Case) -> None:
-        self.hole = build_wellbore(case)
-        self.md = np.array([self.hole.md[0], self.hole.total_depth])
-
-    def at(self, md: Array) -> tuple[Array, Array]:
-        """See ``ExactHole.at``."""
-        return self.hole.at(md)
-
-    def curvatures(self, md: Array) -> Array:
-        """Curvatures (n,) [1/m] of the axis at measured depths (n,) [m], between points a metre apart."""
-        before, after = (self.hole.at(np.clip(md + by, *self.md))[1] for by in (-0.5, 0.5))
-        return np.asarray(np.linalg.norm(after - before, axis=1))
-
-    def radii(self, md: Array) -> Array:
-        """Radii of the hole (n,) [m]: the mean of the wall around the axis at measured depths (n,) or (n, k) [m]."""
-        flat = np.clip(np.ravel(md), *self.md)
-        high, right = hole_frame(self.hole.at(flat)[1])
-        angles = np.linspace(0, 2 * np.pi, 16, endpoint=False)
-        towards = np.cos(angles)[:, None] * high[:, None] + np.sin(angles)[:, None] * right[:, None]
-        return np.asarray(self.hole.radii_towards(flat, towards).mean(axis=1)).reshape(np.shape(md))
-
-    def contacts(self, points: Array, radii: Array) -> Contacts:
-        """The contacts of a disc that rolls around the section, as the engine has them."""
-        return find_contacts(self.hole, points, radii)
-
-
-def hole_of(case: Case) -> tuple[ExactHole, str]:
-    """What the errors of a case are measured by, and what it is."""
-    if case.wellbore.geometry == "sampled":
-        return SampledHole(case), SAMPLED
-    return ExactHole(case.wellbore), EXACT
-
-
-def points_near(hole: ExactHole, count: int, radius: float) -> Frame:
-    """Points near the wall of a hole [contact radius in m]; beside a sampled one near its own wall."""
-    near = frame(hole, count, radius=radius)
-    if not isinstance(hole, SampledHole):
-        return near
-    rng = np.random.default_rng(SEED)
-    outward = near.places - hole.at(near.md)[0]
-    wall = near.exact
-    by = rng.uniform(-BAND, BAND, count) - wall.penetration
-    return Frame(hole, near.md, near.places + (by / np.linalg.norm(outward, axis=1))[:, None] * outward, near.radii)
-
-
-def errors(method: ContactMethod, near: Frame) -> WallErrors:
-    """Errors of a method at points, of a slow one at the first of them.
-
+    The method was asked before at points SLID further up, as in a string that slides: what it keeps it has from there.
     Raises whatever the method raises, and ValueError for answers that are none.
     """
     few, spent = near.part(slice(0, FEW)), 0.0
@@ -91,23 +43,49 @@ def errors(method: ContactMethod, near: Frame) -> WallErrors:
         method.query(few.places.copy(), few.radii.copy())
         spent = (time.process_time() - began) / len(few.md)
     near = near.part(slice(0, max(int(MOST / max(spent, 1e-9)), FEW)))
+    method.query(near.places - SLID * near.hole.at(near.md)[1], near.radii.copy())
     found = method.query(near.places.copy(), near.radii.copy())
-    penetration, normal = (np.asarray(part, dtype=float) for part in found[:2])
-    exact = near.exact
-    touching = exact.penetration > 0
-    if penetration.shape != exact.penetration.shape or normal.shape != exact.normal.shape:
-        raise ValueError(f"query returns the shapes {penetration.shape}, {normal.shape} for {len(near.md)} points")
-    known, depth, turn = deviations(near, Contacts(penetration, normal, exact.md))
-    off, angle = np.abs(depth[known]), np.degrees(turn[known & touching])  # a clear point has no use for a normal
+    hits = Contacts(*(np.asarray(part, dtype=float) for part in found))
+    if hits.penetration.shape != near.md.shape or hits.normal.shape != near.places.shape:
+        raise ValueError(
+            f"query returns the shapes {hits.penetration.shape}, {hits.normal.shape} for {len(near.md)} points"
+        )
+    off = errors_of(method, near, hits)
+    named = np.zeros(len(near.md), str) if regions is None else regions[: len(near.md)]
+    everywhere = _wall_errors("", np.full(len(near.md), True), near, hits, off)
+    return everywhere, [
+        _wall_errors(region, named == region, near, hits, off) for region in dict.fromkeys(named.tolist()) if region
+    ]
+
+
+def _wall_errors(region: str, of: NDArray[np.bool_], near: Frame, hits: Contacts, off: Errors) -> WallErrors:
+    """The errors of some points (n,)."""
+    exact, found = near.exact.penetration[of], hits.penetration[of]
+    touching, answered = exact > 0, off.known[of]
+    missed, false = touching & ~(found > 0), ~touching & (found > 0)  # no answer counts as a miss
+    depth, angle = np.abs(off.depth[of][answered]), off.angle[of]
+    turned = angle[answered & touching]  # a clear point has no use for a normal
     return WallErrors(
-        points=len(near.md),
+        region=region,
+        points=len(exact),
         touching=int(touching.sum()),
-        no_answer=int((~known).sum()),
-        largest_penetration_m=float(off.max()) if known.any() else None,
-        largest_angle_deg=float(np.nanmax(angle)) if np.isfinite(angle).any() else None,
-        missed=int((touching & ~(penetration > 0)).sum()),
-        false_contacts=int((~touching & (penetration > 0)).sum()),
+        no_answer=int((~answered).sum()),
+        largest_penetration_m=largest(depth),
+        rms_penetration_m=float(np.sqrt(np.mean(depth**2))) if len(depth) else None,
+        largest_angle_deg=largest(np.degrees(turned)),
+        largest_md_m=largest(np.abs(off.md[of])),
+        depth_over_bound=largest(depth / off.bound[of][answered]),
+        angle_over_bound=largest(turned / off.turn[of][answered & touching]),
+        missed=int(missed.sum()),
+        missed_beyond_m=float(np.max((exact - off.bound[of])[missed], initial=0.0)),
+        false_contacts=int(false.sum()),
     )
+
+
+def largest(values: Array) -> float | None:
+    """The largest of values (n,) that are finite; None where none is."""
+    known = values[np.isfinite(values)]
+    return float(known.max()) if len(known) else None
 
 
 def contract_of(method: type[ContactMethod], chosen: Mapping[str, Any], *, quick: bool) -> tuple[list[str], list[str]]:
@@ -118,45 +96,74 @@ def contract_of(method: type[ContactMethod], chosen: Mapping[str, Any], *, quick
     return [text for kept, text in said if not kept], [text for kept, text in said if kept]
 
 
-def costs(methods: Mapping[str, ContactMethod], near: Frame) -> tuple[dict[str, Cost], Quartiles]:
-    """Processor time of a point of each method by its label, and of a column of the reference kernel [ns].
+def costs(
+    methods: Mapping[str, ContactMethod], near: Frame, sizes: Sequence[int], own: str = ""
+) -> tuple[dict[str, list[Cost]], Quartiles]:
+    """Processor time of a point of each method by its label, in calls of each size, and that of a column of the
+    reference kernel [ns].
 
-    All are asked in turns, in rounds; near : the points of a call.  A method that fails in the race has no cost.
+    All are asked in turns, in rounds.  near : points of a call, drawn again where a size has more.  sizes : from few
+    to many; a slow method is asked for fewer points.  own : label of the method in whose points costs are given too.
+    A method that fails in the race has no cost.
     """
-    S = reference_kernel.new_buffer()
-    actions: dict[str, Callable[[], object]] = {KERNEL: lambda: reference_kernel.reference_kernel(S, PASSES)}
-    counts, points = {KERNEL: PASSES * reference_kernel.COLUMNS}, dict[str, int]()
-    for label, method in methods.items():
-        count, calls = _points_for(method, near)
-        if count:
-            actions[label], counts[label] = _asking(method, near.part(slice(0, count)), calls), count * calls
-            points[label] = count
-    raced = race(actions, counts, ROUNDS, KERNEL, clock=time.process_time).set_index("name")
-
-    def three(label: str, column: str) -> Quartiles:
-        median, low, high = (float(raced[name][label]) for name in (column, f"{column}_low", f"{column}_high"))
-        return Quartiles(median=median, low=low, high=high)
-
-    found = {
-        label: Cost(points=points[label], point_ns=three(label, "ns"), kernels=three(label, "ratio"))
-        for label in methods if label in counts
-    }  # fmt: skip
-    return found, three(KERNEL, "ns")
+    found: dict[str, list[Cost]] = {label: [] for label in methods}
+    kernel: list[float] = []
+    for size in sizes:
+        given = near.part(slice(0, size) if size <= len(near.md) else _drawn(len(near.md), size))
+        asked = {label: part for label, method in methods.items() if (part := _call(method, given, found[label]))}
+        taken = _rounds(methods, given, asked, ROUNDS if size < MANY else FEW_ROUNDS)
+        kernel += taken[KERNEL].tolist()
+        for label, (points, _) in asked.items():
+            ns = taken[label]
+            found[label].append(
+                Cost(
+                    points=points, point_ns=Quartiles.of(ns), kernels=Quartiles.of(ns / taken[KERNEL]),
+                    arcs=Quartiles.of(ns / taken[own]) if own in taken else None,
+                )
+            )  # fmt: skip
+    return found, Quartiles.of(kernel)
 
 
-def _points_for(method: ContactMethod, near: Frame) -> tuple[int, int]:
-    """Points of a call, and calls of a turn, which takes SHORTEST to LONGEST; no points where the method fails."""
+def _drawn(of: int, count: int) -> NDArray[np.int64]:
+    return np.random.default_rng(count).integers(0, of, count)
+
+
+def _call(method: ContactMethod, given: Frame, before: Sequence[Cost]) -> tuple[int, int] | None:
+    """Points of a call, and calls of a turn, which takes SHORTEST to LONGEST; None where the method is not asked."""
+    count = len(given.md)
+    if before:  # a larger call costs no more a point
+        count = min(count, int(1e9 * LONGEST_CALL / before[-1].point_ns.median))
+        if count <= before[-1].points:
+            return None
+    given = given.part(slice(0, count))
     try:
-        method.query(near.places, near.radii)
+        method.query(given.places, given.radii)
         began = time.process_time()
-        method.query(near.places, near.radii)
+        method.query(given.places, given.radii)
     except Exception:  # of a method from anywhere
-        return 0, 0
+        return None
     spent = max(time.process_time() - began, 1e-6)
-    return max(min(int(len(near.md) * LONGEST / spent), len(near.md)), 1), max(int(SHORTEST / spent), 1)
+    if not before:
+        count = max(min(int(count * LONGEST / spent), count), 1)
+    return count, max(int(SHORTEST / spent), 1)
 
 
-def _asking(method: ContactMethod, near: Frame, calls: int) -> Callable[[], object]:
+def _rounds(
+    methods: Mapping[str, ContactMethod], given: Frame, asked: Mapping[str, tuple[int, int]], rounds: int
+) -> dict[str, Array]:
+    """Times of a point in each round (rounds,) [ns] of each method, and of a column of the reference kernel."""
+    S = reference_kernel.new_buffer()
+    actions: dict[str, Action] = {KERNEL: lambda: reference_kernel.reference_kernel(S, PASSES)}
+    counts = {KERNEL: PASSES * reference_kernel.COLUMNS}
+    for label, (points, calls) in asked.items():
+        actions[label] = _asking(methods[label], given.part(slice(0, points)), calls)
+        counts[label] = points * calls
+    turn(actions, counts, time.process_time, False)
+    taken = [turn(actions, counts, time.process_time, k % 2 == 1) for k in range(rounds)]
+    return {label: np.array([each[label] for each in taken]) for label in actions}
+
+
+def _asking(method: ContactMethod, near: Frame, calls: int) -> Action:
     places, radii = near.places.copy(), near.radii.copy()
 
     def ask() -> None:

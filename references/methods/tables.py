@@ -61,8 +61,8 @@ def costs(rows: Sequence[Row]) -> Table:
         cost = row.cost
         cells.append([
             row.label, row.verdict, three(None if cost is None else cost.point_ns),
-            three(None if cost is None else cost.kernels), maybe(None if cost is None else cost.memory_MB, 3),
-            maybe(None if cost is None else cost.build_s, 2),
+            three(None if cost is None else cost.kernels), maybe(row.memory_MB, 3),
+            maybe(row.build_s, 2),
         ])  # fmt: skip
     heads: list[Head | str] = [
         "method", "verdict", Head("a point", "ns", True), Head("a point", "kernels", True),

@@ -18,7 +18,7 @@ LOADS = Loads(
 def row(**more: object) -> Row:
     """A contact method that kept all."""
     facts = {"kind": "contact", "name": "mine", "status": "measured", "broken": [], "errors": ERRORS, "loads": LOADS}
-    return Row.model_validate(facts | {"cost": Cost(points=10, point_ns=TIME, kernels=TIME)} | more)
+    return Row.model_validate(facts | {"costs": [Cost(points=10, point_ns=TIME, kernels=TIME)]} | more)
 
 
 def test_quartiles() -> None:

@@ -17,7 +17,7 @@ def compared(errors: dict[str, float]) -> Comparison:
             false_contacts=0,
         )  # fmt: skip
         cost = Cost(points=9, point_ns=time, kernels=time)
-        rows.append(Row(kind="contact", name=name, status="measured", broken=[], errors=off, cost=cost))
+        rows.append(Row(kind="contact", name=name, status="measured", broken=[], errors=off, costs=[cost]))
     return Comparison(case="a well", digest="d", reference="exact circular arcs", rows=rows, budget_s=1.0)
 
 

@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 
 import fctd
+from fctd.arena.frames import frame
 from fctd.arena.result import Comparison, Row
 from fctd.case.errors import InputError
+from references.contact.reference_hole import hole_of
 from references.engines import checks
 from references.methods import asked, compare_methods, in_hole
 from references.methods.in_hole import POINTS
@@ -184,8 +186,8 @@ def test_a_slow_method_is_asked_for_fewer_points(each: float, points: int, monke
     """What it does at first alone does not make it slow."""
     monkeypatch.setattr(in_hole, "MOST", 0.5)
     monkeypatch.setattr(Slow, "each", each)
-    near = in_hole.points_near(in_hole.hole_of(well())[0], POINTS, 0.05)
-    found = in_hole.errors(Slow(well(), None), near)
+    near = frame(hole_of(well())[0], POINTS)
+    found, _ = in_hole.errors(Slow(well(), None), near)
     assert found.points == pytest.approx(points, rel=0.1)
 
 
