@@ -34,7 +34,7 @@ from references.methods.loop import (
     timed_run,
 )
 from references.methods.stopping import remembering
-from references.methods.window import Plan, plan_of
+from references.methods.window import WHOLE, Plan, plan_of
 from references.timing.footprint import measured_apart
 from references.timing.stopwatch import machine
 
@@ -107,9 +107,9 @@ class Preset:
     meshes: bool = True
 
 
-def preset_of(case: Case, operation: str | None, *, quick: bool) -> Preset:
+def preset_of(case: Case, operation: str | None = None, *, quick: bool = False, periods: int = WHOLE) -> Preset:
     """All that can be measured on the hole, string and operation of a case; see ``compare_methods``."""
-    plan = plan_of(case, operation)
+    plan = plan_of(case, operation, periods)
     hole, reference = hole_of(plan.case)
     near = frame(hole, POINTS, radius=float(np.median(plan.own_radii)))
     return Preset(
