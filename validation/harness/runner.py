@@ -336,6 +336,8 @@ def tell(done: StudyRun, recorded: Mapping[str, str], console: Console) -> None:
         found = f"{check.value:.6g} {check.unit}".rstrip()
         line = f"  {judged.standing:<23}  {check.name}: {found} ({check.requirement()})"
         _say(console, line, STYLES[judged.standing])
+        if judged.standing == "worse than recorded":
+            _say(console, f"    {check.source}", STYLES[judged.standing])
         if judged.standing == "better than recorded":
             verdict = str(judged.recorded).partition(":")[0]
             _say(console, f"    recorded as {verdict}; remove the entry from expected.toml")

@@ -64,14 +64,14 @@ def loads(found: Comparison) -> Rows:
 def windows(found: Mapping[str, Comparison], method: str) -> Rows:
     """Loads of windows at several depths, with a method and with the engine's cylinders, and their differences."""
     for of in found.values():
-        table = loads(of).set_index("method")
-        theirs, own = table.loc[method], table.loc["cylinders"]
+        rows = loads(of).set_index("method").to_dict("index")
+        theirs, own = rows[method], rows["cylinders"]
         assert of.window is not None
         line: dict[str, object] = {"bit_depth_m": of.window.to_md_m, "window_s": of.window.duration_s}
         for short, name, unit in LOADS:
             column = f"{name.removesuffix(unit)}k{unit}"
             line |= {f"{method}_{column}": theirs[column], f"FCTD_{column}": own[column]}
-            line[f"{short}_difference_percent"] = _off(float(theirs[column]), float(own[column]))
+            line[f"{short}_difference_percent"] = _off(theirs[column], own[column])
         yield line
 
 
