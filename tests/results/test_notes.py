@@ -133,7 +133,9 @@ def test_penetration_is_set_against_the_clearance(hole: float, limit: float) -> 
         stiffness *= deepest(pressed(stiffness))[0] / limit
     held, given = pressed(1.05 * stiffness), pressed(stiffness / 1.05)
     assert deepest(held)[0] < limit < deepest(given)[0]
-    assert (held.notes, list(found(given))) == ((), ["penetration"])
+    assert [[note.code for note in point.notes if note.code != "sagitta"] for point in (held, given)] == [
+        [], ["penetration"],
+    ]  # fmt: skip
 
 
 def test_without_a_wall_there_is_no_penetration_note() -> None:

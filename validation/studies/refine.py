@@ -12,6 +12,7 @@ import pandas as pd
 
 from fctd import Case, refine
 from fctd.model.layouts import uniform
+from fctd.results.notes import MISSES
 from validation.cases import load
 from validation.cases.segmented_wells import WALL
 from validation.cases.wells import COLLAR, HEAVY, PIPE, S_WELL, TURN, Stations, assembly, well
@@ -48,11 +49,13 @@ def bent(shape: str, dogleg: float, clearance: float) -> tuple[Case, float]:
     inclinations, straights = SHAPES[shape]
     for inclination, straight in zip(inclinations, straights, strict=True):
         turned = abs(inclination - stations[-1][1])
-        for length in filter(None, (30 * turned / dogleg, straight)):
-            md += length
-            stations.append([md, inclination, 0.0])
+        for length in (30 * turned / dogleg, straight):
+            if length:
+                md += length
+                stations.append([md, inclination, 0.0])
     case = in_arcs(well(f"{shape}, {dogleg:g}°/30 m, {clearance:g} mm", stations, [PIPE], WALL))
-    wide = case.wellbore.intervals[0].model_copy(update={"diameter": PIPE["contact_diameter"] + 2e-3 * clearance})
+    diameter = case.string.components[0].contact_diameter + 2e-3 * clearance
+    wide = case.wellbore.intervals[0].model_copy(update={"diameter": diameter})
     hole = case.wellbore.model_copy(update={"intervals": (wide,)})
     return case.model_copy(update={"wellbore": hole}), md
 
@@ -103,7 +106,8 @@ def enough(strings: pd.DataFrame) -> Rows:
 def checks_of(strings: pd.DataFrame) -> list[Check]:
     """The default layout, the rule of the note ``sagitta``, and the estimated errors."""
     default = strings[strings["layout"] == "default"]
-    short = strings[(strings["layout"] == "uniform") & (strings["sagitta_clearances"] <= 1)]
+    even = strings[strings["layout"] == "uniform"]
+    within, silent = (even[even["sagitta_clearances"] <= most] for most in (1.0, MISSES))
     ladder = strings[strings["layout"] != "default"].dropna()
     honest = [
         ladder[f"{load}_off_percent"] <= ladder[f"{load}_estimate_percent"] for load in ("torque", "hookload")
@@ -115,7 +119,10 @@ def checks_of(strings: pd.DataFrame) -> list[Check]:
               float(default["hookload_off_percent"].max(skipna=False)), 0.2, "at_most", "%",
               "target: that of the templates of fctd init"),
         Check("torque of uniform strings whose sagitta is within the clearance, largest error",
-              float(short["torque_off_percent"].max()), 1.0, "at_most", "%", "target: one percent"),
+              float(within["torque_off_percent"].max()), 1.0, "at_most", "%", "target: one percent"),
+        Check("torque of uniform strings without the note sagitta, largest error",
+              float(silent["torque_off_percent"].max()), 1.0, "at_most", "%",
+              "target: one percent; the bound of the note was chosen after the first run"),
         Check("errors of counts that are within their estimate, share", float(np.mean(honest)), 0.95, "at_least", "",
               "the intervals are those of 95 %"),
     ]  # fmt: skip
