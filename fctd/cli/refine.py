@@ -103,8 +103,10 @@ def refine_command(
         refined = refine(job.case, share, kinds or None, depth, graded, most, **drive, progress=show, segments=segments)
     found = refined.status.has_loads
     files: dict[str, Written] = {"--out": partial(write_refined, refined, case_file, job.changes) if found else None}
-    if refined.orders is not None:
-        files["--plot"] = lambda path: plots.save(plots.counts_figure(refined), path)
+    if (orders := refined.orders) is not None:
+        files["--plot"] = lambda path: plots.save(
+            plots.counts_figure(job.case.name, refined.steps, orders, share), path
+        )
     job.end(
         files,
         lambda: _print(job, refined, graded, lacking=out is not None and not found),
@@ -114,18 +116,17 @@ def refine_command(
     )  # fmt: skip
 
 
-def print_counts(refined: Refinement, units: System) -> None:
+def print_counts(steps: "pd.DataFrame", orders: "pd.DataFrame", tolerance: float, units: System) -> None:
     """Print a range of counts: every string, observed orders with extrapolated loads, and the counts that suffice.
 
-    refined : with ``orders``.
+    steps, orders, tolerance : of a ``Refinement`` with a range of counts.
     """
-    assert refined.orders is not None
-    steps = refined.steps[refined.steps["stage"] == "counts"]
+    steps = steps[steps["stage"] == "counts"]
     print_table(_levels(steps, units, layouts=True), words=WHOLE, numbers=FOLD)
-    for kind, rows in refined.orders.groupby("operation", sort=False):
+    for kind, rows in orders.groupby("operation", sort=False):
         screen.print(KINDS[str(kind)].label)
-        print_table(orders_table(rows, refined.tolerance, units), words=WHOLE, numbers=FOLD)
-    for line in counts_in_words(steps, refined.orders, refined.tolerance):
+        print_table(orders_table(rows, tolerance, units), words=WHOLE, numbers=FOLD)
+    for line in counts_in_words(steps, orders, tolerance):
         screen.print(line, soft_wrap=True)
 
 
@@ -178,7 +179,7 @@ def _print(job: Job, refined: Refinement, graded: bool, *, lacking: bool) -> Non
             f'"resolve"), {refined.resolved} in all; the loads depend on the length of the others alone.'
         )
     if refined.orders is not None:
-        print_counts(refined, job.units)
+        print_counts(refined.steps, refined.orders, refined.tolerance, job.units)
     print_notes(refined.notes, job.units)
     if lacking:
         messages.print("Nothing is written: no equilibrium was found.")

@@ -12,25 +12,22 @@ from fctd.case.operations import KINDS
 from fctd.plots.palette import CASES, QUIET
 from fctd.plots.style import RC, Sheet
 from fctd.results.convergence import LOADS, order_in_words
-from fctd.steady.refine import Refinement
 
 WIDTH, PANEL, LEFT, APART, BELOW = 8.6, 2.7, 0.85, 0.9, 1.1  # [in]
 MARKERS = ("o", "s", "*")
 SMALLEST = 1e-7  # largest error of a load that has no panel: it is 0 but for rounding
 
 
-def counts_figure(refined: Refinement) -> Figure:
+def counts_figure(name: str, steps: pd.DataFrame, orders: pd.DataFrame, tolerance: float) -> Figure:
     """Errors of hook load and torque against the number of segments, a panel for each load of an operation.
 
-    Raises ValueError for a refinement without a range of counts.
+    name : of the case.  steps, orders, tolerance : of a ``Refinement`` with a range of counts.
     """
-    if refined.orders is None:
-        raise ValueError("a refinement without a range of counts (segments)")
-    steps = refined.steps[refined.steps["stage"] == "counts"]
+    steps = steps[steps["stage"] == "counts"]
     layouts = list(steps["layout"].unique())
     panels = [
         (kind, load)
-        for kind in refined.operations
+        for kind in orders["operation"].unique()
         for load in LOADS
         if steps.loc[steps["operation"] == kind, f"{load}_error"].max() > SMALLEST
     ]
@@ -38,18 +35,18 @@ def counts_figure(refined: Refinement) -> Figure:
         Line2D([], [], color=CASES[k], marker=MARKERS[k], linestyle="-" if k < 2 else "none", label=layout)
         for k, layout in enumerate(layouts)
     ]
-    handles.append(Line2D([], [], color=QUIET, linestyle="--", label=f"tolerance, {100 * refined.tolerance:g} %"))
+    handles.append(Line2D([], [], color=QUIET, linestyle="--", label=f"tolerance, {100 * tolerance:g} %"))
     lines = ["error: distance from the farther end of the interval of the extrapolated load (95 %)"]
     rows = -(-len(panels) // 2)
     width = (WIDTH - LEFT - APART - 0.2) / 2
     with mpl.rc_context(RC):
-        sheet = Sheet(WIDTH, rows * (PANEL + BELOW), f"{refined.case.name}: number of segments", lines, handles)
+        sheet = Sheet(WIDTH, rows * (PANEL + BELOW), f"{name}: number of segments", lines, handles)
         for k, (kind, load) in enumerate(panels):
             at = LEFT + (k % 2) * (width + APART), 0.35 + (k // 2) * (PANEL + BELOW)
             axes = sheet.axes(*at, width, PANEL - 0.1)
-            orders = refined.orders[refined.orders["operation"] == kind]
-            _draw(axes, steps[steps["operation"] == kind], orders, load, layouts)
-            axes.axhline(100 * refined.tolerance, color=QUIET, linestyle="--", linewidth=1)
+            of_kind = orders[orders["operation"] == kind]
+            _draw(axes, steps[steps["operation"] == kind], of_kind, load, layouts)
+            axes.axhline(100 * tolerance, color=QUIET, linestyle="--", linewidth=1)
             axes.set_title(f"{LOADS[load][0]}, {KINDS[kind].label}")
     return sheet.figure
 

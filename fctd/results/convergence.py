@@ -49,8 +49,10 @@ def counts_in_words(steps: "pd.DataFrame", orders: "pd.DataFrame", tolerance: fl
     lines = []
     for layout, rows in orders.groupby("layout", sort=False):
         counts = rows[[f"{load}_segments" for load in LOADS]].to_numpy(float)
-        enough = f"{counts.max():.0f} or more" if np.isfinite(counts).all() else "more than were tried"
-        lines.append(f"{100 * tolerance:.3g} % takes {enough} {layout} segments.")
+        enough = f"{counts.max():.0f} {layout} segments or more"
+        if not np.isfinite(counts).all():
+            enough = f"more {layout} segments than were tried"
+        lines.append(f"{100 * tolerance:.3g} % takes {enough}.")
     default = steps[steps["layout"] == "default"]
     error = default[[f"{load}_error" for load in LOADS]].to_numpy(float).max()
     left = f"an error of {100 * error:.2g} %" if np.isfinite(error) else "no answer, or no known error"

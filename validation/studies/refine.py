@@ -23,7 +23,7 @@ TOLERANCE = 0.01
 # Frozen before the first run, with the bounds of the checks: dog-legs [deg/30 m], clearances [mm], ranges of counts,
 # and segments of the string that counts as exact.
 DOGLEGS, QUICK_DOGLEGS = (1.0, 2.5, 5.0, 10.0, 15.0), (1.0, 5.0, 15.0)
-CLEARANCES, QUICK_CLEARANCES = (10.0, 25.0, 75.0), (25.0,)
+CLEARANCES, QUICK_CLEARANCES = (10.0, 25.0, 75.0), (10.0, 25.0)
 COUNTS, QUICK_COUNTS = (10, 1280), (10, 320)
 EXACT = 4096
 # Wells by the inclinations [deg] and lengths [m] of their straights, with bends of one dog-leg between them.
