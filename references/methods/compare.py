@@ -185,9 +185,8 @@ class Comparing:
             return
         assert found.orders is not None
         steps = found.steps[found.steps["stage"] == "counts"]
-        self.comparison.counts = Counts(
-            tolerance=TOLERANCE, steps=steps.to_dict("records"), orders=found.orders.to_dict("records")
-        )
+        tables = {"steps": steps.to_dict("records"), "orders": found.orders.to_dict("records")}
+        self.comparison.counts = Counts.model_validate({"tolerance": TOLERANCE, **tables})
 
     def progress(self, what: str, done: float, total: float) -> None:
         """Tell what is done; raises a Ctrl-C that a library has caught."""
