@@ -1,4 +1,4 @@
-"""What measures contact methods in the hole of a case: exact arcs, or the engine's own wall where it is sampled."""
+"""What measures contact methods in the hole of a case: exact arcs, or the engine's own wall where it has none."""
 
 import numpy as np
 
@@ -12,8 +12,11 @@ EXACT = "exact circular arcs"
 SAMPLED = "the engine's sampled wall of the caliper: a wall that is no circle has no exact arcs"
 
 
-class SampledHole(ExactHole):
-    """The sampled wall of a case in the place of exact arcs, as the engine has it."""
+AVERAGE = "the engine's own cylinders: a survey by average angle has no arcs"
+
+
+class OwnHole(ExactHole):
+    """The engine's own wall of a case in the place of exact arcs."""
 
     def __init__(self, case: Case) -> None:
         self.hole = build_wellbore(case)
@@ -43,12 +46,14 @@ class SampledHole(ExactHole):
         return np.asarray(self.hole.radii_towards(md, towards[:, None])[:, 0])
 
     def contacts(self, points: Array, radii: Array) -> Contacts:
-        """The contacts of a disc that rolls around the section, as the engine has them."""
+        """The contacts that the engine has; in a sampled wall those of a disc that rolls around the section."""
         return find_contacts(self.hole, points, radii)
 
 
 def hole_of(case: Case) -> tuple[ExactHole, str]:
     """What the errors of a case are measured by, and what it is."""
     if case.wellbore.geometry == "sampled":
-        return SampledHole(case), SAMPLED
+        return OwnHole(case), SAMPLED
+    if case.wellbore.survey_method == "average_angle":
+        return OwnHole(case), AVERAGE
     return ExactHole(case.wellbore), EXACT

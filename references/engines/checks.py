@@ -16,6 +16,8 @@ from fctd.simulation.run import Run
 
 # Largest depth in the wall over the clearance there; less than 2 % with the stiffest wall of a case.
 DEEPEST = 0.2
+# A bit or a stabiliser that fills its hole has no clearance: depths count against this share of the hole's radius.
+CLOSE = 0.05
 # Relative error of the length of the chain, compared with its segments stretched by their tension: a third of the
 # strain of a kilometre of hanging pipe.
 LENGTH = 1e-4
@@ -57,7 +59,8 @@ def _deepest(run: Run) -> float:
     if run.laws.geometry == state.OPEN:
         return 0.0
     n = run.segments
-    clearance = state.row(run.S, state.HOLE, n) - state.row(run.S, state.RADIUS, n)
+    hole = state.row(run.S, state.HOLE, n)
+    clearance = np.maximum(hole - state.row(run.S, state.RADIUS, n), CLOSE * hole)
     return float((penetration(run.S, n) / clearance).max())
 
 

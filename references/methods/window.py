@@ -31,7 +31,7 @@ USUAL: dict[str, Any] = {"kind": "rotate_off_bottom", "rpm": 60.0, "duration": 1
 
 
 class Plan(NamedTuple):
-    """case : with the operation alone, long enough, in arcs where the hole is round.  window : of it.
+    """case : with the operation alone, long enough, in arcs where the hole has them.  window : of it.
 
     own, own_radii : the engine's own run in it, and contact radii of the string (n,) [m].  notes : what a reader has
     to know of it.
@@ -46,11 +46,11 @@ class Plan(NamedTuple):
 
 
 def in_arcs(case: Case) -> Case:
-    """The case with its hole as arcs, the geometry that is exact; one with a caliper keeps its sampled wall.
+    """The case with its hole as arcs, the geometry that is exact.
 
-    Raises InputError for a survey that has no arcs.
+    One with a caliper keeps its sampled wall, and one by average angle its cylinders.
     """
-    if case.wellbore.geometry == "sampled":
+    if case.wellbore.geometry == "sampled" or case.wellbore.survey_method == "average_angle":
         return case
     hole = checked(WellboreSpec, case.wellbore.model_dump(exclude_none=True) | {"geometry": "arcs"})
     return case.model_copy(update={"wellbore": hole})

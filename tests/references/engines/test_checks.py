@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -14,6 +15,7 @@ from references import engines
 from references.engines import Window
 from references.engines.checks import axial_period, drift
 from references.engines.run import run_window
+from tests.cases import pipe
 from tests.references.engines.faulty import Faulty, through_the_wall
 from tests.references.engines.turning import WINDOW, begun, turning
 
@@ -79,8 +81,9 @@ def test_an_engine_that_is_unstable_at_once_is_invalid_with_a_message() -> None:
     assert not run.checks.set_index("check").loc[["finite state", "energy"], "passed"].any()
 
 
-def test_the_same_engine_without_a_fault_is_valid() -> None:
-    run = run_window(turning(), WINDOW, Faulty(lambda run: None))
+@pytest.mark.parametrize("bit", [[], [pipe(0.3, 1, outer=0.2159)]], ids=["pipe alone", "a bit as wide as its hole"])
+def test_the_same_engine_without_a_fault_is_valid(bit: list[dict[str, Any]]) -> None:
+    run = run_window(turning(components=[*bit, pipe(500, 16)]), WINDOW, Faulty())
     assert run.status == "valid", run.message
 
 

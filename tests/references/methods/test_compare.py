@@ -255,6 +255,21 @@ def test_a_hole_with_a_caliper_is_judged_by_the_sampled_wall_of_the_engine() -> 
     assert rows(found)["arcs"].status == "refused"
 
 
+def test_a_survey_by_average_angle_is_judged_by_the_cylinders_of_the_engine() -> None:
+    hole = well().wellbore.model_dump(include={"stations", "intervals"}, exclude_none=True)
+    average = well(wellbore=hole | {"survey_method": "average_angle"})
+    found = compare_methods(average, ["cylinders", "arcs"], quick=True)
+    assert "average angle has no arcs" in found.reference
+    own, chain = rows(found)[OWN].loads, rows(found)["cylinders"]
+    assert own is not None
+    assert chain.errors is not None
+    assert chain.loads is not None
+    assert chain.errors.largest_penetration_m < 1e-9
+    # Where two cylinders overlap, either may hold a point.
+    assert chain.loads.hookload_N == pytest.approx(own.hookload_N, rel=1e-3)
+    assert "minimum_curvature" in rows(found)["arcs"].reason
+
+
 @pytest.mark.parametrize(
     ("arguments", "expected"),
     [
