@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 from pydantic import BaseModel, ConfigDict, Field
 
+from fctd.case.systems import System
+
 SCHEMA = 1
 # measured: it answered, whatever its answers are worth.  not run: nothing was asked of it.
 Status = Literal["measured", "failed", "refused", "not installed", "not run"]
@@ -85,7 +87,8 @@ class Loads(_Part):
 
     status, message : of the checks of the run.  force_off_N, force_off_md_m : largest difference of a contact force
     from that of the engine's own arcs, and where; forces_N : of the contact points from the top.  step_us : processor
-    time of a step.  energy_error : of the window, a jump from one wall to the other included.
+    time of a step; step_kernels : the same in columns of the reference kernel, from ratios within the records.
+    energy_error : of the window, a jump from one wall to the other included.
     """
 
     status: str
@@ -97,6 +100,7 @@ class Loads(_Part):
     force_off_md_m: float | None
     forces_N: list[float | None] = Field(repr=False)
     step_us: Quartiles
+    step_kernels: Quartiles | None = None
     step_s: float
     steps: int
     energy_error: float | None
@@ -205,8 +209,8 @@ class Comparison(_Part):
 
     case, digest : its name, and the hash of its contents.  reference : of the errors.  md_m : of the contact points in
     the window, from the top.  kernel_ns : processor time of a column of the reference kernel.  counts : of segments,
-    where a range was asked for.  machine : what times depend on.  notes : what a reader of the numbers has to know.
-    interrupted : whether Ctrl-C ended it.
+    where a range was asked for.  machine : what times depend on.  units : in which people see it.  date : on which it
+    began, ISO 8601.  notes : what a reader of the numbers has to know.  interrupted : whether Ctrl-C ended it.
     """
 
     schema_version: int = SCHEMA
@@ -221,6 +225,8 @@ class Comparison(_Part):
     machine: dict[str, str] = {}
     budget_s: float
     quick: bool = False
+    units: System = "si"
+    date: str = ""
     seconds: float = 0.0
     notes: list[str] = []
     interrupted: bool = False
@@ -280,6 +286,7 @@ def _flat(row: Row) -> dict[str, Any]:
             for name in ("hookload_N", "surface_torque_N_m", "sum_r_mu_fn_N_m", "force_off_N", "force_off_md_m")
         },
         **three("step_us", None if loads is None else loads.step_us),
+        **three("step_kernels", None if loads is None else loads.step_kernels),
         "step_s": number(None if loads is None else loads.step_s),
         "steps": number(None if loads is None else loads.steps),
         "energy_error": number(None if loads is None else loads.energy_error),

@@ -3,7 +3,7 @@
 Options that several of them have stand here too, and the one table that a screen has.
 """
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -239,12 +239,12 @@ def numbers(row: Row, columns: Iterable[str], units: System) -> list[Cell]:
 
 def print_table(
     table: Table, looks: Mapping[str, Mapping[str, Any]] = {}, *, words: Mapping[str, Any] = {},
-    numbers: Mapping[str, Any] = {}, struck: Collection[int] = (), **options: Any,
+    numbers: Mapping[str, Any] = {}, **options: Any,
 ) -> None:  # fmt: skip
     """Print a table, the unit of a head below its words.
 
     looks : options of rich for columns by the words of their heads; words, numbers : for the other columns of texts and
-    of numbers; struck : rows that are struck through; options : of the table, in place of the usual ones.
+    of numbers; options : of the table, in place of the usual ones.
     """
     heads = [Head(head) if isinstance(head, str) else head for head in table.heads]
     columns = (
@@ -257,7 +257,7 @@ def print_table(
     )
     drawn = Grid(*columns, **{"box": SIMPLE_HEAD, "collapse_padding": True, "pad_edge": False, **options})
     for k, row in enumerate(table.rows):
-        drawn.add_row(*(cell.text for cell in row), style="strike" if k in struck else None)
+        drawn.add_row(*(cell.text for cell in row), style="strike" if k in table.struck else None)
     screen.print(drawn)
 
 

@@ -27,8 +27,13 @@ TABLES = (".csv", ".parquet", ".xlsx")
 PAGE = ".html"
 PICTURES = (*DRAWN, PAGE)
 PICTURE_HELP = f"{', '.join(DRAWN)}, or {PAGE} with values under the pointer"
-# Package and extra by suffix, of the files that need one.
-_NEEDS = {PAGE: ("plotly", "html"), ".xlsx": ("xlsxwriter", "excel"), **dict.fromkeys(DRAWN, ("matplotlib", "plot"))}
+# Package and extra by suffix, or by option, of the files that need one.
+_NEEDS = {
+    "--page": ("jinja2", "report"),
+    PAGE: ("plotly", "html"),
+    ".xlsx": ("xlsxwriter", "excel"),
+    **dict.fromkeys(DRAWN, ("matplotlib", "plot")),
+}
 # A file of an option, and the suffixes that it may have.
 File = tuple[Path | None, Sequence[str]]
 
@@ -49,9 +54,10 @@ ShownSideForce = Annotated[
 
 def check_package(path: Path, key: str) -> None:
     """Raise InputError where the optional package is missing that writes a file of this suffix."""
-    if path.suffix.lower() not in _NEEDS:
+    of = key if key in _NEEDS else path.suffix.lower()
+    if of not in _NEEDS:
         return
-    package, extra = _NEEDS[path.suffix.lower()]
+    package, extra = _NEEDS[of]
     try:
         import_module(package)
     except ModuleNotFoundError as error:

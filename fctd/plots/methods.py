@@ -13,7 +13,7 @@ from fctd.arena.result import Comparison, Row
 from fctd.plots.labels import width_of
 from fctd.plots.palette import CASES, QUIET
 from fctd.plots.style import LINE_STYLES, POINTS, RC, Sheet
-from fctd.results.unit_systems import System, shown
+from fctd.results.unit_systems import shown
 
 PANEL, RIGHT = 4.0, 3.15  # height of the panels, width of the second [in]
 LEFT, SIDE, BETWEEN = 0.75, 3.2, 1.0  # before the first panel, its width, between its names and the second [in]
@@ -25,7 +25,7 @@ STEP = 0.06  # between two names, of the height of the panel
 MARKERS: Final = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "p", "h", "*")
 
 
-def methods_figure(comparison: Comparison, units: System = "si") -> Figure:
+def methods_figure(comparison: Comparison) -> Figure:
     """Largest error of a method's wall over the time of a point, with quartiles, and contact forces along the string.
 
     Methods that break the contract, and runs that are invalid, are grey.
@@ -34,7 +34,7 @@ def methods_figure(comparison: Comparison, units: System = "si") -> Figure:
     run = [row for row in comparison.rows if row.loads is not None and (row.loads.force_off_N or 0) > 0]
     looks = {row.label: k for k, row in enumerate(comparison.rows)}
     window = comparison.window
-    lines = [comparison.reference]
+    lines = [f"errors by {comparison.reference}"]
     if window is not None:
         lines.append(
             f"{window.operation}, bit at {window.to_md_m:.0f} m, {window.duration_s:.3g} s: {window.whole} "
@@ -53,7 +53,7 @@ def methods_figure(comparison: Comparison, units: System = "si") -> Figure:
         left = sheet.axes(LEFT, 0.3, SIDE, PANEL - 0.1)
         _cost_against_error(left, timed, looks)
         right = sheet.axes(begin, 0.3, RIGHT, PANEL - 0.1)
-        _along(right, comparison, run, looks, units)
+        _along(right, comparison, run, looks)
     return sheet.figure
 
 
@@ -136,11 +136,11 @@ def _lowest(group: Sequence[float], step: float) -> float:
     return min(max(sum(group) / len(group) - 0.5 * span, 0.0), 1.0 - span)
 
 
-def _along(axes: Axes, comparison: Comparison, rows: Sequence[Row], looks: dict[str, int], units: System) -> None:
-    """Contact forces of each method less those of the engine's own arcs, over measured depth."""
-    force, metre = shown("contact_force_N", units), shown("md_m", units)
+def _along(axes: Axes, comparison: Comparison, rows: Sequence[Row], looks: dict[str, int]) -> None:
+    """Contact forces of each method less those of the engine's own wall, over measured depth."""
+    force, metre = shown("contact_force_N", comparison.units), shown("md_m", comparison.units)
     axes.set(
-        xlabel=f"contact force less that of the own arcs, {force.label}",
+        xlabel=f"contact force less that of the engine's own wall, {force.label}",
         ylabel=f"measured depth, {metre.label}", title="Where methods part",
     )  # fmt: skip
     own = next((row.loads for row in comparison.rows if row.loads is not None), None)

@@ -52,7 +52,7 @@ class Section:
 
 @dataclass(frozen=True)
 class Report:
-    """A report: title, company, who made it (both may be empty), the date, a logo (PNG), and its sections."""
+    """A report: title, company, who made it (both may be empty), the date, a logo (PNG), its sections, its subject."""
 
     title: str
     company: str
@@ -61,6 +61,7 @@ class Report:
     logo: bytes | None
     units: System
     sections: tuple[Section, ...] = field(default=())
+    subject: str = "Torque and drag"
 
     @property
     def tables(self) -> list[Table]:

@@ -45,7 +45,7 @@ def to_pdf(report: Report) -> bytes:
     width, height = letter if report.units == "field" else A4
     content = io.BytesIO()
     document = _Document(
-        content, pagesize=(width, height), title=report.title, author=report.by, subject="torque and drag", invariant=1
+        content, pagesize=(width, height), title=report.title, author=report.by, subject=report.subject, invariant=1
     )
     room = width - 2 * MARGIN, height - HEAD - FOOT
     frame = Frame(MARGIN, FOOT, *room, leftPadding=0, rightPadding=0, topPadding=4, bottomPadding=4)
@@ -82,7 +82,7 @@ def _paragraph(text: str, style: ParagraphStyle) -> Paragraph:
 def _story(report: Report, width: float, height: float) -> Iterator[Flowable]:
     """The flowables; a ``CondPageBreak`` begins each group of them that stays together."""
     yield _paragraph(report.title if len(report.title) <= LONGEST else f"{report.title[: LONGEST - 1]}…", COVER)
-    said = ["Torque and drag", report.company, f"by {report.by}" if report.by else "", report.date]
+    said = [report.subject, report.company, f"by {report.by}" if report.by else "", report.date]
     yield _paragraph(", ".join(filter(None, said)), BODY)
     for section in report.sections:
         first: list[Flowable] = [_Heading(section.title)]

@@ -58,12 +58,16 @@ class Head(NamedTuple):
 
 @dataclass(frozen=True)
 class Table:
-    """A table: its title, the heads of its columns (none of a table of facts), rows of cells, and lines below it."""
+    """A table: its title, the heads of its columns (none of a table of facts), rows of cells, and lines below it.
+
+    struck : rows that are struck through, on screens and pages.
+    """
 
     title: str
     heads: tuple[Head | str, ...]
     rows: tuple[tuple[Cell, ...], ...]
     notes: tuple[str, ...] = ()
+    struck: frozenset[int] = frozenset()
 
     @cached_property
     def numeric(self) -> tuple[bool, ...]:
@@ -106,11 +110,12 @@ def of_column(name: str, value: float, units: System, digits: int | None = None)
 
 
 def shown_table(
-    heads: Iterable[Head | str], rows: Iterable[Iterable[object]], title: str = "", notes: tuple[str, ...] = ()
+    heads: Iterable[Head | str], rows: Iterable[Iterable[object]], title: str = "", notes: tuple[str, ...] = (),
+    struck: Iterable[int] = (),
 ) -> Table:  # fmt: skip
     """A table of cells and of what becomes cells of text, a dash for None."""
     made = ([cell if isinstance(cell, Cell) else text(NONE if cell is None else cell) for cell in row] for row in rows)
-    return Table(title, tuple(heads), tuple(map(tuple, made)), notes)
+    return Table(title, tuple(heads), tuple(map(tuple, made)), notes, frozenset(struck))
 
 
 def facts(title: str, rows: Iterable[tuple[object, ...]]) -> Table:

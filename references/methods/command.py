@@ -20,18 +20,18 @@ from fctd.cli.options import (
     Overrides,
     Quiet,
     changes_of,
-    check_target,
     messages,
     print_written,
     read_case,
     refuse_sources,
 )
-from fctd.cli.pictures import check_files
+from fctd.cli.pictures import PAGE, check_files
 from fctd.plots import DRAWN
 from fctd.results.table_files import write_table
 from fctd.store.whole_file import whole_file
 from references.methods.asked import ALL
 from references.methods.compare import BUDGET, compare_methods
+from references.methods.page import write_page
 from references.methods.tables import counts_of, print_comparison
 
 TABLES = (".csv", ".parquet", ".json")
@@ -63,6 +63,9 @@ def methods_command(
     plot: Annotated[
         Path | None, typer.Option("--plot", metavar="FILE", help="Cost against error, and forces along the string.")
     ] = None,
+    page: Annotated[
+        Path | None, typer.Option("--page", metavar="FILE", help="All of it as a page that needs no network, .html.")
+    ] = None,
     overrides: Overrides = [],  # noqa: B006
     friction: Friction = None,
     quiet: Quiet = False,
@@ -71,10 +74,10 @@ def methods_command(
 
     Exit code 1 where something that was asked for failed; its row says why.
     """
-    check_target(out, "--out", TABLES)
-    check_files({"--plot": (plot, DRAWN)})
+    files = {"--out": (out, TABLES), "--plot": (plot, DRAWN), "--page": (page, (PAGE,))}
+    check_files(files)
     case = read_case(case_file, changes_of(overrides, friction))
-    for path, key in ((out, "--out"), (plot, "--plot")):
+    for key, (path, _) in files.items():
         refuse_sources(case, path, key)
     columns = TextColumn("{task.description}", markup=False), BarColumn(), TimeElapsedColumn()
     with Progress(*columns, console=messages, disable=quiet, transient=True) as bar:
@@ -94,12 +97,13 @@ def methods_command(
             if plot is not None:
                 from fctd.plots.methods import methods_figure
 
-                written += plots.save(methods_figure(found, case.system), plot)
+                written += plots.save(methods_figure(found), plot)
                 if (counts := found.counts) is not None:
                     figure = plots.counts_figure(found.case, *counts_of(counts), counts.tolerance)
                     written += plots.save(figure, plot.with_stem(f"{plot.stem}_segments"))
+            written += write_page(found, page) if page is not None else []
     finally:
-        print_comparison(found, case.system)
+        print_comparison(found)
     print_written(written)
     if found.interrupted:
         raise typer.Exit(INTERRUPTED)

@@ -5,6 +5,7 @@ import subprocess
 import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from datetime import date
 
 import numpy as np
 from numpy.typing import NDArray
@@ -148,7 +149,8 @@ class Comparing:
         self.comparison = Comparison(
             case=preset.case.name, digest=preset.case.digest, reference=preset.reference,
             window=None if plan is None else plan.described, md_m=[] if plan is None else self.md.tolist(), rows=rows,
-            budget_s=budget, quick=quick, machine={**machine(), "load average": _load()},
+            budget_s=budget, quick=quick, units=preset.case.system, date=date.today().isoformat(),
+            machine={**machine(), "load average": _load()},
             notes=[] if plan is None else list(plan.notes),
         )  # fmt: skip
 

@@ -13,14 +13,12 @@ from fctd.arena.frames import Frame
 from fctd.arena.method import ContactMethod
 from fctd.arena.result import Cost, Quartiles, WallErrors
 from fctd.arrays import Array, Contacts
-from references.timing import reference_kernel
-from references.timing.stopwatch import Action, turn
+from references.timing.stopwatch import Action, kernel, turn
 
 POINTS = 2000  # near the wall, for the errors
 FEW, MOST = 20, 10.0  # points that are asked first; time [s] that all of them may take
 ROUNDS, FEW_ROUNDS, MANY = 15, 3, 1_000_000  # of the race; with calls of so many points
 SLID = 0.5  # way of the string between two queries [m]
-PASSES = 200  # of the reference kernel in a round
 # [s] of a turn in the race: a slower method is asked for fewer points, a faster one several times.
 LONGEST, SHORTEST = 0.1, 2e-3
 LONGEST_CALL = 1.0  # [s] of a larger call than the first
@@ -107,12 +105,12 @@ def costs(
     A method that fails in the race has no cost.
     """
     found: dict[str, list[Cost]] = {label: [] for label in methods}
-    kernel: list[float] = []
+    columns: list[float] = []
     for size in sizes:
         given = near.part(slice(0, size) if size <= len(near.md) else _drawn(len(near.md), size))
         asked = {label: part for label, method in methods.items() if (part := _call(method, given, found[label]))}
         taken = _rounds(methods, given, asked, ROUNDS if size < MANY else FEW_ROUNDS)
-        kernel += taken[KERNEL].tolist()
+        columns += taken[KERNEL].tolist()
         for label, (points, _) in asked.items():
             ns = taken[label]
             found[label].append(
@@ -121,7 +119,7 @@ def costs(
                     arcs=Quartiles.of(ns / taken[own]) if own in taken else None,
                 )
             )  # fmt: skip
-    return found, Quartiles.of(kernel)
+    return found, Quartiles.of(columns)
 
 
 def _drawn(of: int, count: int) -> NDArray[np.int64]:
@@ -152,9 +150,9 @@ def _rounds(
     methods: Mapping[str, ContactMethod], given: Frame, asked: Mapping[str, tuple[int, int]], rounds: int
 ) -> dict[str, Array]:
     """Times of a point in each round (rounds,) [ns] of each method, and of a column of the reference kernel."""
-    S = reference_kernel.new_buffer()
-    actions: dict[str, Action] = {KERNEL: lambda: reference_kernel.reference_kernel(S, PASSES)}
-    counts = {KERNEL: PASSES * reference_kernel.COLUMNS}
+    work, columns = kernel()
+    actions: dict[str, Action] = {KERNEL: work}
+    counts = {KERNEL: columns}
     for label, (points, calls) in asked.items():
         actions[label] = _asking(methods[label], given.part(slice(0, points)), calls)
         counts[label] = points * calls

@@ -24,6 +24,7 @@ from references.engines import EngineRun, StepOptions, Stepper, StringEngine, Wi
 from references.engines.own import Fctd
 from references.engines.run import InWindows, hann_means, run_window
 from references.methods.window import RECORDS, Plan
+from references.timing.stopwatch import kernel
 
 # Steps of FCTD's over which an engine is timed before its loads, in parts: the first of them may compile.
 PROBE, PARTS = 20, 4
@@ -71,13 +72,16 @@ class Timed(InWindows):
 class TimedStepper:
     """A stepper that times each advance.
 
-    costs : processor time of a step in each advance [s].  forces : mean contact forces (n,) [N] of each.  steps : made.
+    costs : processor time of a step in each advance [s]; kernels : the same in columns of the reference kernel, which
+    is timed after it.  forces : mean contact forces (n,) [N] of each.  steps : made.
     """
 
     def __init__(self, stepper: Stepper, run: Run, tell: Tell, most: float) -> None:
         self._stepper, self._run, self._tell, self._most = stepper, run, tell, most
         self.step = stepper.step
         self.costs: list[float] = []
+        self.kernels: list[float] = []
+        self._kernel, self._columns = kernel()
         self.forces: list[Array] = []
         self.steps, self._spent, self._lasted = 0, 0.0, 1.0
 
@@ -88,6 +92,9 @@ class TimedStepper:
         spent = time.process_time() - began
         done = self._run.steps - before
         self.costs.append(spent / max(done, 1))
+        began = time.process_time()
+        self._kernel()
+        self.kernels.append(self.costs[-1] * self._columns / max(time.process_time() - began, 1e-9))
         self.steps += done
         self._spent, self._lasted = self._spent + spent, duration
         self._tell(len(self.costs) / RECORDS)
@@ -157,7 +164,8 @@ def loads_of(
         force_off_N=None if worst is None else float(off[worst]),
         force_off_md_m=None if worst is None else float(md[worst]),
         forces_N=[number(force) for force in forces], step_us=Quartiles.of(stepper.costs).times(1e6),
-        step_s=run.step, steps=stepper.steps, energy_error=number(ledger.error(run.energy, motion=True)),
+        step_kernels=Quartiles.of(stepper.kernels), step_s=run.step, steps=stepper.steps,
+        energy_error=number(ledger.error(run.energy, motion=True)),
     )  # fmt: skip
 
 

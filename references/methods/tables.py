@@ -1,21 +1,26 @@
-"""A comparison on the screen: verdicts first, then errors and costs of a point, then loads."""
+"""A comparison as sections of tables, which screen and page show: verdicts, errors and costs of a point, loads."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 
 import pandas as pd
 
-from fctd.arena.result import Comparison, Counts, Quartiles, Row
+from fctd.arena.result import Comparison, Counts, Loads, Quartiles, Row
 from fctd.case.text import counted, printable
 from fctd.cli.job import FOLD, headed, print_table
 from fctd.cli.options import messages, screen
 from fctd.cli.refine import print_counts
+from fctd.report.parts import Section, Text
 from fctd.results.shown_tables import NONE, Cell, Head, Table, number, of_column, short, shown_table
 from fctd.results.unit_systems import System, shown
 
 LOADS = {"hookload_N": "hook load", "surface_torque_N_m": "torque", "sum_r_mu_fn_N_m": "Σ r μ N"}
 ROUNDING = 1e-9  # [m]: a smaller error is shown as 0
 TOLD = 2.0  # percent: a load that is further off than this is told in words
-LEAST = 1.0  # [N], [N m]: of a smaller load no difference is told in percent
+# [N], [N m], and share of all contact forces, or of the torque of their friction: of a smaller load no difference is
+# told in percent.
+LEAST, SMALL = 1.0, 0.01
+VERSIONS = ("fctd", "python", "numpy", "numba", "commit")
 
 
 def three(value: Quartiles | None, digits: int = 3) -> Cell:
@@ -31,12 +36,42 @@ def maybe(value: float | None, digits: int, factor: float = 1.0) -> Cell:
     return Cell(NONE) if value is None else short(factor * value, digits)
 
 
+def _table(
+    heads: Iterable[Head | str], rows: Sequence[Row], cells: Iterable[Sequence[object]], *notes: str
+) -> Table:  # fmt: skip
+    """A table with label and verdict of each row before its cells; what is broken is struck through."""
+    first = "method" if all(row.kind == "contact" for row in rows) else "method, engine"
+    lines = ([row.label, row.verdict or NONE, *of] for row, of in zip(rows, cells, strict=True))
+    struck = (k for k, row in enumerate(rows) if row.struck)
+    return shown_table([first, "verdict", *heads], lines, notes=notes, struck=struck)
+
+
+def about(comparison: Comparison) -> Table:
+    """What was compared, where and when."""
+    window, machine = comparison.window, comparison.machine
+    facts = [("well", f"{comparison.case}, {comparison.digest}")]
+    if window is not None:
+        metre = shown("md_m", comparison.units)
+        ends = [f"{depth * metre.factor:.1f}" for depth in dict.fromkeys((window.from_md_m, window.to_md_m))]
+        bit = f"bit at {' to '.join(ends)} {metre.label}"
+        facts += [
+            ("operation", f"{window.operation}, {bit}; {counted(window.segments, 'segment')}"),
+            ("window", f"from {window.start_s:.3g} s on over {window.duration_s:.3g} s: {window.whole} "
+                       f"{window.vibration} periods of {window.period_s:.3g} s"),
+        ]  # fmt: skip
+    facts += [
+        ("errors by", comparison.reference),
+        ("times on", f"{machine['processor']}, {machine['cores']} cores, load average {machine['load average']}"),
+        ("versions", ", ".join(f"{name} {machine[name]}" for name in VERSIONS if name in machine)),
+        ("date", comparison.date),
+    ]
+    return shown_table((), (fact for fact in facts if fact[1]))
+
+
 def verdicts(rows: Sequence[Row]) -> Table:
     """Verdict and package of each row."""
-    cells = (
-        [row.label, row.verdict or NONE, row.package or NONE, row.version, row.licence] for row in rows
-    )  # fmt: skip
-    return shown_table(["method, engine", "verdict", "package", "version", "licence"], cells)
+    cells = ([row.package or NONE, row.version, row.licence] for row in rows)
+    return _table(["package", "version", "licence"], rows, cells)
 
 
 def frames(rows: Sequence[Row]) -> Table:
@@ -46,98 +81,107 @@ def frames(rows: Sequence[Row]) -> Table:
         of = row.errors
         off = None if of is None else of.largest_penetration_m
         cells.append([
-            row.label, row.verdict, maybe(off if off is None or off > ROUNDING else 0.0, 3, 1e3),
+            maybe(off if off is None or off > ROUNDING else 0.0, 3, 1e3),
             maybe(None if of is None else of.largest_angle_deg, 2), maybe(None if of is None else of.missed, 6),
             maybe(None if of is None else of.false_contacts, 6), maybe(row.pieces, 9),
         ])  # fmt: skip
-    heads: list[Head | str] = [
-        "method", "verdict", Head("penetration", "mm", True), Head("angle", "°", True), Head("missed", "", True),
-        Head("false", "", True), Head("pieces", "", True),
+    heads = [
+        Head("penetration", "mm", True), Head("angle", "°", True), Head("missed", "", True), Head("false", "", True),
+        Head("pieces", "", True),
     ]  # fmt: skip
-    return shown_table(heads, cells)
+    return _table(
+        heads, rows, cells,
+        "penetration, angle: largest error of the depth in the wall, and of the normal of a point that touches. "
+        "missed, false: points that touch by the reference alone, and by the method alone.",
+    )  # fmt: skip
 
 
 def costs(rows: Sequence[Row]) -> Table:
     """Costs of a point and of the method itself."""
-    cells = []
-    for row in rows:
-        cost = row.cost
-        cells.append([
-            row.label, row.verdict, three(None if cost is None else cost.point_ns),
-            three(None if cost is None else cost.kernels), maybe(row.memory_MB, 3),
-            maybe(row.build_s, 2),
-        ])  # fmt: skip
-    heads: list[Head | str] = [
-        "method", "verdict", Head("a point", "ns", True), Head("a point", "kernels", True),
-        Head("memory", "MB", True), Head("build", "s", True),
+    cells = (
+        [
+            three(None if row.cost is None else row.cost.point_ns),
+            three(None if row.cost is None else row.cost.kernels),
+            maybe(row.memory_MB, 3), maybe(row.build_s, 2),
+        ]
+        for row in rows
+    )  # fmt: skip
+    heads = [
+        Head("a point", "ns", True), Head("a point", "kernels", True), Head("memory", "MB", True),
+        Head("build", "s", True),
     ]  # fmt: skip
-    return shown_table(heads, cells)
+    return _table(heads, rows, cells, "memory, build: growth of resident memory, and time of building the method.")
 
 
 def loads(rows: Sequence[Row], own: Row, units: System) -> Table:
-    """Loads of the string, and how far they are from those of the engine's own arcs."""
+    """Loads of the string, and how far they are from those of the engine's own wall."""
     cells = []
-    base = own.loads
     for row in rows:
-        of = row.loads
-        line: list[object] = [row.label, row.verdict]
+        of, line = row.loads, []
         for column in LOADS:
             value = None if of is None else getattr(of, column)
             line.append(Cell(NONE) if value is None else of_column(column, value, units))
             if column != "sum_r_mu_fn_N_m":
-                first = None if base is None or row is own else getattr(base, column)
-                line.append(_off(value, first))
+                line.append(Cell(NONE) if row is own else _off(of, own.loads, column))
         off, where = (None, None) if of is None else (of.force_off_N, of.force_off_md_m)
         line += [
             maybe(off, 3, shown("contact_force_N", units).factor),
             Cell(NONE) if where is None or not off else of_column("md_m", where, units, 0),
         ]
         cells.append(line)
-    heads: list[Head | str] = ["method, engine", "verdict"]
+    heads = []
     for head in headed(LOADS, units):
         heads.append(head)
         if head.words != LOADS["sum_r_mu_fn_N_m"]:
             heads.append(Head("off", "%", True))
     heads += [
-        Head("force off", shown("contact_force_N", units).label, True),
-        Head("at", shown("md_m", units).label, True),
-    ]
-    return shown_table(heads, cells)
+        Head("force off", shown("contact_force_N", units).label, True), Head("at", shown("md_m", units).label, True)
+    ]  # fmt: skip
+    return _table(
+        heads, rows, cells,
+        f"Means under a Hann window. off: from the load of {own.label}. force off, at: largest difference of a contact "
+        "force from that row, and where.",
+    )  # fmt: skip
 
 
-def _off(value: float | None, first: float | None) -> Cell:
-    """How far a load is from the first one, in percent; a dash where there is next to none."""
-    if value is None or first is None or abs(first) < LEAST:
+def _off(of: Loads | None, own: Loads | None, column: str) -> Cell:
+    """How far a load is from that of the engine's own wall, in percent; a dash where there is next to none."""
+    value, first = (None if each is None else getattr(each, column) for each in (of, own))
+    if own is None or value is None or first is None:
         return Cell(NONE)
-    return number(100 * (value / first - 1), 2)
+    scale = own.sum_r_mu_fn_N_m or 0.0 if column != "hookload_N" else sum(force or 0.0 for force in own.forces_N)
+    return Cell(NONE) if abs(first) < max(LEAST, SMALL * scale) else number(100 * (value / first - 1), 2)
 
 
 def far_off(row: Row, own: Row) -> Iterator[str]:
     """The loads of a row that are further off than TOLD, in words."""
-    if row is own or row.loads is None or own.loads is None:
-        return
     for column, words in LOADS.items():
-        off = _off(getattr(row.loads, column), getattr(own.loads, column)).number
+        off = _off(row.loads, own.loads, column).number
         if off is not None and abs(off) > TOLD:
             side = "above" if off > 0 else "below"
-            yield f"{words} {abs(off):.1f} % {side} that of the engine's own arcs"
+            yield f"{words} {abs(off):.1f} % {side} that of {own.label}"
 
 
 def steps(rows: Sequence[Row]) -> Table:
     """What a step takes."""
-    cells = [
+    cells = (
         [
-            row.label, row.verdict, three(None if row.loads is None else row.loads.step_us),
+            three(None if row.loads is None else row.loads.step_us),
+            three(None if row.loads is None else row.loads.step_kernels),
             maybe(None if row.loads is None else row.loads.steps, 6),
             maybe(None if row.loads is None else row.loads.energy_error, 2), maybe(row.predicted_s, 3),
         ]
         for row in rows
-    ]  # fmt: skip
-    heads: list[Head | str] = [
-        "method, engine", "verdict", Head("a step", "µs", True), Head("steps", "", True),
+    )  # fmt: skip
+    heads = [
+        Head("a step", "µs", True), Head("a step", "kernels", True), Head("steps", "", True),
         Head("energy error", "", True), Head("expected", "s", True),
     ]  # fmt: skip
-    return shown_table(heads, cells)
+    return _table(
+        heads, rows, cells,
+        "a step: processor time, median (quartiles) of the records. energy error: residual of the ledger. expected: "
+        "processor time of all steps.",
+    )  # fmt: skip
 
 
 def reasons(rows: Sequence[Row]) -> Iterator[str]:
@@ -166,64 +210,62 @@ def _said(row: Row, own: Row) -> Iterator[str]:
         yield f"remark: {remark}"
 
 
-def print_comparison(comparison: Comparison, units: System) -> None:
-    """Print a comparison: what was compared, verdicts with their reasons, errors and costs, loads."""
-    rows, window = comparison.rows, comparison.window
-    methods = [row for row in rows if row.kind == "contact"]
-    _print(verdicts, rows)
-    for line in reasons(rows):
-        messages.print(printable(line), soft_wrap=True)
-    for note in comparison.notes:
-        messages.print(f"note: {printable(note)}", soft_wrap=True)
-    points = next((row.errors for row in methods if row.errors is not None), None)
-    if points is not None:
-        screen.print(
-            f"errors of the wall in this hole, by {comparison.reference}: {points.points} points within 15 mm of "
-            f"touching, {points.touching} touch", style="bold", soft_wrap=True,
-        )  # fmt: skip
-        _print(frames, [row for row in methods if row.errors is not None])
-        _print(costs, [row for row in methods if row.cost is not None])
-        _say_units(comparison, methods)
-    if window is not None and rows[0].loads is not None:
-        metre = shown("md_m", units)
-        ends = [f"{depth * metre.factor:.1f}" for depth in dict.fromkeys((window.from_md_m, window.to_md_m))]
-        screen.print(
-            f"loads: {window.operation}, bit at {' to '.join(ends)} {metre.label}, from {window.start_s:.3g} s on over "
-            f"{window.duration_s:.3g} s: {window.whole} {window.vibration} periods of {window.period_s:.3g} s; "
-            f"{counted(window.segments, 'segment')}", style="bold", soft_wrap=True,
-        )  # fmt: skip
-        _print(lambda each: loads(each, rows[0], units), [row for row in rows if row.loads is not None])
-        _print(steps, [row for row in rows if row.loads is not None or row.predicted_s is not None])
-    if comparison.counts is not None:
-        screen.print("numbers of segments, by the engine's own steady string")
-        print_counts(*counts_of(comparison.counts), comparison.counts.tolerance, units)
-    machine = comparison.machine
-    screen.print(
-        f"times on {machine['processor']}, {machine['cores']} cores, load average {machine['load average']}",
-        soft_wrap=True,
-    )
-    end = "interrupted after" if comparison.interrupted else "compared in"
-    screen.print(f"{counted(len(rows), 'row')} {end} {comparison.seconds:.0f} s", soft_wrap=True)
-
-
 def counts_of(counts: Counts) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Steps and orders of a range of counts as tables."""
     return pd.DataFrame(counts.steps), pd.DataFrame(counts.orders)
 
 
-def _print(table: Callable[[Sequence[Row]], Table], rows: Sequence[Row]) -> None:
-    """Print a table of rows, if there are any; what is broken is struck through."""
-    if rows:
-        print_table(table(rows), words=FOLD, numbers=FOLD, struck=[k for k, row in enumerate(rows) if row.struck])
-
-
-def _say_units(comparison: Comparison, methods: Sequence[Row]) -> None:
-    """What the times of a point are."""
-    cost = next((row.cost for row in methods if row.cost is not None), None)
-    if cost is None or comparison.kernel_ns is None:
+def sections(comparison: Comparison) -> Iterator[Section]:
+    """What was compared, verdicts with their reasons, errors and costs, loads and steps."""
+    rows, units = comparison.rows, comparison.units
+    yield Section("What was compared", (about(comparison),))
+    if not rows:
         return
-    kernel = three(comparison.kernel_ns).text
-    screen.print(
-        f"a point: processor time in a call of {cost.points} points, median (quartiles) of rounds in turns; kernels: "
-        f"in columns of the reference kernel, {kernel} ns", soft_wrap=True,
-    )  # fmt: skip
+    said = [*reasons(rows), *(f"note: {note}" for note in comparison.notes)]
+    yield Section("Verdicts", (verdicts(rows), *(Text(printable(line)) for line in said)))
+    wall = [row for row in rows if row.errors is not None]
+    if wall:
+        points = next(row.errors for row in wall if row.errors is not None)
+        told = f"{points.points} points within 15 mm of touching, {points.touching} touch"
+        yield Section("Wall of this hole", (Text(f"Errors by {comparison.reference}: {told}."), frames(wall)))
+    timed = [row for row in rows if row.cost is not None]
+    if timed and comparison.kernel_ns is not None:
+        yield Section("Cost of a point", (Text(_units_of(timed[0], comparison.kernel_ns)), costs(timed)))
+    run = [row for row in rows if row.loads is not None]
+    if run:
+        yield Section("Loads of this string", (loads(run, rows[0], units),))
+        yield Section("Steps", (steps([row for row in rows if row.loads is not None or row.predicted_s is not None]),))
+
+
+def _units_of(row: Row, kernel_ns: Quartiles) -> str:
+    """What the times of a point are."""
+    points = 0 if row.cost is None else row.cost.points
+    return (
+        f"A point: processor time in a call of {points} points, median (quartiles) of rounds in turns; kernels: in "
+        f"columns of the reference kernel, {three(kernel_ns).text} ns."
+    )
+
+
+def ending(comparison: Comparison) -> str:
+    """How many rows there are, after which time."""
+    end = "interrupted after" if comparison.interrupted else "compared in"
+    quick = ", quick" if comparison.quick else ""
+    return f"{counted(len(comparison.rows), 'row')} {end} {comparison.seconds:.0f} s{quick}"
+
+
+def print_comparison(comparison: Comparison) -> None:
+    """Print the sections of a comparison; reasons, which stand below their table, are messages."""
+    for section in sections(comparison):
+        console = screen
+        screen.print(section.title, style="bold")
+        for part in section.parts:
+            if isinstance(part, Table):
+                facts = {} if part.heads else {"show_header": False}
+                print_table(replace(part, heads=part.heads or ("", "")), words=FOLD, numbers=FOLD, **facts)
+                console = messages
+            elif isinstance(part, Text):
+                console.print(part.text, soft_wrap=True)
+    if comparison.counts is not None:
+        screen.print("Numbers of segments, by the engine's own steady string", style="bold")
+        print_counts(*counts_of(comparison.counts), comparison.counts.tolerance, comparison.units)
+    screen.print(ending(comparison))

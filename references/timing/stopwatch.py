@@ -17,8 +17,10 @@ from fctd.store.origin import versions
 from references.contact import METHODS, method_class
 from references.engines import ENGINES, engine_class
 from references.registry import version_of
+from references.timing import reference_kernel
 
 Action = Callable[[], object]
+PASSES = 200  # of the reference kernel in a call of its action
 
 
 def units_for(work: Callable[[int], object], aim: float) -> int:
@@ -35,6 +37,17 @@ def units_for(work: Callable[[int], object], aim: float) -> int:
         if spent >= 0.5 * aim:
             return max(int(units * aim / spent), 1)
         units = max(2 * units, int(0.7 * units * aim / max(spent, 1e-9)))
+
+
+def kernel() -> tuple[Action, int]:
+    """The reference kernel as an action, compiled, and the columns of a call."""
+    S = reference_kernel.new_buffer()
+
+    def work() -> None:
+        reference_kernel.reference_kernel(S, PASSES)
+
+    work()
+    return work, PASSES * reference_kernel.COLUMNS
 
 
 def race(

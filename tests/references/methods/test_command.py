@@ -58,7 +58,7 @@ def test_planted_faults_stand_in_the_tables(
     assert wall
     assert "leaning: breaks the contract of contact methods: Penetration and normal" in told
     # A tenth less friction, which presses the string the less up the wall: N grows by half a percent.
-    assert re.search(r"engine slippery: torque 9\.\d % below that of the engine's own arcs", told)
+    assert re.search(r"engine slippery: torque 9\.\d % below that of engine fctd", told)
     assert "8 torsional periods of 0.25" in printed  # 2 s
 
 
@@ -95,12 +95,21 @@ def test_pictures_and_a_range_of_counts(
     assert "observed order" in screen
 
 
+def test_a_picture_and_a_page_are_written(case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    plot, page = tmp_path / "compared.png", tmp_path / "compared.html"
+    arguments = ("--quick", "--quiet", "--contact", "arcs", "--contact", "cylinders")
+    assert call(monkeypatch, "methods", case, *arguments, "--plot", plot, "--page", page) == 0
+    assert plot.stat().st_size > 10_000
+    assert "cylinders" in page.read_text(encoding="utf-8")
+
+
 @pytest.mark.parametrize(
     ("arguments", "code", "expected"),
     [
         (("--contact", "arx"), 2, "arcs"),
         (("--operation", "9"), 2, "from 1 to 1"),
         (("--out", "table.txt"), 2, ".csv or .parquet or .json"),
+        (("--page", "page.pdf"), 2, ".html"),
         (("--budget", "0"), 2, "--budget"),
         (("--segments", "10:20"), 2, '--segments = "10:20": expected FROM:TO'),
         (("--contact", "absent", "--quick", "--quiet"), 1, "No module named 'no_such_module'"),
@@ -147,6 +156,6 @@ def test_what_is_broken_is_struck_through(monkeypatch: pytest.MonkeyPatch) -> No
     rows = [Row(kind="contact", name="sound", status="measured", broken=[]),
             Row(kind="contact", name="wrong", status="measured", broken=["it is wrong"])]  # fmt: skip
     with shown.capture() as printed:
-        job.print_table(tables.verdicts(rows), struck=[k for k, row in enumerate(rows) if row.struck])
+        job.print_table(tables.verdicts(rows))
     lines = printed.get().splitlines()
     assert ["\x1b[9m" in line for line in lines if "sound" in line or "wrong" in line] == [False, True]
