@@ -9,6 +9,7 @@ import pandas as pd
 
 from fctd.case.load import Case
 from fctd.mechanics import topdrive
+from fctd.mechanics.energy import Energy
 from fctd.mechanics.faults import UnstableError
 from fctd.results.status import RunStatus
 from fctd.simulation.run import Run
@@ -63,6 +64,33 @@ class InWindows(ABC):
     def run(self, case: Case, window: Window) -> EngineRun:
         """See ``StringEngine.run``."""
         return run_window(case, window, self)
+
+
+class Around:
+    """A stepper around another one, which does all that a subclass leaves to it."""
+
+    def __init__(self, stepper: Stepper) -> None:
+        self.inner, self.step = stepper, stepper.step
+
+    def advance(self, motion: topdrive.Motion, duration: float) -> None:
+        """See ``Stepper.advance``."""
+        self.inner.advance(motion, duration)
+
+    def refresh(self) -> None:
+        """See ``Stepper.refresh``."""
+        self.inner.refresh()
+
+    def energy(self) -> Energy:
+        """See ``Stepper.energy``."""
+        return self.inner.energy()
+
+    def note(self) -> str:
+        """See ``Stepper.note``."""
+        return self.inner.note()
+
+    def close(self) -> None:
+        """See ``Stepper.close``."""
+        self.inner.close()
 
 
 def late(run: EngineRun, seconds: float = np.inf) -> pd.Series:

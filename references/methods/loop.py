@@ -14,7 +14,6 @@ from fctd.arena.method import ContactMethod
 from fctd.arena.result import Loads, Quartiles
 from fctd.arrays import Array
 from fctd.mechanics import state
-from fctd.mechanics.energy import Energy
 from fctd.mechanics.topdrive import Motion
 from fctd.results import ledger
 from fctd.simulation.external_contact import QueriedWall
@@ -22,7 +21,7 @@ from fctd.simulation.features import ASKED, refuse
 from fctd.simulation.run import Run
 from references.engines import EngineRun, StepOptions, Stepper, StringEngine, Window
 from references.engines.own import Fctd
-from references.engines.run import InWindows, hann_means, run_window
+from references.engines.run import Around, InWindows, hann_means, run_window
 from references.methods.window import RECORDS, Plan
 from references.timing.stopwatch import kernel
 
@@ -69,7 +68,7 @@ class Timed(InWindows):
         return self.stepper
 
 
-class TimedStepper:
+class TimedStepper(Around):
     """A stepper that times each advance.
 
     costs : processor time of a step in each advance [s]; kernels : the same in columns of the reference kernel, which
@@ -77,8 +76,8 @@ class TimedStepper:
     """
 
     def __init__(self, stepper: Stepper, run: Run, tell: Tell, most: float) -> None:
-        self._stepper, self._run, self._tell, self._most = stepper, run, tell, most
-        self.step = stepper.step
+        super().__init__(stepper)
+        self._run, self._tell, self._most = run, tell, most
         self.costs: list[float] = []
         self.kernels: list[float] = []
         self._kernel, self._columns = kernel()
@@ -88,7 +87,7 @@ class TimedStepper:
     def advance(self, motion: Motion, duration: float) -> None:
         """See ``Stepper.advance``."""
         before, began = self._run.steps, time.process_time()
-        self._stepper.advance(motion, duration)
+        super().advance(motion, duration)
         spent = time.process_time() - began
         done = self._run.steps - before
         self.costs.append(spent / max(done, 1))
@@ -103,22 +102,10 @@ class TimedStepper:
 
     def refresh(self) -> None:
         """See ``Stepper.refresh``."""
-        self._stepper.refresh()
+        super().refresh()
         if len(self.forces) < len(self.costs):
             sums = state.row(self._run.S, state.SUM_NORMAL, self._run.segments)
             self.forces.append(sums / self._lasted)
-
-    def energy(self) -> Energy:
-        """See ``Stepper.energy``."""
-        return self._stepper.energy()
-
-    def note(self) -> str:
-        """See ``Stepper.note``."""
-        return self._stepper.note()
-
-    def close(self) -> None:
-        """See ``Stepper.close``."""
-        self._stepper.close()
 
 
 def timed_run(

@@ -6,39 +6,29 @@ from typing import Any
 import numpy as np
 
 from fctd.mechanics import state
-from fctd.mechanics.energy import Energy
+from fctd.model.pieces import FRICTION
 from fctd.simulation.run import Run
 from references.engines.own import Fctd
+from references.engines.run import Around
 
 Fault = Callable[[Run], None]
+FACTOR = 0.9  # of the friction of a slippery engine
 
 
 def nothing(run: Run) -> None:
     """No fault."""
 
 
-class FaultyStepper:
+class FaultyStepper(Around):
     """FCTD's stepper, with a fault added to the run after every advance."""
 
     def __init__(self, run: Run, fault: Fault) -> None:
-        self._stepper, self._run, self._fault = Fctd(Fctd.Options()).begin(run), run, fault
-        self.step = run.step
+        super().__init__(Fctd(Fctd.Options()).begin(run))
+        self._run, self._fault = run, fault
 
     def advance(self, motion: Any, duration: float) -> None:
-        self._stepper.advance(motion, duration)
+        super().advance(motion, duration)
         self._fault(self._run)
-
-    def refresh(self) -> None:
-        self._stepper.refresh()
-
-    def energy(self) -> Energy:
-        return self._stepper.energy()
-
-    def note(self) -> str:
-        return self._stepper.note()
-
-    def close(self) -> None:
-        self._stepper.close()
 
 
 class Faulty(Fctd):
@@ -64,3 +54,9 @@ def through_the_wall(run: Run) -> None:
     clearance = run.S[state.HOLE + n] - run.S[state.RADIUS + n]
     for row, part in zip((state.X, state.Y, state.Z), walls / np.linalg.norm(walls), strict=True):
         run.S[row + n] += 0.5 * clearance * part
+
+
+def slippery(run: Run) -> None:
+    """FACTOR of the friction of the case."""
+    run.hole = run.hole.with_friction(FACTOR * run.hole.intervals[:, FRICTION])
+    state.row(run.S, state.FRICTION, run.segments)[:] *= FACTOR

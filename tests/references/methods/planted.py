@@ -12,16 +12,11 @@ import pytest
 from fctd.arena.exact_hole import ExactHole
 from fctd.arrays import Array, Contacts
 from fctd.case.load import Case
-from fctd.mechanics import state
-from fctd.model.pieces import FRICTION
-from fctd.simulation.run import Run
 from references import contact, engines, registry
 from references.contact.own import ArcOptions, Arcs
-from references.engines import StepOptions
-from references.engines.own import Fctd
+from tests.references.engines.faulty import Faulty, FaultyStepper, slippery
 from tests.references.wells import bent_case
 
-FACTOR = 0.9  # of the friction of the faulty engine
 OFF = 3.0  # [deg] by which the normals of the faulty method are off
 
 
@@ -103,41 +98,34 @@ class Slow(Arcs):
         return super().query(points, radii)
 
 
-class Slippery(Fctd):
+class Slippery(Faulty):
     """FCTD as an engine with FACTOR of the friction."""
 
     name = "slippery"
 
     def __init__(self, options: Any) -> None:
-        super().__init__(StepOptions())
-
-    def begin(self, run: Run) -> Any:
-        run.hole = run.hole.with_friction(FACTOR * run.hole.intervals[:, FRICTION])
-        state.row(run.S, state.FRICTION, run.segments)[:] *= FACTOR
-        return super().begin(run)
+        super().__init__(at_start=slippery)
 
 
-class Starting(Fctd):
-    """FCTD as an engine that begins with half a second of work, as one does that compiles."""
+class LateStepper(FaultyStepper):
+    """A stepper that begins with half a second of work."""
+
+    late = 0.5  # [s]
+
+    def advance(self, motion: Any, duration: float) -> None:
+        until, self.late = time.process_time() + self.late, 0.0
+        while time.process_time() < until:
+            pass
+        super().advance(motion, duration)
+
+
+class Starting(Faulty):
+    """FCTD as an engine that compiles at first."""
 
     name = "starting"
 
     def __init__(self, options: Any) -> None:
-        super().__init__(StepOptions())
-
-    def begin(self, run: Run) -> Any:
-        stepper = super().begin(run)
-        advance, waited = stepper.advance, []
-
-        def first(motion: Any, duration: float) -> None:
-            until = time.process_time() + (0.0 if waited else 0.5)
-            while time.process_time() < until:
-                pass
-            waited.append(True)
-            advance(motion, duration)
-
-        stepper.advance = first
-        return stepper
+        super().__init__(stepper=LateStepper)
 
 
 def plant(monkeypatch: pytest.MonkeyPatch, **more: str) -> None:

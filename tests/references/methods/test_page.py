@@ -15,9 +15,11 @@ from tests.report.test_html_file import Cells
 def compared() -> Comparison:
     """A sound method, a broken one, and an engine that is refused, on a well with a name that looks like markup."""
     rows = [
-        row(kind="engine", name="fctd", errors=None, costs=[]), row(name="sound"), row(name="wrong", broken=["it lies"]),
+        row(kind="engine", name="fctd", errors=None, costs=[]),
+        row(name="sound"),
+        row(name="wrong", broken=["it lies"]),
         Row(kind="engine", name="other", status="refused", reason="no <b>wall</b>"),
-    ]  # fmt: skip
+    ]
     return Comparison(
         case="<i>a well</i>", digest="d", reference="exact circular arcs", rows=rows, budget_s=1.0, md_m=[1.0, 2.0],
         kernel_ns=LOADS.step_us, notes=["nothing is certain"], date="2026-11-30", units="field",
