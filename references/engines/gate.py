@@ -42,8 +42,9 @@ PASSED = "passed"
 
 # A first-order integrator misses the fall by the share of a step in its time, FCTD by 2.5 %.
 MOST_FALL_ERROR, MOST_STRETCH_ERROR = 0.05, 0.01
-# Of friction: over μN, where MuJoCo's default leaves 0.95; against the sliding [deg].
-LEAST_SHARE, MOST_SHARE, MOST_LEAN = 0.9, 1.02, 15.0
+# Of friction: over μN, against the sliding [deg].  Sound engines have 0.9989 to 1.0003 of μN in holes of three azimuths
+# and of three bends, Bullet 0.96 and MuJoCo's default settings 0.95, which fail by their lean.
+LEAST_SHARE, MOST_SHARE, MOST_LEAN = 0.94, 1.01, 15.0
 LEAST_FORCE, LEAST_SPEED = 1.0, 1e-3  # of a string in motion: sum of its contact forces [N], its fastest surface [m/s]
 
 

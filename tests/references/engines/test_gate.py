@@ -76,8 +76,8 @@ def dragged(run: Run) -> None:
         (Faulty(at_start=softer), {"error of the stretch at 0 m", "error of the stretch at 4000 m"}),
         (Faulty(through_the_wall), {"depth in the wall over the clearance"}),
         (factors(-1.0), {"power of the wall's friction"}),
-        (factors(1.1), {"largest friction over μN"}),
-        (factors(0.0), {"least friction over μN"}),
+        (factors(1.02), {"largest friction over μN"}),
+        (factors(0.93), {"least friction over μN"}),
         (Faulty(dragged), {LEAN}),
     ],
 )
