@@ -72,7 +72,7 @@ def _exact(row: Row) -> bool:
 
 def _name(row: Row) -> str:
     """Name of a method, and what is to be said of it."""
-    said = {"exact": _exact(row), "breaks the contract": bool(row.broken)}
+    said = {"exact": _exact(row) and not row.broken, "breaks the contract": bool(row.broken)}
     return ", ".join([row.label, *(words for words, so in said.items() if so)])
 
 
@@ -98,8 +98,9 @@ def _cost_against_error(axes: Axes, rows: Sequence[Row], looks: dict[str, int]) 
         )  # fmt: skip
         places.append((time.median, error, row))
     if not places:
+        axes.text(0.5, 0.5, "no errors of a wall", transform=axes.transAxes, ha="center", color=QUIET)
         return
-    axes.set_ylim(0.6 * floor, 2 * max(error for _, error, _ in places))
+    axes.set_ylim(0.6 * floor, max(2 * max(error for _, error, _ in places), 20 * floor))
     to_share = axes.transScale + axes.transLimits
     wanted = sorted(
         ((float(to_share.transform((x, y))[1]), x, y, row) for x, y, row in places), key=lambda each: each[0]
