@@ -46,6 +46,8 @@ OWN = "fctd"  # the engine with its own arcs, with which others are compared
 ARCS = "arcs"  # the row of them as a contact method, if there is one
 CALL = 1000  # points of a call in the race, at most; as many as the string has contact points
 TOLERANCE = 0.01  # of the counts of segments that suffice
+FOR_LOADS = 0.5  # share of the budget that contract and memory leave to the loads
+SPENT = "the budget is spent"
 MESHES = "a mesh, which has frames alone in a quick comparison"
 # Called with what is done, how many of it, and of how many.
 Progress = Callable[[str, float, float], object]
@@ -59,10 +61,11 @@ def compare_methods(
     """Compare contact methods and engines on the hole, string and operation of a case.
 
     methods, engine : names, texts "name,key=value", or pairs of name and options; "all" stands for all that are
-    installed.  operation : its number in the case, from 1, or its kind.  budget : wall-clock time [s] in which loads
-    are computed, those that are expected to be cheapest first.  quick : a first look, of a minute: meshes have no
-    loads, the contract no long holes, and memory is not measured.  segments : a range of counts, as of ``fctd.refine``,
-    over which the loads of the window's operation are found beside all that, by the engine's own steady string.
+    installed.  operation : its number in the case, from 1, or its kind.  budget : wall-clock time [s] in which work
+    may begin: errors and costs, contract and memory in its first half, and loads, the cheapest first, that are expected
+    to fit what is left.  quick : a first look, of a minute: meshes have no loads, the contract no long holes, and
+    memory is not measured.  segments : a range of counts, as of ``fctd.refine``, over which the loads of the window's
+    operation are found beside all that, by the engine's own steady string.
 
     Ctrl-C ends it with the rows so far.  Raises InputError for a case that cannot be simulated, and for an unknown name
     or option; whatever else fails is a row with its reason.
@@ -158,17 +161,21 @@ class Comparing:
         """Fill the rows: what is cheap first."""
         if self.preset.plan is not None:
             self._own_loads(self.preset.plan)
-        able = [row for row in self.methods if row.status == "not run"]
-        for k, row in enumerate(able):
-            self.progress(f"{row.label}: errors, contract", k, len(able))
+        asked = [row for row in self.methods if row.status == "not run"]
+        for k, row in enumerate(asked):
+            self.progress(f"{row.label}: errors", k, len(asked))
             self._frames(row)
-        able = [row for row in able if row.label in self.built]
+        able = [row for row in asked if row.label in self.built]
         self.progress("cost of a point", 0, 1)
         began, worked = time.perf_counter(), time.process_time()
         found, self.comparison.kernel_ns = costs(self.built, self.preset.near, self.preset.sizes, ARCS)
         self.busy = max((time.perf_counter() - began) / max(time.process_time() - worked, 1e-9), 1.0)
         for row in able:
             row.costs = found[row.label]
+        held = [row for row in asked if self.preset.contract and row.status in ("measured", "failed")]
+        for k, row in enumerate(held):
+            self.progress(f"{row.label}: contract", k, len(held))
+            self._contract(row)
         weighed = [row for row in able if self.preset.memory(row)]
         for k, row in enumerate(weighed):
             self.progress(f"{row.label}: memory", k, len(weighed))
@@ -200,6 +207,11 @@ class Comparing:
         """Time of the budget that is left [s]."""
         return self.budget - (time.perf_counter() - self.began)
 
+    @property
+    def loads_wait(self) -> bool:
+        """Whether what is left of the budget is for the loads."""
+        return self.left < FOR_LOADS * self.budget
+
     def _own_loads(self, plan: Plan) -> None:
         """The loads of the engine's own arcs, and what such a run takes."""
         began, engine = time.perf_counter(), Fctd(StepOptions())
@@ -212,7 +224,10 @@ class Comparing:
         self.own.broken = _broken(engine)
 
     def _frames(self, row: Row) -> None:
-        """Build a method, find its errors in this hole, and hold it to the contract; whatever it raises is a reason."""
+        """Build a method, and find its errors in this hole; whatever it raises is a reason."""
+        if self.left < 0:
+            row.loads_reason = SPENT
+            return
         try:
             began = time.perf_counter()
             method = contact.build(row.name, self.preset.case, **row.options)
@@ -227,14 +242,22 @@ class Comparing:
             row.status, row.reason = "failed", f"{type(error).__name__}: {error}"
         else:
             self.built[row.label], row.status = method, "measured"
-        if self.preset.contract and row.status != "refused":
-            found = contact.REGISTRY.options(row.name, row.options).model_dump(exclude_unset=True)
-            row.broken, remarks = contract_of(contact.method_class(row.name), found, quick=self.quick)
-            row.remarks += remarks
+
+    def _contract(self, row: Row) -> None:
+        """Hold a method to the contract."""
+        if self.loads_wait:
+            row.remarks.append("not held to the contract: half of the budget is spent")
+            return
+        found = contact.REGISTRY.options(row.name, row.options).model_dump(exclude_unset=True)
+        row.broken, remarks = contract_of(contact.method_class(row.name), found, quick=self.quick)
+        row.remarks += remarks
 
     def _memory(self, row: Row) -> None:
         """Memory and time of building a method, in a process of its own."""
         if row.cost is None:
+            return
+        if self.loads_wait:
+            row.remarks.append("memory was not measured: half of the budget is spent")
             return
         if 2 * self.build_s[row.label] > self.left:
             row.remarks.append(f"memory was not measured: it took {self.build_s[row.label]:.3g} s to build")
@@ -277,7 +300,7 @@ class Comparing:
     def _hold(self, plan: Plan, row: Row) -> bool:
         """Hold an engine to the gate, and time some of its steps; False where it cannot run the case."""
         if self.left < 0:
-            row.loads_reason = "the budget is spent"
+            row.loads_reason = SPENT
             return False
         try:
             engine = engines.build(row.name, **row.options)

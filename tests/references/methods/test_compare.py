@@ -13,6 +13,7 @@ from fctd.case.errors import InputError
 from references.contact.reference_hole import hole_of
 from references.engines import checks
 from references.methods import asked, compare_methods, in_hole, window
+from references.methods.compare import Comparing
 from references.methods.in_hole import POINTS
 from references.methods.window import plan_of
 from tests.references.engines.faulty import FACTOR
@@ -176,12 +177,32 @@ def test_a_case_without_operations_rotates_at_its_deepest() -> None:
     assert plan_of(case).described.to_md_m == pytest.approx(case.deepest)
 
 
-def test_what_does_not_fit_the_budget_has_no_loads_and_says_what_it_would_take() -> None:
-    found = rows(compare_methods(well(), ["arcs"], budget=1e-3, quick=True))
-    assert found["arcs"].loads is None
-    assert found["arcs"].loads_reason.startswith("expected to take ")
-    assert found["arcs"].cost is not None
+@pytest.mark.parametrize(
+    ("what", "left", "expected"),
+    [
+        ("cost of a point", 1e-4, {"loads": "expected to take ", "kept": False, "errors": True}),
+        ("arcs: errors", -1.0, {"loads": "the budget is spent", "kept": False, "errors": False}),
+        ("cylinders: contract", 29.0, {"loads": "", "kept": True, "errors": True}),
+    ],
+)
+def test_what_the_budget_leaves_out_says_so(
+    what: str, left: float, expected: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of a budget of a minute so much is left from a part of the work on; half of it waits for the loads."""
+
+    def spend(doing: str, *_: float) -> None:
+        if doing == what:
+            monkeypatch.setattr(Comparing, "left", left)
+
+    found = rows(compare_methods(well(), ["arcs", "cylinders"], quick=True, progress=spend))
+    assert found["arcs"].loads_reason.startswith(expected["loads"])
+    assert (found["arcs"].loads is None) == bool(expected["loads"])
+    assert (found["arcs"].verdict == "kept") == expected["kept"]
+    assert (found["arcs"].errors is not None) == expected["errors"]
     assert found["arcs"].sound
+    if expected["kept"]:
+        assert found["cylinders"].verdict == ""
+        assert "half of the budget" in found["cylinders"].remarks[0]
 
 
 def test_what_an_engine_compiles_at_first_is_not_expected_of_every_step(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -249,7 +270,7 @@ def test_a_hole_with_a_caliper_is_judged_by_the_sampled_wall_of_the_engine() -> 
     rows_of_log = np.column_stack([md, *[radii] * 8]).tolist()
     caliper = {"geometry": "sampled", "caliper": {"rows": rows_of_log, "values": "radius"}}
     hole = well().wellbore.model_dump(include={"stations", "intervals"}, exclude_none=True)
-    found = compare_methods(well(wellbore=hole | caliper), ["libigl", "arcs"], budget=0.0, quick=True)
+    found = compare_methods(well(wellbore=hole | caliper), ["libigl", "arcs"], quick=True)
     assert "sampled wall" in found.reference
     mesh = rows(found)["libigl"].errors
     assert mesh is not None
