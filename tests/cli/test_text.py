@@ -17,7 +17,7 @@ from rich.table import Table
 from fctd.case.load import Case
 from fctd.case.text import printable_lines
 from fctd.cli import main, options
-from references.__main__ import app as references_app
+from references.commands import app as references_app
 from tests.case.test_text import ANYTHING
 from tests.cli.tiny import SMALL
 from tests.commands import Command

@@ -4,7 +4,7 @@ from unittest.mock import patch
 
 from typer.testing import CliRunner
 
-from references.__main__ import app, screen
+from references.commands import app, screen
 
 
 def listed() -> str:

@@ -1,5 +1,8 @@
 """``python -m references`` from the command line: the list, a run, messages, exit codes."""
 
+import os
+import subprocess
+import sys
 from pathlib import Path
 from unittest.mock import Mock
 
@@ -8,7 +11,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from fctd.cli.main import run
-from references import __main__ as command
+from references import commands as command
 from references import contact, engines
 
 CASE = Path(__file__).parents[2] / "validation" / "cases" / "curved_chain.toml"
@@ -97,3 +100,13 @@ def test_an_engine_runs_a_window_and_prints_its_checks(
     monkeypatch.setitem(__import__("sys").modules, "mujoco", None)
     assert call(monkeypatch, "engine", CASE, "--engine", "mujoco", *window) == 2
     assert "package mujoco, which is not installed" in capsys.readouterr().err
+
+
+def test_ctrl_c_while_packages_are_imported_leaves_no_traceback(tmp_path: Path) -> None:
+    (tmp_path / "pandas.py").write_text("raise KeyboardInterrupt")
+    paths = os.pathsep.join([str(tmp_path), str(Path(__file__).parents[2])])
+    done = subprocess.run(
+        [sys.executable, "-m", "references", "list"],
+        env=os.environ | {"PYTHONPATH": paths}, cwd=tmp_path, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert (done.returncode, done.stderr) == (130, "")

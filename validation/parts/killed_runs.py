@@ -22,7 +22,7 @@ from fctd.results.tables import TABLES, open_result
 from fctd.store import save_interval
 from fctd.store.parquet import read_frame
 from fctd.store.run_folder import about_of, chunks_of, progress_of, run_path
-from references.__main__ import app as references
+from references.commands import app as references
 
 # Processes for each kill, after which a command counts as one that ends before it can be killed.
 MOST_PROCESSES = 20
