@@ -14,6 +14,7 @@ from typing import Any
 import pytest
 
 from fctd.case.doubts.usual import USUAL
+from fctd.arena.result import Comparison
 from fctd.case.errors import InputError
 from fctd.case.load import KINDS, load_case
 from fctd.cli import main
@@ -379,6 +380,11 @@ def test_a_picture_is_drawn(tmp_path: Path) -> None:
     from docs import pictures
 
     assert pictures.draw("overview", tmp_path).stat().st_size > 10_000
+
+
+def test_the_comparison_of_a_picture_has_the_schema_of_the_command() -> None:
+    stored = (ROOT / "docs" / "methods.json").read_text(encoding="utf-8")
+    assert len(Comparison.model_validate_json(stored).rows) == 14
 
 
 def test_the_message_in_the_guide_is_the_one_that_is_printed() -> None:
