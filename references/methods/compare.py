@@ -213,10 +213,10 @@ class Comparing:
         return self.left < FOR_LOADS * self.budget
 
     def _own_loads(self, plan: Plan) -> None:
-        """The loads of the engine's own arcs, and what such a run takes."""
-        began, engine = time.perf_counter(), Fctd(StepOptions())
+        """The loads of the engine's own wall, and the processor time [s] of such a run."""
+        began, engine = time.process_time(), Fctd(StepOptions())
         run, stepper = timed_run(plan, engine)
-        self.own.predicted_s = self.alone = time.perf_counter() - began
+        self.own.predicted_s = self.alone = time.process_time() - began
         self.forces = mean_forces(stepper)
         self.shared = failed_checks(run)
         self.own.loads = loads_of(run, stepper, self.forces, self.md, self.shared)

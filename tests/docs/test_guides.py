@@ -13,8 +13,8 @@ from typing import Any
 
 import pytest
 
-from fctd.case.doubts.usual import USUAL
 from fctd.arena.result import Comparison
+from fctd.case.doubts.usual import USUAL
 from fctd.case.errors import InputError
 from fctd.case.load import KINDS, load_case
 from fctd.cli import main
@@ -23,7 +23,7 @@ from fctd.results.notes import MEANINGS
 from fctd.sweep.run import prepare
 from fctd.sweep.spec import read_sweep
 from fctd.view import still
-from references import __main__ as references
+from references import commands as references
 from references.methods.asked import REGISTRIES
 from reports import figures
 from tests.browsers import needs_browser

@@ -8,6 +8,7 @@ import numpy as np
 from fctd.mechanics import state
 from fctd.model.pieces import FRICTION
 from fctd.simulation.run import Run
+from references.engines import StepOptions
 from references.engines.own import Fctd
 from references.engines.run import Around
 
@@ -23,7 +24,7 @@ class FaultyStepper(Around):
     """FCTD's stepper, with a fault added to the run after every advance."""
 
     def __init__(self, run: Run, fault: Fault) -> None:
-        super().__init__(Fctd(Fctd.Options()).begin(run))
+        super().__init__(Fctd(StepOptions()).begin(run))
         self._run, self._fault = run, fault
 
     def advance(self, motion: Any, duration: float) -> None:
@@ -37,7 +38,7 @@ class Faulty(Fctd):
     def __init__(
         self, fault: Fault = nothing, *, at_start: Fault = nothing, stepper: type[FaultyStepper] = FaultyStepper
     ) -> None:
-        super().__init__(Fctd.Options())
+        super().__init__(StepOptions())
         self._fault, self._at_start, self._stepper = fault, at_start, stepper
 
     def begin(self, run: Run) -> Any:

@@ -1,6 +1,7 @@
 """Contact methods and engines on one well: planted faults are seen, failures are rows, an interruption keeps rows."""
 
 import signal
+import time
 from typing import Any
 
 import numpy as np
@@ -11,11 +12,12 @@ from fctd.arena.frames import frame
 from fctd.arena.result import Comparison, Row
 from fctd.case.errors import InputError
 from references.contact.reference_hole import hole_of
-from references.engines import checks
-from references.methods import asked, compare_methods, in_hole, window
+from references.engines import StringEngine, checks
+from references.methods import asked, compare, compare_methods, in_hole, window
 from references.methods.compare import Comparing
 from references.methods.in_hole import POINTS
-from references.methods.window import plan_of
+from references.methods.loop import timed_run
+from references.methods.window import Plan, plan_of
 from tests.references.engines.faulty import FACTOR
 from tests.references.methods.planted import OFF, Slow, plant, well
 
@@ -211,6 +213,19 @@ def test_what_an_engine_compiles_at_first_is_not_expected_of_every_step(monkeypa
     assert row.loads is not None
     assert row.predicted_s is not None
     assert row.predicted_s < 0.02 * row.loads.steps  # [s]: half a second in 20 steps is 0.025 s a step
+
+
+def test_what_loads_take_is_expected_in_processor_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A machine on which the run waits for its core: the wait is counted once, in how busy the machine is."""
+
+    def waiting(plan: Plan, engine: StringEngine) -> Any:
+        time.sleep(2.0)
+        return timed_run(plan, engine)
+
+    monkeypatch.setattr(compare, "timed_run", waiting)
+    own = rows(compare_methods(well(), [], quick=True))[OWN]
+    assert own.predicted_s is not None
+    assert own.predicted_s < 2.0
 
 
 @pytest.mark.parametrize(("each", "points"), [(0.0, POINTS), (1e-3, 500)])
