@@ -98,7 +98,7 @@ def _cost_against_error(axes: Axes, rows: Sequence[Row], looks: dict[str, int]) 
         )  # fmt: skip
         places.append((time.median, error, row))
     if not places:
-        axes.text(0.5, 0.5, "no errors of a wall", transform=axes.transAxes, ha="center", color=QUIET)
+        axes.text(0.5, 0.5, "no costs of a point", transform=axes.transAxes, ha="center", color=QUIET)
         return
     axes.set_ylim(0.6 * floor, max(2 * max(error for _, error, _ in places), 20 * floor))
     to_share = axes.transScale + axes.transLimits

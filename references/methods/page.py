@@ -17,8 +17,8 @@ LIMITS = (
     "Times are those of this machine while it had the load above. Other programs that share its caches and its memory "
     "make steps slower; a time in columns of the reference kernel changes less.",
     "A method that breaks the contract, an engine that fails the gate, and a run that is invalid are struck through. "
-    "Their numbers are no measure of anything else.",
-    "A row without loads says why below the verdicts. It is neither better nor worse than the others.",
+    "Their numbers describe the fault.",
+    "A row without loads says why below the verdicts.",
 )  # fmt: skip
 
 
