@@ -260,8 +260,8 @@ def print_comparison(comparison: Comparison) -> None:
         screen.print(section.title, style="bold")
         for part in section.parts:
             if isinstance(part, Table):
-                facts = {} if part.heads else {"show_header": False}
-                print_table(replace(part, heads=part.heads or ("", "")), words=FOLD, numbers=FOLD, **facts)
+                table = replace(part, heads=part.heads or ("", ""))
+                print_table(table, words=FOLD, numbers=FOLD, show_header=bool(part.heads))
                 console = messages
             elif isinstance(part, Text):
                 console.print(part.text, soft_wrap=True)
