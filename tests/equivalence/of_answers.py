@@ -300,6 +300,7 @@ def monitor_curves(drawn: Drawn) -> None:
         if kind == "rotate_off_bottom":
             read, scale = own.drive_torque, ARM * scale
         found = chart.curve(mode, depth, factor, rpm)  # type: ignore[arg-type]
+        applies(not math.isnan(found))  # as where the load does not grow with the factor
         apart({"reading": found / scale}, {"reading": read / scale}, bound, f"{kind} at {factor:.9g}: ")
 
 
