@@ -54,6 +54,7 @@ class Trip:
         case, hole = self.laid.case, self.laid.hole
         bottom = min(case.depths[1], hole.total_depth)
         md = np.linspace(max((shoe for shoe in case.shoes if shoe < bottom), default=0.0), bottom, PLACES)
+        md = md[md > 0]  # at the table a window has no width, and rounding would leave it
         depth, rows = depth_at(hole, md), case.wellbore.window
         tvd = [row.tvd for row in rows]
         pore, fracture = (

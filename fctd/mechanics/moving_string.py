@@ -9,7 +9,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.arrays import Array
+from fctd.arrays import Array, ceiling
 from fctd.mechanics import dynamics, readings, state, topdrive
 from fctd.mechanics.derrick import put_immersed
 from fctd.mechanics.drive import STIFF, Drive
@@ -90,7 +90,7 @@ class MovingString:
 
         laws : used in place of the string's own, for example with artificial damping.
         """
-        steps = max(int(np.ceil(duration / self.step - 1e-9)), 1)
+        steps = max(int(ceiling(duration / self.step)), 1)
         laws, dt = laws or self.laws, duration / steps
         most = max(self.at_once // self.segments, 1)
         for done in range(0, steps, most):

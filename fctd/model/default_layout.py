@@ -14,7 +14,7 @@ segments.  A string that moves keeps 10 m there, as its time step falls with its
 
 import numpy as np
 
-from fctd.arrays import Array
+from fctd.arrays import Array, ceiling
 from fctd.case.load import Case
 from fctd.model import survey
 from fctd.model.tortuosity import resolving
@@ -27,6 +27,8 @@ LONGEST, AT_BIT, AT_MOVING_BIT, GROWTH = 30.0, 0.5, 10.0, 0.25
 COURSE = 30.0
 # A stabiliser's clearance does not rule the length of its neighbours [m].
 LEAST_CLEARANCE = 0.005
+# A sample so far below an end of a component or an interval lies at this end, but for rounding [m].
+SAME_PLACE = 1e-6
 # Distance of the samples along the string [m], and near the bit of a steady one, up to so far above it.
 SAMPLE, SAMPLE_AT_BIT, NEAR_BIT = 5.0, 0.5, 30.0
 # The last stations, and what ``_turned`` says of them.
@@ -43,10 +45,10 @@ class DefaultLayout:
 
     def __init__(self, case: Case, bit_depth: float, deepest: float | None = None, length: float | None = None) -> None:
         in_hole = bit_depth - case.string.top_md if length is None else length
-        samples = max(int(np.ceil(in_hole / SAMPLE)), 2) + 1
+        samples = max(int(ceiling(in_hole / SAMPLE)), 2) + 1
         self.above_bit, apart = np.linspace(0.0, in_hole, samples, retstep=True)
         steady, deepest = deepest is None, bit_depth if deepest is None else max(deepest, bit_depth)
-        way = int(np.ceil((deepest - bit_depth) / apart))
+        way = int(ceiling((deepest - bit_depth) / apart))
         # From the deepest place upwards: row i has the places of sample i, from the end of the trip to its beginning.
         md = deepest - apart * np.arange(samples + way)
         hole, bend = (np.lib.stride_tricks.sliding_window_view(a, way + 1) for a in _hole(case, md))
@@ -68,7 +70,7 @@ class DefaultLayout:
         """Contact radius [m] at the samples."""
         parts = case.string.components
         ends = np.cumsum([np.inf if part.length is None else part.length for part in parts])
-        k = np.minimum(np.searchsorted(ends, self.above_bit), len(parts) - 1)
+        k = np.minimum(np.searchsorted(ends, self.above_bit - SAME_PLACE), len(parts) - 1)
         return np.array([0.5 * part.contact_diameter for part in parts])[k]
 
     def at(self, above_bit: Array) -> Array:
@@ -78,7 +80,7 @@ class DefaultLayout:
     def count(self, start: float, end: float) -> int:
         """Number of segments between two distances above the bit [m]."""
         first, last = np.interp([start, end], self.above_bit, self._count)
-        return max(int(np.ceil(last - first - 1e-9)), 1)
+        return max(int(ceiling(last - first)), 1)
 
     def lengths(self, start: float, end: float) -> list[float]:
         """Segments from one distance above the bit to another [m], from the lower end upwards."""
@@ -92,7 +94,8 @@ class DefaultLayout:
 def _hole(case: Case, md: Array, course: Array | float = COURSE) -> tuple[Array, Array]:
     """Radius [m] and curvature [1/m] of the hole at depths (n,) [m], the curvature as a mean over a course [m]."""
     intervals = case.wellbore.intervals
-    i = np.minimum(np.searchsorted([interval.to_md for interval in intervals], md), len(intervals) - 1)
+    ends = [interval.to_md for interval in intervals]
+    i = np.minimum(np.searchsorted(ends, md - SAME_PLACE), len(intervals) - 1)
     radius = np.array([0.5 * interval.diameter for interval in intervals])[i]
     return radius, mean_curvature(case.wellbore.trajectory, md, course)
 

@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.arrays import Array
+from fctd.arrays import Array, nearest
 from fctd.case.errors import Computed, InputError
 from fctd.case.load import Case
 from fctd.case.message import quantity
@@ -354,9 +354,8 @@ def _divide(part: ComponentSpec, take: float) -> list[float]:
     whole = take if part.length is None else part.length
     nominal = whole / part.segments if part.segments is not None else part.segment_length
     assert nominal is not None  # ``lay_out`` cuts a component that has neither
-    check_segments(np.floor(take / nominal + 0.5))  # before a list of them fills the memory
+    count = max(nearest(take / nominal), 1.0)
+    check_segments(count)  # before a list of them fills the memory
     if abs(take - whole) < 1e-9:
-        count = max(round(whole / nominal), 1)
-        return [whole / count] * count
-    count = max(int(take / nominal + 0.5), 1)
-    return [nominal] * (count - 1) + [take - nominal * (count - 1)]
+        return [whole / count] * int(count)
+    return [nominal] * int(count - 1) + [take - nominal * (count - 1)]

@@ -17,6 +17,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
+from fctd.arrays import ceiling, nearest
 from fctd.case.string import ComponentSpec, Repeat
 from fctd.model.section import Section, body_of, fitting_of, released, section_of, tool_joint_of
 
@@ -50,7 +51,7 @@ def repeat_of(component: ComponentSpec) -> Repeat:
 
 def joints_in(component: ComponentSpec, length: float) -> int:
     """Number of joints, or stretches, in a length of a component [m]."""
-    return max(math.ceil(length / repeat_of(component).every - SHORTEST - 1e-9), 1)
+    return max(int(ceiling(length / repeat_of(component).every - SHORTEST)), 1)
 
 
 def segments_in(component: ComponentSpec, joints: int) -> int:
@@ -79,7 +80,7 @@ def segments_of(component: ComponentSpec, length: float) -> tuple[float, tuple[f
     has fewer.
     """
     every, own, most = repeat_of(component)
-    count = max(min(round(most * length / every), most), 1)
+    count = max(min(int(nearest(most * length / every)), most), 1)
     tool_joint = length * own / every
     share = np.arange(count + 1) / count
     ends = 0.5 * (length - tool_joint) * (share + 0.5 * (1 - np.cos(np.pi * share)))

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from fctd.arrays import Array
+from fctd.arrays import Array, ceiling
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.string import ComponentSpec
@@ -95,7 +95,7 @@ def resolved(case: Case, bit_depth: float, md: Array, needed: Array) -> Componen
             longest = float(own[inside].max())
             wanted = np.minimum(shortest, own)
             least = float(wanted[inside].min())
-            unit = longest / np.ceil(longest / least - 1e-9)
+            unit = longest / ceiling(longest / least)
             # The few short segments at the bit do not keep the others from being longer.
             at_most = LONGEST * max(float(np.minimum(shortest, AT_MOVING_BIT)[inside].min()) / least, 1.0)
             factor = np.minimum(wanted / unit, at_most)

@@ -76,7 +76,11 @@ SAME: Final = 1e-9
 
 
 def same_section(one: Section, other: Section) -> bool:
-    """Whether two sections are equal but for the rounding of their units."""
+    """Whether two sections are equal but for the rounding of their units, and for a mass beside the axis.
+
+    ``eccentricity`` acts in time alone, and a steady string has the stresses of the same body with it.
+    """
+    one = one._replace(eccentricity=other.eccentricity)
     return all(a == b or abs(a - b) <= SAME * abs(b) for a, b in zip(one, other, strict=True))
 
 

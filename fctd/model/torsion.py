@@ -7,6 +7,7 @@ rotates, and after its start the surface torque swings about its mean for minute
 import numpy as np
 from numpy.typing import ArrayLike
 
+from fctd.arrays import ceiling
 from fctd.model.drillstring import String
 
 PIECE = 20.0  # longest piece of the chain of masses and springs [m]; 200 of them give the period to 1e-5
@@ -21,7 +22,7 @@ def torsional_period(length: ArrayLike, inertia: ArrayLike, stiffness: ArrayLike
     With mass [kg/m] and EA [N] in their places it is the slowest axial period.
     """
     length, inertia, stiffness = (np.atleast_1d(np.asarray(part, float)) for part in (length, inertia, stiffness))
-    count = np.ceil(length / PIECE).astype(int)
+    count = ceiling(length / PIECE).astype(int)
     piece, mass, spring = (np.repeat(part, count) for part in (length / count, inertia, stiffness))
     middle = piece / (2 * spring)  # twist from an end of a piece to its middle, for each N m
     compliance = middle + np.append(0.0, middle[:-1])

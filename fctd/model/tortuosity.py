@@ -7,7 +7,7 @@ stiffness and contacts, not through its friction factor.
 
 import numpy as np
 
-from fctd.arrays import Array
+from fctd.arrays import Array, ceiling
 from fctd.case.errors import InputError
 from fctd.case.message import Message, quantity
 from fctd.case.wall import TortuositySpec
@@ -29,7 +29,7 @@ def winding(stations: Array, spec: TortuositySpec) -> Array:
     seeds give equal holes.  Raises InputError for too many stations, and ValueError as ``minimum_curvature`` does.
     """
     ends = stations[[0, -1], 0]
-    count = int(np.ceil((ends[1] - ends[0]) / spec.wavelength * PER_WAVE))
+    count = int(ceiling((ends[1] - ends[0]) / spec.wavelength * PER_WAVE))
     if count > MOST_STATIONS:
         raise InputError(
             f"a wavelength that needs at most {MOST_STATIONS} stations",

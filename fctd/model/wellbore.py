@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.arrays import Array, Contacts
+from fctd.arrays import Array, Contacts, ceiling
 from fctd.case.errors import Computed, InputError
 from fctd.case.hole import WellboreSpec
 from fctd.case.load import Case, naming_file
@@ -181,7 +181,7 @@ class Wellbore:
                 return np.column_stack([self.md, self.directions])
             return np.column_stack([middle, self.directions[:-1]])
         turn = np.linalg.norm(np.diff(self.directions, axis=0), axis=1)
-        md = _divided(self.md, np.maximum(np.ceil(turn / SMALL_TURN), 1))
+        md = _divided(self.md, np.maximum(ceiling(turn / SMALL_TURN), 1))
         md = md[np.append(True, np.diff(md) > APART)]
         return np.column_stack([md, self.at(md)[1]])
 
@@ -382,7 +382,7 @@ def _cylinder_ends(hole: WellboreSpec, stations: Array, ends: Array) -> Array:
     apart = np.abs(np.subtract.outer(ends, stations[:, 0])).min(axis=1) > SAME_LENGTH
     breaks = np.union1d(stations[:, 0], ends[apart])
     course = np.searchsorted(stations[:, 0], breaks[:-1], side="right") - 1
-    counts = np.maximum(np.ceil(np.diff(breaks) / wanted[course] - 1e-9), 1)
+    counts = np.maximum(ceiling(np.diff(breaks) / wanted[course]), 1)
     if counts.sum() > MOST_CYLINDERS:
         raise InputError(
             f"a hole of at most {MOST_CYLINDERS} cylinders",

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from fctd.arrays import ceiling
 from fctd.case.errors import InputError
 from fctd.mechanics.topdrive import Motion
 from fctd.model.operations import Phase
@@ -49,7 +50,7 @@ def within(phases: list[Phase], window: Window, longest: float) -> list[Interval
         last = min(motion.start + motion.duration, end)
         if last <= now + 1e-9:
             continue
-        count = max(int(np.ceil((last - now) / longest - 1e-9)), 1)
+        count = max(int(ceiling((last - now) / longest)), 1)
         parts += [Interval(motion, operation, float(t)) for t in np.linspace(now, last, count + 1)[1:]]
         now = last
     if now < end - 1e-9:

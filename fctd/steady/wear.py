@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from fctd.arrays import Array
+from fctd.arrays import Array, nearest
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionChoice
 from fctd.case.load import Case, naming_file, with_friction
@@ -194,7 +194,7 @@ def _times(depths: Sequence[float], duration: float | str | None, penetration: f
 
 def _ends(top: float, bottom: float, step: float) -> Array:
     """Ends of rows of casing (k + 1,) [m], of about a step each."""
-    return np.linspace(top, bottom, max(round((bottom - top) / step), 1) + 1)
+    return np.linspace(top, bottom, max(int(nearest((bottom - top) / step)), 1) + 1)
 
 
 def _string(solver: Solver, operation: str, rates: SteadyRates, depth: float) -> Equilibrium:

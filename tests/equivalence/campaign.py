@@ -17,6 +17,7 @@ from tests.equivalence import (  # noqa: F401  which fill the table
     of_joints,
     of_loads,
     of_parts,
+    of_runs,
     of_strings,
     ways_in,
 )

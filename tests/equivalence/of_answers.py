@@ -10,9 +10,11 @@ import fctd
 from fctd.case.load import load_case
 from fctd.hydraulics.channel import has_flow_curve
 from fctd.hydraulics.pressures import circulation, hydraulics_of
-from fctd.hydraulics.surge import surge_pressures
-from fctd.model.operations import weight_indicator
+from fctd.hydraulics.surge import fastest_trips, surge_pressures
+from fctd.model.fluids import depth_at
+from fctd.model.operations import rates_of_all
 from fctd.monitoring.chart import FACTORS, Chart
+from fctd.report.answers import Asked, answer
 from fctd.results.unit_systems import in_field_units
 from fctd.steady.equilibrium import equilibrium, lie_along
 from fctd.steady.free_point import free_point
@@ -23,10 +25,12 @@ from fctd.steady.wear import casing_wear
 from fctd.sweep.design import sample_of
 from fctd.sweep.run import prepare
 from fctd.sweep.spec import read_sweep
-from tests.equivalence.answers import EXACT, FLOW, ROUNDING, Answers, apart, base, changed, plain, some_kinds
+from tests.equivalence.answers import ARM, EXACT, FLOW, ROUNDING, Answers, apart, base, changed, plain, some_kinds
 from tests.equivalence.draws import Drawn
 from tests.equivalence.holes import INCH, Raw
-from tests.equivalence.of_files import assert_rows
+from tests.equivalence.of_files import assert_rows, command, folder_of
+from tests.equivalence.of_parts import GRAVITY
+from tests.equivalence.rigs import flow_of
 from tests.equivalence.table import applies, statement
 from tests.equivalence.ways_in import assert_equal
 
@@ -41,6 +45,8 @@ OF_FIELD = {
 }  # fmt: skip
 # The load of a limit is found within 2e-3 of it, or exactly.
 AT_LIMIT = 5e-3
+# Cubics between the factors of a chart; of the weight, and of the weight times ``ARM``.
+BETWEEN_FACTORS = 5e-3
 
 
 def assert_same_rows(one: pd.DataFrame, other: pd.DataFrame, within: float, but: tuple[str, ...] = ()) -> None:
@@ -279,16 +285,92 @@ def sweep_rates(drawn: Drawn) -> None:
         assert_rows(row, pd.DataFrame(runner.rows_of(sample_of(samples, 0))), f"sweep, {work['kind']}")
 
 
-@statement("monitor's readings = equilibrium at its factors", slow=True)
-def monitor_readings(drawn: Drawn) -> None:
-    """What the rig reads of a trip in mud at rest, by friction factor."""
+@statement("monitor's curves = equilibrium", slow=True)
+def monitor_curves(drawn: Drawn) -> None:
+    """What the rig reads of trips and of rotation in mud at rest: at a factor of its chart, and between two of them."""
     chart = Chart(drawn.case, "all")
-    mode, kind = drawn.dice(45).pick([("pick_up", "trip_out"), ("slack_off", "trip_in")])
-    depth = round(drawn.depth) - 1.0
-    found = chart.readings(mode, depth, math.nan)  # type: ignore[arg-type]
-    k = drawn.dice(46).whole(1, 4)
-    own = equilibrium(chart.case, kind, depth, flow=0.0, friction=float(FACTORS[k]))
-    applies(plain(own))
-    way = {"trip_out": -1, "trip_in": 1}[kind]
-    read = weight_indicator(chart.case.rig, way, own.hookload)
-    apart({"indicator": found[k] / base(drawn).weight}, {"indicator": read / base(drawn).weight}, ROUNDING)
+    dice, depth = drawn.dice(45), round(drawn.depth) - 1.0
+    mode, kind = dice.pick([("pick_up", "trip_out"), ("slack_off", "trip_in"), ("rotating", "rotate_off_bottom")])
+    rpm = rates_of_all(chart.case, [kind], flow=0.0)[kind].spin * 30 / math.pi
+    k = dice.whole(1, 3)
+    for factor, bound in ((float(FACTORS[k]), ROUNDING), (dice.number(FACTORS[k], FACTORS[k + 1]), BETWEEN_FACTORS)):
+        own = equilibrium(chart.case, kind, depth, flow=0.0, friction=factor)
+        applies(plain(own))
+        read, scale = own.weight_indicator, base(drawn).weight
+        if kind == "rotate_off_bottom":
+            read, scale = own.drive_torque, ARM * scale
+        found = chart.curve(mode, depth, factor, rpm)  # type: ignore[arg-type]
+        applies(not math.isnan(found))  # as where the load does not grow with the factor
+        apart({"reading": found / scale}, {"reading": read / scale}, bound, f"{kind} at {factor:.9g}: ")
+
+
+@statement("answers of a report = chart and equilibrium")
+def report_answers(drawn: Drawn) -> None:
+    """Its chart, and the strings at the deepest bit depth."""
+    kinds, depths = list(some_kinds(drawn)), [drawn.depth - 13.0, drawn.depth]
+    found = answer(drawn.case, Asked(kinds, depths, limits=False))
+    assert_rows(chart_rows(drawn.case, kinds, depths, threads=1), found.chart, "report")
+    for kind, point in zip(kinds, found.points, strict=True):
+        own = base(drawn)[kind]
+        assert point.status == own.status, f"{kind}: {point.status} and {own.status}"
+        assert_equal(f"{kind}: hook load", point.hookload, own.hookload)
+
+
+def in_one_mud(drawn: Drawn) -> Drawn:
+    """The drawn hole and string in one fluid that has a flow curve, within a window that is narrowest at the bottom."""
+    dice, density = drawn.dice(83), drawn.raw["mud"]["density"]
+    deepest = float(depth_at(base(drawn).solver.hole, np.array([drawn.case.deepest]))[0])
+
+    def window(tvd: float, margin: float) -> Raw:
+        return {"tvd": tvd, "pore": density - margin, "fracture": density + margin}
+
+    hole = drawn.raw["wellbore"] | {"window": [window(0.0, 600.0), window(deepest, dice.number(3, 30))]}
+    hole["intervals"] = [
+        {key: value for key, value in row.items() if key != "overbalance"} for row in hole["intervals"]
+    ]
+    mud = {"density": density} | flow_of(dice)
+    kept = {key: value for key, value in drawn.raw.items() if key not in ("operations", "bit")}
+    return Drawn(drawn.seed, drawn.index, kept | {"wellbore": hole, "mud": mud})
+
+
+@statement("swab = surge turned round")
+def swab(drawn: Drawn) -> None:
+    """Without pumps and a float the mud flows back as it came."""
+    case, end = in_one_mud(drawn).case, drawn.dice(80).pick(["open", "closed"])
+    down, up = (surge_pressures(case, 0.4, drawn.depth, kind, end).iloc[0] for kind in ("trip_in", "trip_out"))
+    for name in ("surge_Pa", "shoe_surge_Pa"):
+        apart({name: down[name] / 1e6}, {name: -up[name] / 1e6}, ROUNDING)
+
+
+@statement("the fastest trip fills the window")
+def fastest_fills(drawn: Drawn) -> None:
+    """At its speed mud at rest and the surge of a trip have the pressure of the window where it ends."""
+    case, kind = in_one_mud(drawn).case, drawn.dice(81).pick(["trip_in", "trip_out"])
+    fastest = fastest_trips(case, drawn.depth, kind, "closed").iloc[0]
+    speed, md = float(fastest["fastest_m_s"]), float(fastest["md_m"])
+    applies(speed > 0 and md >= drawn.depth)  # at the bit and below it the pressure changes by the surge
+    surge = float(surge_pressures(case, speed, drawn.depth, kind, "closed")["surge_Pa"].iloc[0])
+    tvd = float(depth_at(base(drawn).solver.hole, np.array([md]))[0])
+    side = "fracture" if kind == "trip_in" else "pore"
+    rows = case.wellbore.window
+    density = np.interp(tvd, [row.tvd for row in rows], [getattr(row, side) for row in rows])
+    rest = GRAVITY * tvd * case.mud.density
+    apart({side: (rest + surge) / 1e7}, {side: float(density) * GRAVITY * tvd / 1e7}, AT_LIMIT)
+
+
+@statement("fctd surge = the functions with their arguments", slow=True)
+def surge_command(drawn: Drawn) -> None:
+    """Speeds, depths, operations, ends and eccentricity; the fastest trips."""
+    drawn = in_one_mud(drawn)
+    case, beside = drawn.case, drawn.dice(82).number(0.1, 0.9, 2)
+    ends = ["open", "closed"]
+    rows = surge_pressures(case, [0.2, 0.5], drawn.depth, "trip_in", ends, beside)
+    with folder_of(drawn) as folder:
+        command(
+            "surge", folder / "well.toml", "--speed", "0.2 m/s,0.5 m/s", "--depths", f"{drawn.depth!r} m",
+            "--operation", "trip_in", "--end", ",".join(ends), "--eccentricity", beside, "--units", "si", "--quiet",
+            "--out", folder / "rows.csv", "--trips", folder / "trips.csv",
+        )  # fmt: skip
+        assert_same_rows(pd.read_csv(folder / "rows.csv")[list(rows.columns)], rows, ROUNDING)
+        fastest = fastest_trips(case, drawn.depth, "trip_in", ends, beside)
+        assert_same_rows(pd.read_csv(folder / "trips.csv")[list(fastest.columns)], fastest, ROUNDING)

@@ -5,6 +5,8 @@ import io
 import re
 import sys
 import tempfile
+import tomllib
+import warnings
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -14,12 +16,18 @@ import pandas as pd
 from fctd.case.load import load_case
 from fctd.case.operations import KINDS
 from fctd.cli.main import main
+from fctd.model.first_case import new_case
+from fctd.model.new_case import from_template
+from fctd.model.templates import TEMPLATES
 from fctd.steady.torque_drag import chart_rows
 from fctd.sweep.design import sample_of
 from fctd.sweep.run import prepare
 from fctd.sweep.spec import read_sweep
-from tests.equivalence.answers import EXACT, ROUNDING, base, same
+from tests.case.witsml_files import component, tubular
+from tests.equivalence.answers import EXACT, ROUNDING, Answers, alike, base, same, some_kinds
 from tests.equivalence.draws import Drawn
+from tests.equivalence.holes import INCH
+from tests.equivalence.of_strings import pipe_written
 from tests.equivalence.table import applies, statement
 from tests.equivalence.ways_in import assert_equal
 from tests.strategies import write_case
@@ -178,3 +186,43 @@ def trajectory(rows: Sequence[Sequence[float]]) -> str:
         'version="1.4.1.1"><trajectory uidWell="w" uidWellbore="b" uid="t"><nameWell>w</nameWell>'
         f"<nameWellbore>b</nameWellbore><name>t</name>{stations}</trajectory></trajectorys>"
     )
+
+
+@statement("a template = the same written out", slow=True)
+def template_written(drawn: Drawn) -> None:
+    """Its text in either system of units, its case in SI, and the pipe of its catalogue written out."""
+    dice = drawn.dice(24)
+    plan = from_template(TEMPLATES[dice.pick(list(TEMPLATES))], "drawn", dice.pick(["si", "field"]))
+    template = Drawn(drawn.seed, drawn.index, tomllib.loads(plan.text()))
+    bare = load_case(template.raw).model_dump(exclude_none=True)
+    same(template, load_case(bare), ROUNDING)
+    if template.has("pipe"):
+        pipe_written(template)
+
+
+@statement("a string of WITSML = the same in TOML", slow=True)
+def witsml_string(drawn: Drawn) -> None:
+    """A bit, collars and pipe by their diameters, lengths and masses, in the case that `fctd init` writes of them."""
+    dice, total = drawn.dice(25), drawn.raw["wellbore"]["stations"][-1][0]
+    wide, mass = dice.number(5.5, 6, 3), dice.number(28, 34, 3)
+    collars, (unit, one) = dice.number(30, 90, 3), dice.pick([("ft", 0.3048), ("m", 1.0)])
+    parts = [
+        component("bit PDC fixed cutter", 1, 0.3, 8.5, 2.25, wtPerLen=(150, "kg/m")),
+        component("drill collar", 2, 0, 6.3, 2.9, len=(repr(collars / one), unit), wtPerLen=(120, "kg/m")),
+        component("drill pipe", 3, total, 4.9, 4.1, odMx=(wide, "in"), wtPerLen=(mass, "kg/m")),
+    ]
+    with tempfile.TemporaryDirectory(prefix="fctd-equivalence-") as name, warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of what the file leaves open
+        file = Path(name) / "string.xml"
+        file.write_text(tubular(parts), encoding="utf-8")
+        survey = pd.DataFrame(drawn.raw["wellbore"]["stations"], columns=["md_m", "inc_deg", "azi_deg"])
+        case = new_case(survey, string=file)
+    raw = case.model_dump(exclude_none=True)
+    body = [(8.5, 2.25, 8.5, 150.0, 0.3), (6.3, 2.9, 6.3, 120.0, collars), (4.9, 4.1, wide, mass, total)]
+    keys = ("outer_diameter", "inner_diameter", "contact_diameter", "linear_mass", "length")
+    raw["string"]["components"] = [
+        {"name": f"part {k}", "contact": spec.contact}
+        | dict(zip(keys, [number * INCH for number in numbers[:3]] + list(numbers[3:]), strict=True))
+        for k, (spec, numbers) in enumerate(zip(case.string.components, body, strict=True))
+    ]
+    alike(Answers(case, total), Answers(load_case(raw), total), some_kinds(drawn), ROUNDING, loads_only=True)

@@ -8,6 +8,8 @@ from tests.equivalence.draws import Drawn
 from tests.equivalence.holes import Raw
 from tests.equivalence.table import applies, statement
 
+# Tension presses pipe into a bend by where its segments end: the median of limits along it moves by less than this.
+WHOLE_PIPE = 0.02
 WEIGHTS_ON_BIT = (0.05, 0.1, 0.2, 0.4)  # of the string's weight
 
 
@@ -64,6 +66,35 @@ def buckled_row(drawn: Drawn) -> None:
         excess = max(float((-of["effective_tension_N"] / limit).max()), 0.0)
         apart({"excess": point.buckling.excess}, {"excess": excess}, ROUNDING, f"{share}: ")
     applies(compared)
+
+
+@statement("limits of buckling in joints = of pipe whose joints are not laid out")
+def limits_in_joints(drawn: Drawn) -> None:
+    """The pipe snakes as a whole, with its tool joints on the wall: its clearance is theirs, and not its body's."""
+    parts = drawn.case.string.components
+    joints = next((k for k, part in enumerate(parts) if part.joint is not None), None)
+    applies(joints is not None)
+
+    def limits(segments: int | None) -> np.ndarray:
+        def cut(raw: Raw) -> None:
+            part = raw["string"]["components"][joints]
+            for key in ("segments", "segment_length", "joint_segments"):
+                part.pop(key, None)
+            part |= {"segment_length": 9.0} if segments is None else {"joint_segments": segments}
+
+        answers = Answers(changed(drawn, cut), drawn.depth)
+        point, origin = answers["trip_out"], answers.laid.string.origin
+        applies(point.answered)
+        of = point.profile[np.append(False, origin == joints)]
+        found = np.interp(places, of["md_m"], of["sinusoidal_limit_N"])
+        return np.asarray(found)
+
+    origin = base(drawn).laid.string.origin == joints
+    ends = drawn.case.string.top_md + np.append(0.0, np.cumsum(base(drawn).laid.string.length))
+    places = np.linspace(ends[:-1][origin].min(initial=np.inf), ends[1:][origin].max(initial=-np.inf), 42)[1:-1]
+    applies(origin.any())
+    median = float(np.median(limits(2) / limits(None)))
+    apart({"limit": median}, {"limit": 1.0}, WHOLE_PIPE)
 
 
 @statement("a bent string = the same with each segment a component", slow=True)

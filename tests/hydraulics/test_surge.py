@@ -89,6 +89,14 @@ def test_a_window_that_no_trip_stays_in_says_why() -> None:
     assert np.isnan(fastest_trips(dense, [500.0, 1000.0], operation="trip_in")["time_s"].iloc[-1])
 
 
+def test_rounding_at_the_table_leaves_no_window() -> None:
+    """Open hole to the surface: there a window has no width, and a surge of 1e-12 Pa had closed it to all trips."""
+    hole = [{"to_md": 1000, "diameter": 0.2159, "friction": 0.2}]
+    open_hole = well(wellbore={"intervals": hole, "window": WINDOW})
+    found = fastest_trips(open_hole, list(np.arange(400.0, 1000.0, 37.0)), end="closed")
+    assert found["fastest_m_s"].min() > 0.5
+
+
 def test_what_is_left_of_the_window_counts_below_the_bit_too() -> None:
     trip = Trip(lay(well(), 500.0), 1, "closed")
     rest, moving = trip.left(0.0)[0], trip.left(0.5)[0]

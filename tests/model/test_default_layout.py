@@ -49,6 +49,19 @@ def test_a_straight_hole_has_long_segments_but_at_the_bit() -> None:
     assert (np.diff(string.length) <= 1e-9).all()  # shorter towards the bit
 
 
+def test_rounding_moves_no_segment() -> None:
+    """In feet lengths, ends of components and shoes are off by a digit; samples lie on the same side of them."""
+    parts = [pipe(100.0, None, outer=0.159), pipe(None, None)]
+    cased = [{"to_md": 900.0, "diameter": 0.3, "friction": 0.2}, {"to_md": 2000.0, "diameter": 0.2159, "friction": 0.2}]
+    found, places = [], np.linspace(0.0, 2000.0, 997)
+    for times in (1 - 2e-16, 1.0, 1 + 4e-16):
+        intervals = [cased[0] | {"to_md": 900.0 * times}, cased[1]]
+        case = make_case(BUILD, [parts[0] | {"length": 100.0 * times}, parts[1]], wellbore={"intervals": intervals})
+        found.append(DefaultLayout(case, 2000.0 * times).at(places))
+    for other in found[::2]:
+        np.testing.assert_allclose(other, found[1], rtol=1e-9)
+
+
 def test_a_chord_in_a_bend_is_within_the_clearance() -> None:
     string = lay_out(whole_case(), 2000.0)
     top, bottom = ends(string.length)[:-1], ends(string.length)[1:]

@@ -37,6 +37,23 @@ def test_segment_length_instead_of_count() -> None:
     assert lay_out(make_case(components=[{**component, "segment_length": 25.0}]), 1000).segments == 40
 
 
+@pytest.mark.parametrize(("length", "nominal"), [(81.6, 9.6), (25.0, 10.0), (95.0, 10.0)])
+def test_halfway_between_two_counts_rounding_does_not_choose(length: float, nominal: float) -> None:
+    """8.5 nominal lengths are nine segments, also where a length in feet is one digit shorter or longer."""
+    components = [pipe(length, None), pipe(1000, 40)]
+    for times in (1 - 1e-15, 1.0, 1 + 1e-15):
+        components[0]["segment_length"] = nominal * times
+        string = lay_out(make_case(components=components), 500.0)
+        assert np.bincount(string.component)[0] == int(length / nominal + 0.5 + 1e-9)
+
+
+def test_a_mass_beside_the_axis_makes_no_body_of_its_own() -> None:
+    """It acts in time alone: stresses beside tool joints are those of one body."""
+    beside = pipe(20, 2, outer=0.159) | {"eccentricity": 0.001}
+    string = lay_out(make_case(components=[beside, pipe(100, 10, outer=0.159), pipe(1000, 40)]), 500.0)
+    assert list(np.unique(string.bodies)) == [0, 2]
+
+
 def test_unlike_neighbours_are_in_series_and_the_clamp_is_half_a_segment_away() -> None:
     string = lay_out(make_case(components=[pipe(100, 2, outer=0.159), pipe(900, 9)]), 1000.0)
     stiffness = string.joints("EA")

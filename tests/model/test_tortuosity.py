@@ -35,6 +35,13 @@ def test_each_direction_across_the_hole_has_the_root_mean_square_of_a_sine() -> 
     assert total == pytest.approx(WAVES["amplitude"], rel=0.01)  # √2 times that of one direction, amplitude/√2
 
 
+def test_rounding_adds_no_station() -> None:
+    """A hole of two wavelengths has 33 stations in metres and in feet: others would be another hole."""
+    stations = np.array([[0.0, 0.0, 0.0], [716.0, 0.0, 0.0]])
+    for wavelength in (358.0 * (1 - 1e-15), 358.0):
+        assert len(winding(stations, TortuositySpec(amplitude=0.02, wavelength=wavelength, seed=1))) == 33
+
+
 def test_the_waves_have_the_wavelength() -> None:
     """Zero crossings of a slope of a vertical hole, as many as the moments of its spectrum give (Rice 1944)."""
     stations = np.array([[0.0, 0.0, 0.0], [2000.0, 0.0, 0.0]])
