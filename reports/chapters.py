@@ -35,7 +35,7 @@ class Sentence(Strict):
                 else []
             )
             if found:
-                values.append(words.quantity(found[0].value, found[0].unit))
+                values.append(words.found(found[0]))
             else:
                 missing.append(study)
         if missing:

@@ -106,7 +106,7 @@ def _write_pages(out: Path, given: Mapping[str, Any]) -> None:
     )
     environment.globals |= {
         "number": words.number,
-        "quantity": words.quantity,
+        "found": words.found,
         "anchor": anchor,
         "long_cell": LONG_CELL,
     }

@@ -167,5 +167,6 @@ def printed(table: pd.DataFrame, caption: str) -> Printed:
     columns = [(*words.heading(name), pd.api.types.is_numeric_dtype(table[name])) for name in names]
     cells = [words.column(table[name]) for name in names]
     failed = np.flatnonzero(words.failed_gate(table)).tolist() if "gate" in names else []
-    struck = {(row, column) for row in failed for column, name in enumerate(names) if name in words.SPEEDS}
+    speeds = [index for index, name in enumerate(names) if columns[index][2] and words.is_speed(name)]
+    struck = {(row, index) for row in failed for index in speeds}
     return Printed(caption, columns, list(zip(*cells, strict=True)), frozenset(struck))

@@ -333,8 +333,7 @@ def tell(done: StudyRun, recorded: Mapping[str, str], console: Console) -> None:
         _say(console, f"  {note}")
     for judged in sorted(run.checks, key=lambda judged: judged.is_finding):  # the findings apart, after the others
         check = judged.check
-        found = f"{check.value:.6g} {check.unit}".rstrip()
-        line = f"  {judged.standing:<23}  {check.name}: {found} ({check.requirement()})"
+        line = f"  {judged.standing:<23}  {check.name}: {check.found()} ({check.requirement()})"
         _say(console, line, STYLES[judged.standing])
         if judged.standing == "worse than recorded":
             _say(console, f"    {check.source}", STYLES[judged.standing])
