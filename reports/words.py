@@ -75,6 +75,7 @@ SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 SPACE, NARROW_SPACE = "\u00a0", "\u202f"  # neither breaks a line
 MINUS = "\u2212"
 NOTHING = "–"
+NOISE = 1e-4  # of the largest number of a column: a smaller difference is not shown
 
 
 def heading(column: str) -> tuple[str, str]:
@@ -162,8 +163,10 @@ def column(values: "pd.Series[Any]") -> list[str]:
     if min(sizes) * 10**decimals < 10:
         return [number(value) for value in numbers]
     finite = [value for value in numbers if math.isfinite(value)]
-    pairs = [(max(finite), min(finite))] + [(size, 1.0) for size in sizes if max(sizes) <= 1]
-    decimals = max(decimals, *(_apart(one, other, max(sizes)) for one, other in pairs))
+    pairs = [(size, 1.0) for size in sizes if max(sizes) <= 1]
+    if max(finite) - min(finite) > NOISE * max(sizes):
+        pairs.append((max(finite), min(finite)))
+    decimals = max([decimals, *(_apart(one, other, max(sizes)) for one, other in pairs)])
     while decimals and all(f"{size:.{decimals}f}".endswith("0") for size in sizes):
         decimals -= 1
     return [_fixed(value, decimals) if math.isfinite(value) else number(value) for value in numbers]
