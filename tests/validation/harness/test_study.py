@@ -74,7 +74,7 @@ def test_quartiles_of_a_fitted_exponent_widen_with_its_scatter():
     assert rough.high - rough.median == pytest.approx(0.7649 * error, rel=1e-3)
 
 
-RATIOS_WITHOUT = {"contact_fronts.py", "contact_swap.py", "faults.py", "rival_contact.py"}
+RATIOS_WITHOUT = {"contact_fronts.py", "contact_swap.py", "rival_contact.py"}
 
 
 def test_a_ratio_of_times_comes_with_its_interval():
