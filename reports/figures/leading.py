@@ -40,7 +40,7 @@ def cost_and_error(tables: Tables) -> Canvas:
     """Error of penetration against cost, a line for each contact method."""
     cost = tables["cost"]
     canvas, ax = _subplots()
-    column = "max_penetration_error_mm"
+    column = "max_error_mm"
     floor = FLOOR * cost.loc[cost[column] > 1e-5, column].min()
     for index, method in enumerate(cost["method"].unique()):
         chosen = cost[cost["method"] == method]
@@ -51,7 +51,7 @@ def cost_and_error(tables: Tables) -> Canvas:
             "markersize": (9, 6, 3.5)[index % 3],
         }
         look |= {"markerfacecolor": "none", "markeredgewidth": 1.2}
-        ax.plot(chosen["ns_per_point"], chosen[column].clip(lower=floor), **look, label=words.name(method))
+        ax.plot(chosen["point_ns"], chosen[column].clip(lower=floor), **look, label=words.name(method))
     exact_line(ax, floor)
     ax.set(xscale="log", yscale="log", xlabel="cost per point, ns", ylabel="largest error of penetration, mm")
     _legend(canvas, ax)
