@@ -98,8 +98,8 @@ def ratio_check(name: str, ratio: Quartiles, bound: float, kind: Kind, source: s
     return Check(name, ratio.median, bound, kind, "", source, timed=True, interval=(ratio.low, ratio.high))
 
 
-def quartiles_of(row: Mapping[Any, Any], column: str) -> Quartiles:
-    """A number of a table whose quartiles stand in the columns of the same name with ``_low`` and ``_high``."""
+def quartiles_of(row: Any, column: str) -> Quartiles:
+    """A number whose quartiles stand in the columns of the same name with ``_low`` and ``_high``; row : of a table."""
     return Quartiles(median=row[column], low=row[f"{column}_low"], high=row[f"{column}_high"])
 
 

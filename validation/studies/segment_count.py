@@ -337,7 +337,7 @@ def _checks(
 
     def largest(what: str, column: str) -> Quartiles:
         of = laws[laws["cost_of"] == what]
-        return quartiles_of(of.loc[of[column].idxmax()], column)
+        return quartiles_of(of.iloc[int(of[column].argmax())], column)
 
     return [
         *(

@@ -299,7 +299,7 @@ def targets(times: pd.DataFrame, found: dict[str, pd.DataFrame]) -> list[Check]:
 
 def real_time(kernel: pd.DataFrame, name: str) -> Quartiles:
     """Simulated over wall time of 60 segments in contact."""
-    row = kernel.set_index("name").loc[name]
+    (row,) = kernel[kernel["name"] == name].to_dict("records")
     step = 1e6 * row["step_ms"] / 60
     return Quartiles(median=step, low=step, high=step).over(quartiles_of(row, "ns"))
 
@@ -334,7 +334,7 @@ def table_of(held: list[Check], made: list[Check], kernel: pd.DataFrame) -> pd.D
 
     made : the checks of this run; the other targets have no verdict.
     """
-    rows = [
+    rows: list[tuple[str, str, str, str]] = [
         (
             check.name,
             check.requirement(),

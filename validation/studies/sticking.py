@@ -297,7 +297,7 @@ def run(context: Context) -> Outcome:
         Check("overpull with a static factor of three times the kinetic one, over μ_s Δp b L",
               float(pulls["share"].iloc[-1]), 0.9, "at_most", "", "the interval frees from the top"),
         ratio_check("step with friction that sticks, over one with law coulomb, largest",
-                    quartiles_of(spent.loc[spent["over_coulomb"].idxmax()], "over_coulomb"), 1.2, "at_most",
+                    quartiles_of(spent.iloc[int(spent["over_coulomb"].argmax())], "over_coulomb"), 1.2, "at_most",
                     "target of this project; windows that alternate"),
         *(
             Check(f"wall of exponent 1.5, {name}", fallen[key], 0.5, "at_most", "%", "Hertz 1882, closed form")
