@@ -6,7 +6,7 @@ from grimp.exceptions import SourceSyntaxError
 from fctd.case.errors import InputError
 from fctd.case.text import degrade_output, printable_lines
 from fctd.cli.interrupts import as_interrupts
-from validation.harness import fingerprint, runner, study
+from validation.harness import fingerprint, full_checks, runner, study
 from validation.harness.registry import STUDIES
 
 OUT = study.ROOT / "reports" / "out"
@@ -35,7 +35,7 @@ def main(context: typer.Context) -> None:
     try:
         changes = runner.changes(STUDIES, study.RESULTS, sources)
         questions = {name: found.question for name in STUDIES if (found := runner.loaded(name))}
-        problems = page.render(study.RESULTS, STUDIES, OUT, changes, questions=questions)
+        problems = page.render(study.RESULTS, STUDIES, OUT, changes, questions=questions, full=full_checks.read())
     except InputError as error:
         typer.echo(printable_lines(f"error: {error}"), err=True)
         raise typer.Exit(2) from error

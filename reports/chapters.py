@@ -1,5 +1,6 @@
 """The chapters of the page and the paper's figures, as ``chapters.toml`` has them, and their answers."""
 
+import math
 import tomllib
 from collections.abc import Iterable, Mapping
 from functools import cache
@@ -20,14 +21,18 @@ class Strict(BaseModel):
 
 
 class Sentence(Strict):
-    """A sentence of an answer; numbers : study and name of the check, for ``{0}`` and so on."""
+    """A sentence of an answer; numbers : study and name of the check, for ``{0}`` and so on.
+
+    otherwise : what it says where the interval of one of its ratios holds 1, so that it may be the other way round.
+    """
 
     says: str
+    otherwise: str = ""
     numbers: tuple[tuple[str, str], ...]
 
     def filled(self, records: Mapping[str, Record]) -> str:
         """The sentence with its numbers, or which studies have to be run for it."""
-        values, missing = [], []
+        values, missing, doubtful = [], [], False
         for study, name in self.numbers:
             found = (
                 [judged.check for judged in records[study].checks if judged.check.name == name]
@@ -35,12 +40,14 @@ class Sentence(Strict):
                 else []
             )
             if found:
-                values.append(words.quantity(found[0].value, found[0].unit))
+                values.append(words.found(found[0]))
+                low, high = found[0].interval or (math.nan, math.nan)
+                doubtful |= low <= 1 <= high
             else:
                 missing.append(study)
         if missing:
             return f"Not answered yet: python -m validation {' '.join(dict.fromkeys(missing))}."
-        return self.says.format(*values)
+        return (self.otherwise if doubtful and self.otherwise else self.says).format(*values)
 
 
 class Chapter(Strict):
@@ -55,11 +62,15 @@ class Chapter(Strict):
 
 
 class PaperFigure(Strict):
-    """A figure of the paper; ours : STUDY/FIGURE, or a study that has tables alone."""
+    """A figure of the paper; ours : STUDY/FIGURE, or a study that has tables alone.
+
+    prints : of a figure with curves, what the text prints of them.
+    """
 
     figure: int
     shows: str
     ours: str
+    prints: str = ""
 
 
 class Contents(Strict):

@@ -16,6 +16,7 @@ from reports.figures.judged import WELLS
 from reports.figures.leading import LEADING, SHOWN
 from reports.sections import Picture, Section, anchor, section_of
 from validation.claims.ledger import CLAIMS
+from validation.harness.full_checks import Full
 from validation.harness.sensitivity import REASONS
 
 TEMPLATES = Path(__file__).parent / "templates"
@@ -29,6 +30,7 @@ def render(
     changes: Mapping[str, str] | None = None,
     ledger: Path = CLAIMS,
     questions: Mapping[str, str] | None = None,
+    full: Full | None = None,
 ) -> list[str]:
     """Write the pages, ``figures`` and ``results.json`` into a folder; return what is missing.
 
@@ -39,10 +41,11 @@ def render(
 
     Studies stand in the order given; results of studies that are not among them come after.  The claims of ``ledger``
     are judged by these results.  changes : study -> what has changed since its result was stored.  questions : study ->
-    its question, for those that have not been run.
+    its question, for those that have not been run.  full : the checks of full runs, some of which a quick
+    one leaves out.
     """
     with whole_folder(out) as new:
-        return _render(stored, studies, new, changes or {}, ledger, questions or {})
+        return _render(stored, studies, new, changes or {}, ledger, questions or {}, full or {})
 
 
 def _render(
@@ -52,6 +55,7 @@ def _render(
     changes: Mapping[str, str],
     ledger: Path,
     questions: Mapping[str, str],
+    full: Full,
 ) -> list[str]:
     """Write the pages into a folder that does not exist yet; see ``render``."""
     for folder in (out / "figures", out / "studies"):
@@ -62,7 +66,7 @@ def _render(
     drawn: dict[str, Picture | None] = {}
     measured: dict[str, Tables] = {}
     for study in dict.fromkeys([*studies, *found]):
-        section, tables = section_of(stored / study, out)
+        section, tables = section_of(stored / study, out, full)
         section.changed = changes.get(study, "")
         section.asked = questions.get(study, "")
         sections[study] = section
@@ -83,6 +87,7 @@ def _render(
         "wells": wells.page_of(sections, measured, claims),
         "chapters": _chapters(sections),
         "paper": [(each, _ours(each.ours, sections)) for each in chapters.contents().paper],
+        "papers": {_address(each.ours, sections): each for each in chapters.contents().paper},
         "findings": [(section, judged) for section in sections.values() for judged in section.findings],
         "absent": [section for section in sections.values() if section.absent],
         "machine": _machine(sections),
@@ -106,7 +111,7 @@ def _write_pages(out: Path, given: Mapping[str, Any]) -> None:
     )
     environment.globals |= {
         "number": words.number,
-        "quantity": words.quantity,
+        "found": words.found,
         "anchor": anchor,
         "long_cell": LONG_CELL,
     }
@@ -153,6 +158,12 @@ def _ours(address: str, sections: Mapping[str, Section]) -> tuple[str, Picture |
     study, _, name = address.partition("/")
     pictures = sections[study].pictures if study in sections else []
     return study, next((picture for picture in pictures if name in ("", picture.name)), None)
+
+
+def _address(ours: str, sections: Mapping[str, Section]) -> tuple[str, str]:
+    """Study and figure of STUDY/FIGURE."""
+    study, picture = _ours(ours, sections)
+    return study, picture.name if picture else ""
 
 
 def _machine(sections: Mapping[str, Section]) -> list[str]:

@@ -23,6 +23,7 @@ class CheckResult(_Table):
 
     name: str
     value: float | None = Field(description="null where the number is not finite")
+    interval: tuple[float, float] | None = Field(description="quartiles of the rounds of a time, or of a fit")
     unit: str
     kind: Literal["at_most", "at_least", "within"]
     bound: float | tuple[float, float]
@@ -96,7 +97,8 @@ def _study(section: Section) -> StudyResult:
     checks = [
         CheckResult(
             name=judged.check.name, value=judged.check.value if math.isfinite(judged.check.value) else None,
-            unit=judged.check.unit, kind=judged.check.kind, bound=judged.check.bound, source=judged.check.source,
+            interval=judged.check.interval, unit=judged.check.unit, kind=judged.check.kind, bound=judged.check.bound,
+            source=judged.check.source,
             verdict=judged.check.verdict, standing=judged.standing,
             page=f"studies/{section.study}.html#{anchor(judged.check.name)}",
         )

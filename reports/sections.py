@@ -6,6 +6,7 @@ import math
 import re
 import sys
 import traceback
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -20,6 +21,7 @@ from reports import figures, words
 from reports.chapters import contents
 from reports.figures import style
 from validation.harness import store
+from validation.harness.full_checks import Full, left_out
 from validation.harness.store import Judged, Record
 
 LONG = 14  # rows of a table that is folded
@@ -33,6 +35,7 @@ class Picture:
     """A drawn figure: embedded in a page (``source``), and as files beside it for download.
 
     small : a small copy, where the first page has one.  least : width at which all letters can be read [px].
+    shows : whether it shows the number of a check, by its name.
     """
 
     name: str
@@ -42,6 +45,7 @@ class Picture:
     svg: str
     png: str
     least: int
+    shows: Callable[[str], bool] = bool
 
 
 @dataclass(frozen=True)
@@ -67,7 +71,8 @@ class Section:
     """What the pages say of one study; without a record, the study has not been run.
 
     changed : the input that has changed since the result was stored; empty where it is up to date.
-    asked : the question of a study that may not have been run; empty where it is not known.
+    asked : the question of a study that may not have been run; empty where it is not known.  left_out : the checks of a
+    full run that the stored one does not make.
     """
 
     study: str
@@ -77,6 +82,7 @@ class Section:
     problems: list[str] = field(default_factory=list)
     changed: str = ""
     asked: str = ""
+    left_out: list[str] = field(default_factory=list)
 
     @property
     def question(self) -> str:
@@ -86,7 +92,19 @@ class Section:
     @property
     def summary(self) -> str:
         """The outcome, in a few words."""
-        return self.record.summary if self.record else "not run"
+        return self.record.summary(self.left_out) if self.record else "not run"
+
+    @property
+    def command(self) -> str:
+        """What makes the stored result again."""
+        quick = " --quick" if self.record and self.record.quick else ""
+        return f"python -m validation {self.study}{quick}"
+
+    def shown(self, picture: "Picture") -> tuple[list[Judged], list[str]]:
+        """The checks whose numbers a figure shows, and those of them that are left out; both empty: it names none."""
+        made = self.record.checks if self.record else ()
+        of = [judged for judged in made if picture.shows(judged.check.name)]
+        return of, [name for name in self.left_out if picture.shows(name)]
 
     @property
     def findings(self) -> list[Judged]:
@@ -113,8 +131,8 @@ def anchor(name: str) -> str:
     return "check-" + re.sub(r"[^a-z0-9]+", "-", name.lower()).strip("-")
 
 
-def section_of(folder: Path, out: Path) -> tuple[Section, figures.Tables]:
-    """Read one study's result and draw its figures; the tables are those of the result."""
+def section_of(folder: Path, out: Path, full: Full) -> tuple[Section, figures.Tables]:
+    """Read one study's result and draw its figures; the tables are those of the result.  full : checks of full runs."""
     section = Section(folder.name)
     if not (folder / "verdict.json").exists():
         return section, {}
@@ -124,6 +142,7 @@ def section_of(folder: Path, out: Path) -> tuple[Section, figures.Tables]:
     except (OSError, ValueError, TypeError, LookupError) as error:
         section.problems.append(f"the result cannot be read: {type(error).__name__}: {error}")
         return section, {}
+    section.left_out = left_out(found, full)
     if found.status != "finished":
         return section, {}
     section.tables = [printed(tables[name], caption) for name, caption in found.display.items()]
@@ -144,7 +163,7 @@ def draw(study: str, figure: figures.Figure, tables: figures.Tables, out: Path) 
         small = _small(canvas) if study in {each.ours.partition("/")[0] for each in contents().paper} else ""
     # As a data address, the identifiers of a drawing stay separate and the page is one file.
     source = "data:image/svg+xml;base64," + base64.b64encode((out / svg).read_bytes()).decode()
-    return Picture(figure.name, figure.caption, source, small, svg, png, readable_width(canvas))
+    return Picture(figure.name, figure.caption, source, small, svg, png, readable_width(canvas), figure.shows)
 
 
 def readable_width(canvas: Canvas) -> int:
@@ -167,5 +186,6 @@ def printed(table: pd.DataFrame, caption: str) -> Printed:
     columns = [(*words.heading(name), pd.api.types.is_numeric_dtype(table[name])) for name in names]
     cells = [words.column(table[name]) for name in names]
     failed = np.flatnonzero(words.failed_gate(table)).tolist() if "gate" in names else []
-    struck = {(row, column) for row in failed for column, name in enumerate(names) if name in words.SPEEDS}
+    speeds = [index for index, name in enumerate(names) if columns[index][2] and words.is_speed(name)]
+    struck = {(row, index) for row in failed for index in speeds}
     return Printed(caption, columns, list(zip(*cells, strict=True)), frozenset(struck))

@@ -2,12 +2,14 @@
 
 import math
 import re
+from collections.abc import Iterable
 from typing import Any
 
 import pandas as pd
 
 from fctd.case.operations import KINDS
 from fctd.results.columns import COLUMNS
+from validation.harness.study import Check
 
 # Endings of column names, longest first, so that ``_kN_m`` is not taken for metres.
 UNITS = {
@@ -47,12 +49,11 @@ UNITS = {
 TIMES = {
     "took_per_m_s": ("time per metre", "s"),
     "ms_per_simulated_s": ("time per simulated second", "ms"),
-    "wall_per_m_ms": ("wall time per metre", "ms"),
     "wall_s": ("wall time", "s"),
 }
 
 # Columns that say how fast an engine is; the pages strike them through where it failed the gate before any speed.
-SPEEDS = (*TIMES, "segment_step_us", "real_time_factor", "ratio_to_fctd", "ratio_low", "ratio_high", "value")
+SPEEDS = (*TIMES, "time_per_m_ms", "segment_step_us", "real_time_factor", "ratio_to_fctd", "ratio", "value")
 
 # What the words of a column's name stand for: the engine's own quantities, names and abbreviations.
 SPELT = {
@@ -74,12 +75,17 @@ SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 SPACE, NARROW_SPACE = "\u00a0", "\u202f"  # neither breaks a line
 MINUS = "\u2212"
 NOTHING = "–"
+NOISE = 1e-4  # of the largest number of a column: a smaller difference is not shown
 
 
 def heading(column: str) -> tuple[str, str]:
     """A column's name in words and its unit: ``bit_depth_m`` gives ("bit depth", "m")."""
     if column in TIMES:
         return TIMES[column]
+    for quartile in ("low", "high"):
+        if column.endswith(f"_{quartile}"):
+            label, unit = heading(column.removesuffix(f"_{quartile}"))
+            return f"{label} {quartile}", unit
     for ending, unit in UNITS.items():
         if column.endswith(f"_{ending}"):
             return _label(column.removesuffix(f"_{ending}")), unit
@@ -109,8 +115,11 @@ def _power(found: re.Match[str]) -> str:
     return f"10{exponent}" if mantissa == "1" else f"{mantissa}{SPACE}×{SPACE}10{exponent}"
 
 
-def number(value: float) -> str:
-    """A number by itself: three digits, powers of ten where it is very large or small."""
+def number(value: float, beside: Iterable[float] = ()) -> str:
+    """A number by itself: three digits, powers of ten where it is very large or small.
+
+    beside : numbers from which it has to differ as printed; 1 is always among them.
+    """
     if math.isnan(value):
         return NOTHING
     if math.isinf(value):
@@ -119,7 +128,7 @@ def number(value: float) -> str:
     if value == round(value) and size < 1e9:
         return _fixed(value, 0)
     if 1e-3 <= size < 1e6:
-        return _shortest(value, max(0, 2 - math.floor(math.log10(size))))
+        return _shortest(value, max(_decimals(size), *(_apart(value, other, size) for other in (1.0, *beside))))
     mantissa, exponent = f"{value:.2e}".split("e")
     return f"{_shortest(float(mantissa), 2)}{SPACE}×{SPACE}10{str(int(exponent)).translate(SUPERSCRIPT)}"
 
@@ -129,8 +138,19 @@ def quantity(value: float, unit: str) -> str:
     return "no number" if math.isnan(value) else f"{number(value)}{SPACE}{unit}".rstrip()
 
 
+def found(check: Check) -> str:
+    """The number of a check with its interval and unit, in as many digits as tell it from its bound."""
+    if math.isnan(check.value):
+        return "no number"
+    digits = check.found(lambda value: number(value, check.limits)).removesuffix(f" {check.unit}")
+    return f"{digits}{SPACE}{check.unit}".rstrip()
+
+
 def column(values: "pd.Series[Any]") -> list[str]:
-    """A table's column: numbers have equal decimals where their sizes allow it, for comparison."""
+    """A table's column: numbers have equal decimals where their sizes allow it, for comparison.
+
+    Numbers that differ by little have two digits of their difference, and shares close to 1 those of what is left.
+    """
     if pd.api.types.is_bool_dtype(values):
         return ["yes" if value else "no" for value in values]
     if not pd.api.types.is_numeric_dtype(values):
@@ -139,12 +159,22 @@ def column(values: "pd.Series[Any]") -> list[str]:
     sizes = [abs(value) for value in numbers if math.isfinite(value) and value != 0]
     if not sizes or max(sizes) >= 1e6 or max(sizes) < 1e-3:
         return [number(value) for value in numbers]
-    decimals = max(0, 2 - math.floor(math.log10(max(sizes))))
+    decimals = _decimals(max(sizes))
     if min(sizes) * 10**decimals < 10:
         return [number(value) for value in numbers]
+    finite = [value for value in numbers if math.isfinite(value)]
+    pairs = [(size, 1.0) for size in sizes if max(sizes) <= 1]
+    if max(finite) - min(finite) > NOISE * max(sizes):
+        pairs.append((max(finite), min(finite)))
+    decimals = max([decimals, *(_apart(one, other, max(sizes)) for one, other in pairs)])
     while decimals and all(f"{size:.{decimals}f}".endswith("0") for size in sizes):
         decimals -= 1
     return [_fixed(value, decimals) if math.isfinite(value) else number(value) for value in numbers]
+
+
+def is_speed(column: str) -> bool:
+    """Whether a column says how fast an engine is, or is a quartile of one that does."""
+    return column.removesuffix("_low").removesuffix("_high") in SPEEDS
 
 
 def failed_gate(table: pd.DataFrame) -> "pd.Series[bool]":
@@ -154,6 +184,17 @@ def failed_gate(table: pd.DataFrame) -> "pd.Series[bool]":
 
 def _label(identifier: str) -> str:
     return re.sub(rf"\b({'|'.join(SPELT)})\b", lambda found: SPELT[found[0]], identifier.replace("_", " "))
+
+
+def _decimals(size: float) -> int:
+    """Decimals that give a number of this size three digits."""
+    return max(0, 2 - math.floor(math.log10(size)))
+
+
+def _apart(one: float, other: float, size: float) -> int:
+    """Decimals that show two digits of a difference, three more than the size asks for at most."""
+    apart = abs(one - other)
+    return min(1 - math.floor(math.log10(apart)), _decimals(size) + 3) if 0 < apart < math.inf else 0
 
 
 def _fixed(value: float, decimals: int) -> str:

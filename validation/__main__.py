@@ -30,7 +30,7 @@ def main(
     every: Annotated[bool, typer.Option("--all", help="Run every study but those of rivals.")] = False,
     rivals: Annotated[bool, typer.Option("--rivals", help="Run the studies of rivals; see make rivals.")] = False,
     reproduce: Annotated[bool, typer.Option("--reproduce", help="Run what `make reproduce` runs.")] = False,
-    quick: Annotated[bool, typer.Option("--quick", help="Shorten each study; the checks stay.")] = False,
+    quick: Annotated[bool, typer.Option("--quick", help="Shorten each study, and name the checks left out.")] = False,
     force: Annotated[bool, typer.Option("--force", help="Repeat also studies that are up to date.")] = False,
     perturbed: Annotated[
         int | None, typer.Option(metavar="SEED", min=0, envvar=PERTURBED, help="Noise of the size of rounding.")

@@ -42,6 +42,15 @@ class Quartiles(_Part):
         """The same in another unit."""
         return Quartiles(median=factor * self.median, low=factor * self.low, high=factor * self.high)
 
+    @property
+    def all(self) -> tuple[float, float, float]:
+        """Median, low and high."""
+        return self.median, self.low, self.high
+
+    def over(self, other: "Quartiles") -> "Quartiles":
+        """The ratio to what was not measured in the same rounds: no ratio of two quartiles lies outside."""
+        return Quartiles(median=self.median / other.median, low=self.low / other.high, high=self.high / other.low)
+
 
 class WallErrors(_Part):
     """Errors of a method's wall at points near the wall of the hole.

@@ -3,6 +3,7 @@
 import importlib
 from collections.abc import Callable
 from dataclasses import dataclass
+from fnmatch import fnmatchcase
 
 import matplotlib.figure
 import pandas as pd
@@ -13,11 +14,19 @@ Tables = dict[str, pd.DataFrame]
 
 @dataclass(frozen=True)
 class Figure:
-    """A figure of a study: its file name, its caption, and the function that draws it."""
+    """A figure of a study: its file name, its caption, and the function that draws it.
+
+    checks : patterns of the names of the checks whose numbers it shows.
+    """
 
     name: str
     caption: str
     draw: Callable[[Tables], Canvas]
+    checks: tuple[str, ...] = ()
+
+    def shows(self, check: str) -> bool:
+        """Whether it shows the number of a check."""
+        return any(fnmatchcase(check, pattern) for pattern in self.checks)
 
 
 # The modules whose figures register themselves; a study's figures stand on its page in the order of its module.
@@ -39,12 +48,15 @@ _FIGURES: dict[str, list[Figure]] = {}
 Draw = Callable[[Tables], Canvas]
 
 
-def figure(*studies: str, name: str, caption: str) -> Callable[[Draw], Draw]:
-    """A function that draws a figure from the tables of its study, and of others that have the same tables."""
+def figure(*studies: str, name: str, caption: str, checks: tuple[str, ...] = ()) -> Callable[[Draw], Draw]:
+    """A function that draws a figure from the tables of its study, and of others that have the same tables.
+
+    checks : see ``Figure``; the page prints them beside it.
+    """
 
     def register(draw: Draw) -> Draw:
         for study in studies:
-            _FIGURES.setdefault(study, []).append(Figure(name, caption, draw))
+            _FIGURES.setdefault(study, []).append(Figure(name, caption, draw, checks))
         return draw
 
     return register

@@ -17,6 +17,7 @@ from reports.figures import Tables, figure, style
         "cylinders leaves a gap on the outside of the bend in which no cylinder owns the point; the overlap closes "
         "the gap and blends one cylinder into the next."
     ),
+    checks=("largest change of *",),
 )
 @style.panels(4.6, 2, 1, sharex=True)
 def drag(tables: Tables, force: Axes, direction: Axes) -> None:
@@ -70,6 +71,7 @@ def hole(tables: Tables, size: Axes, force: Axes) -> None:
         "near the wall of a bend built from cylinders of one length. The wide grey line is the distance "
         "between chord and arc, which falls with the square of the length."
     ),
+    checks=("*",),
 )
 @style.panels(3.6, 1, 2, sharex=True)
 def errors(tables: Tables, penetration: Axes, angle: Axes) -> None:
@@ -137,6 +139,7 @@ def _size(group: tuple[Any, pd.DataFrame]) -> float:
         "over four operations and all depths, against 10¹⁰ N/m; dashed: 1 %. Right: penetration of the wall, and the "
         "longest stable step of the stepper. Shaded: the string leaves the hole somewhere, no solution."
     ),
+    checks=("largest change of * 1e6 to 1e10 N/m", "softest wall*", "deepest penetration*"),
 )
 @style.panels(3.8, 1, 2, sharex=True)
 def stiffness(tables: Tables, left: Axes, right: Axes) -> None:
@@ -178,6 +181,7 @@ def stiffness(tables: Tables, left: Axes, right: Axes) -> None:
         "Residual of the energy ledger, as a share of the work done, against the time step. "
         "The grey lines fall with the first and the second power of the step."
     ),
+    checks=("residual over work at*", "order of the largest residual*"),
 )
 @style.panels(4.0)
 def closure(tables: Tables, ax: Axes) -> None:

@@ -15,6 +15,7 @@ from reports.figures import Canvas, Tables, figure, style
         "counts thirteen for one cylinder; its search tests a few hundred cylinders, while the engine remembers the "
         "last one."
     ),
+    checks=("operations of*",),
 )
 def operations(tables: Tables) -> Canvas:
     """A row for each part, arithmetic and comparisons on a logarithmic axis."""
@@ -43,6 +44,7 @@ FLOOR = 0.3
         "the processor time of a point in a query from Python, with quartiles. Lines lead from coarse to fine: "
         "cylinders and FOR-loop by length, meshes by facets and ring spacing. Points on the dotted line are exact."
     ),
+    checks=("largest error of*", "missed contacts*"),
 )
 @style.panels(4.3, 1, 2, sharex=True)
 def error_and_cost(tables: Tables, depth: Axes, angle: Axes) -> None:
@@ -78,6 +80,7 @@ def exact_line(ax: Axes, height: float) -> None:
         "Cost of one segment and step in the same loop with each contact method, by number of segments. Compiled "
         "loops need no call from Python; the row “no contact, asked from Python” is the cost of such calls."
     ),
+    checks=("cost of a step*", "FCL contact over cylinders*"),
 )
 def costs(tables: Tables) -> Canvas:
     """A row for each loop, a dot for each number of segments, on a logarithmic axis."""
@@ -102,6 +105,7 @@ def costs(tables: Tables) -> Canvas:
         "some metres only; the whole trip with it is an extrapolation in the table of times. Below: the difference "
         "of the two contact methods over the same windows."
     ),
+    checks=("Σ rμF_n tripping in*",),
 )
 @style.panels(4.6, 2, 1, sharex=True, height_ratios=[2, 1])
 def figure_13(tables: Tables, above: Axes, below: Axes) -> None:
@@ -133,6 +137,7 @@ def figure_13(tables: Tables, above: Axes, below: Axes) -> None:
         "The curved chain rotating against the wall of every contact method at its default options: difference of "
         "the sum from that with the engine's own arcs."
     ),
+    checks=("Σ rμF_n rotating*",),
 )
 def torques(tables: Tables) -> Canvas:
     """A dot for each method: its difference of Σ rμF_n while rotating."""
@@ -187,6 +192,7 @@ def facets(tables: Tables, ax: Axes) -> None:
         "and in cylinders; above Σ rμFₙ, in rotation the torque of friction, over the same windows from one start. "
         "Below: differences, also of the surface torque. The study contact_swap shows reading (a)."
     ),
+    checks=("*FCL against FCTD*",),
 )
 @style.panels(4.6, 2, 1, sharex=True, height_ratios=[2, 1])
 def figure_13b(tables: Tables, above: Axes, below: Axes) -> None:
@@ -219,6 +225,7 @@ def figure_13b(tables: Tables, above: Axes, below: Axes) -> None:
         "The curved chain in other engines, from the same state over the same window: differences of hook load and "
         "torque from FCTD's. An open dot is a run that failed a check; where FCTD has no torque there is no dot."
     ),
+    checks=("*: curved chain, * against FCTD's*",),
 )
 def loads(tables: Tables) -> Canvas:
     """A dot per engine and operation: hook load and torque against FCTD; open dots failed a check."""
@@ -306,6 +313,7 @@ REAL_TIME_MS = 1000.0
         "loop”: another contact method in FCTD's loop, called from Python; without contact its query is empty. Struck "
         "through: the engine failed the gate before any speed, and the table says how."
     ),
+    checks=("*over FCTD*", "real-time factor*"),
 )
 def seconds(tables: Tables) -> Canvas:
     """A panel for each number of segments, a row for each engine, a dot for each state and step."""
@@ -340,6 +348,7 @@ def seconds(tables: Tables) -> Canvas:
         "means a cost proportional to the number of segments; in addition the stable step shrinks with the length of "
         "the segments."
     ),
+    checks=("segment-step with contact*", "exponent*"),
 )
 @style.panels(2.6)
 def scaling(tables: Tables, ax: Axes) -> None:

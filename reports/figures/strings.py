@@ -20,6 +20,7 @@ from reports.figures import Canvas, Tables, figure, style
         "Short beams against beam theory: the difference falls with the square of the segment length until effects "
         "that beam theory neglects remain (shear, the elastic wall). The dashed line is 1 %."
     ),
+    checks=("*, difference",),
 )
 @style.panels(3.8)
 def errors(tables: Tables, ax: Axes) -> None:
@@ -134,6 +135,7 @@ SIDES = {
         "Paper's Fig. 9, with numbers: contact force while the string is lowered, total and on each side, from "
         "finite elements and from rigid segments."
     ),
+    checks=("correlation of force*", "force at * segments against finite elements", "contacts at the end*"),
 )
 def force(tables: Tables) -> Canvas:
     """Fig. 9: contact force against time, total and on each side."""
@@ -160,6 +162,7 @@ def force(tables: Tables) -> Canvas:
         "Paper's Fig. 10: horizontal displacement along the string at the end of the run, and below it the "
         "distance from the axis of the hole. Grey lines are the walls; joints of the coarser string are squares."
     ),
+    checks=("displacement at * segments*", "contact positions*"),
 )
 @style.panels(5.6, 2, 1, sharex=True, height_ratios=(2, 3))
 def displacement(tables: Tables, whole: Axes, offset: Axes) -> None:
@@ -189,6 +192,7 @@ def displacement(tables: Tables, whole: Axes, offset: Axes) -> None:
         "Difference from the finite elements over the number of segments, at equal wall stiffness per metre. Dashed "
         "lines are the targets, 3 % and 1 %."
     ),
+    checks=("force at * segments against finite elements", "displacement at * segments*"),
 )
 @style.panels(3.6, 1, 2)
 def convergence(tables: Tables, left: Axes, right: Axes) -> None:

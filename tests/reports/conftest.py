@@ -14,10 +14,10 @@ def render(tmp_path):
 
     (tmp_path / "claims.toml").write_text("claim = []")
 
-    def call(*runs, studies=(), changes=None, ledger=tmp_path / "claims.toml"):
+    def call(*runs, studies=(), changes=None, ledger=tmp_path / "claims.toml", full=None):
         for run, tables in runs:
             store.write(run, tables, tmp_path / "results")
-        problems = page.render(tmp_path / "results", studies, tmp_path / "out", changes, ledger)
+        problems = page.render(tmp_path / "results", studies, tmp_path / "out", changes, ledger, full=full)
         return "".join(path.read_text(encoding="utf-8") for path in pages_of(tmp_path / "out")), problems
 
     return call

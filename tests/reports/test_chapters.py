@@ -10,6 +10,8 @@ from reports.chapters import Sentence
 from reports.figures.leading import LEADING
 from tests.reports.pages import BLANK, judged
 from validation.harness.registry import STUDIES
+from validation.harness.store import Judged
+from validation.harness.study import Check
 
 from . import synthetic
 
@@ -43,6 +45,16 @@ def test_an_answer_has_its_numbers_or_says_what_to_run():
     assert sentence.filled(records) == "Not answered yet: python -m validation jumps."
     records["jumps"] = replace(BLANK, study="jumps", checks=(judged(2.0, name="b"),))
     assert sentence.filled(records) == "It is 0.25\u00a0kN·m, not 2\u00a0kN·m."
+
+
+def test_no_sentence_says_what_the_interval_of_its_ratio_leaves_open():
+    sentence = Sentence(says="It takes {0} times as long.", otherwise="It may be {0}.", numbers=(("overlap", "a"),))
+    for interval, said in (
+        ((1.04, 1.3), "It takes 1.1 (1.04 to 1.3) times as long."),
+        ((0.95, 1.3), "It may be 1.1 (0.95 to 1.3)."),
+    ):
+        check = Check("a", 1.1, 2.0, "at_most", "", "test", timed=True, interval=interval)
+        assert sentence.filled({"overlap": replace(BLANK, checks=(Judged(check, None),))}) == said
 
 
 @pytest.mark.parametrize("each", LEADING, ids=[each.study for each in LEADING])

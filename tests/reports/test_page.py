@@ -81,6 +81,36 @@ def test_findings_about_the_paper_are_listed_apart(render):
     assert "chords" not in found
 
 
+def test_a_figure_stands_beside_what_was_expected_and_how_to_make_it(render):
+    found = replace(judged(5e-7, name="largest change of force in a step with overlap"))
+    run, tables = finished("overlap", checks=(found, judged(0.0, name="points that leave the hole")), quick=True)
+    html = render((run, tables), full={"overlap": ["largest change of force without overlap", "other"]})[0]
+    shown = html[html.index("A point pressed against", html.index("<h1>Does the overlap")) :]
+    caption = words_of(shown[: shown.index("</figcaption>")])
+    assert not missing(
+        caption,
+        "✓ met largest change of force in a step with overlap: 5",
+        "expected at most",
+        "(continuity &lt;C⁰&gt;)",
+        "○ not checked largest change of force without overlap",
+        "python -m validation overlap --quick",
+    )
+    assert "leave the hole" not in caption
+
+
+def test_what_a_quick_run_leaves_out_keeps_its_verdict_from_green(render):
+    run, tables = finished("overlap", checks=(judged(5e-7),), quick=True)
+    text = words_of(render((run, tables), full={"overlap": ["largest jump", "order"]})[0])
+    assert not missing(text, "◐ 1 met, 1 not checked", "Not checked by this quick run: order.")
+    assert "✓ 1 met" not in text
+
+
+def test_a_figure_of_the_paper_says_what_the_text_prints(render):
+    run, tables = finished("paper_well", checks=(judged(5e-7),))
+    text = words_of(render((run, tables))[0])
+    assert "Our copy of the paper has no curves. Its text prints for Fig. 12: no torque; readings to 2450 m" in text
+
+
 def test_table_for_display_has_units_in_its_head(render):
     run, tables = finished("ownership", display={"owners": "Wrong owners"}, quick=True)
     text = words_of(render((run, tables))[0])

@@ -6,6 +6,7 @@ import pandas as pd
 import pytest
 
 from reports import words
+from validation.harness.study import Check
 
 
 @pytest.mark.parametrize(
@@ -45,6 +46,9 @@ def test_heading(column, heading):
         (61, "61"),
         (1_166_000.0, "1 166 000"),
         (426.512, "427"),
+        (0.99972, "0.99972"),
+        (0.9999999999, "1"),
+        (1.0042, "1.0042"),
         (0.5, "0.5"),
         (-2.3456, "−2.35"),
         (3.14159e-7, "3.14 × 10⁻⁷"),
@@ -92,3 +96,29 @@ def test_sentences_are_set_as_in_print(plain, printed):
 def test_quantity_of_nothing_has_no_unit():
     assert words.quantity(math.nan, "m") == "no number"
     assert words.quantity(2.0, "") == "2"
+
+
+@pytest.mark.parametrize(
+    ("values", "texts"),
+    [
+        ([0.9863, 0.9995, 0.99993], ["0.98630", "0.99950", "0.99993"]),  # correlations
+        ([746.07, 746.34, 746.71], ["746.07", "746.34", "746.71"]),
+        ([0.00148518, 0.00148519], ["0.00149", "0.00149"]),  # noise
+        ([61.0, 500.0], ["61", "500"]),
+    ],
+)
+def test_a_column_shows_by_how_much_its_numbers_differ(values, texts):
+    assert words.column(pd.Series(values)) == texts
+
+
+@pytest.mark.parametrize(
+    ("check", "text"),
+    [
+        (Check("x", 1.312, 2.0, "at_most", "", "test", True, (1.302, 1.341)), "1.31 (1.3 to 1.34)"),
+        (Check("x", 0.9997, 0.95, "at_least", "", "test"), "0.9997"),
+        (Check("x", 3.0004, 3.0, "at_most", "%", "test"), f"3.0004{words.SPACE}%"),
+        (Check("x", math.nan, 3.0, "at_most", "%", "test"), "no number"),
+    ],
+)
+def test_a_number_is_told_from_its_bound(check, text):
+    assert words.found(check) == text

@@ -71,11 +71,11 @@ class Number(Table):
         """Where it is stored; two numbers differ if this differs."""
         return self.study, self.check, self.table, self.column, self.take, sorted(self.where.items())
 
-    def held(self, value: float, name: str, unit: str, because: str) -> Check:
-        """A value beside the bound."""
+    def held(self, found: "Stored", because: str) -> Check:
+        """A stored number beside the bound."""
         kinds: tuple[Kind, ...] = ("at_most", "at_least", "within")
         kind, bound = next((kind, getattr(self, kind)) for kind in kinds if getattr(self, kind) is not None)
-        return Check(name, value, bound, kind, unit, because)
+        return Check(found.name, found.value, bound, kind, found.unit, because, interval=found.interval)
 
 
 class Limited(Number):
@@ -238,6 +238,15 @@ class Found(NamedTuple):
         return self.check.verdict == "met"
 
 
+class Stored(NamedTuple):
+    """A number as its study has stored it, without a bound."""
+
+    name: str
+    value: float
+    unit: str
+    interval: tuple[float, float] | None
+
+
 class Missing(NamedTuple):
     """A number that is not there, and why."""
 
@@ -286,12 +295,12 @@ class Results:
         if isinstance(run, Missing):
             return run
         try:
-            name, value, unit = self._check(wanted, run) if wanted.check else self._cell(wanted, run)
+            stored = self._check(wanted, run) if wanted.check else self._cell(wanted, run)
         except InputError as error:
             if run.quick:  # a quick run lacks some numbers of a full run
                 return Missing(wanted.study, f"the quick run of {wanted.study} has no such number")
             raise error.at(f"claim {claim.id}.{_role(claim, wanted)}").in_file(CLAIMS.name) from None
-        return Found(wanted.held(value, name, unit, claim.because or ""), wanted.study, run.quick)
+        return Found(wanted.held(stored, claim.because or ""), wanted.study, run.quick)
 
     def _record(self, study: str) -> Record | Missing:
         if study not in self._records:
@@ -311,14 +320,14 @@ class Results:
             return Missing(study, f"{study}: {run.status}, {run.message}")
         return run
 
-    def _check(self, wanted: Number, run: Record) -> tuple[str, float, str]:
+    def _check(self, wanted: Number, run: Record) -> Stored:
         checks = {judged.check.name: judged.check for judged in run.checks}
         if wanted.check not in checks:
             raise InputError(_one_of(f"checks of {run.study}", checks), key="check", value=wanted.check)
         check = checks[wanted.check]
-        return check.name, check.value, check.unit
+        return Stored(check.name, check.value, check.unit, check.interval)
 
-    def _cell(self, wanted: Number, run: Record) -> tuple[str, float, str]:
+    def _cell(self, wanted: Number, run: Record) -> Stored:
         if wanted.table not in run.tables:
             raise InputError(_one_of(f"tables of {run.study}", run.tables), key="table", value=wanted.table)
         table = read_frame(self._folder / run.study / f"{wanted.table}.parquet")
@@ -334,7 +343,9 @@ class Results:
         value = _taken(rows[wanted.column].astype(float), wanted.take)
         if math.isnan(value):
             raise InputError(f"a number in column {wanted.column} of those rows", key="column", value=wanted.column)
-        return wanted.called or "", value, wanted.unit or ""
+        ends = [f"{wanted.column}_low", f"{wanted.column}_high"]  # as in every table of timed rounds
+        low, high = (_taken(rows[end].astype(float), wanted.take) if end in rows else math.nan for end in ends)
+        return Stored(wanted.called or "", value, wanted.unit or "", None if math.isnan(low + high) else (low, high))
 
 
 def _taken(values: "pd.Series[float]", take: str) -> float:

@@ -22,7 +22,7 @@ from rich.text import Text
 from fctd.arena.result import Comparison
 from fctd.case.errors import InputError
 from fctd.case.text import counted, printable_lines
-from validation.harness import fingerprint, store
+from validation.harness import fingerprint, full_checks, store
 from validation.harness.files import reading
 from validation.harness.fingerprint import Inputs, Sources
 from validation.harness.registry import RIVALS, STUDIES
@@ -326,21 +326,27 @@ def tell(done: StudyRun, recorded: Mapping[str, str], console: Console) -> None:
     style = "bold red" if run.is_error else "bold"
     when = f"kept from {run.date[:16].replace('T', ' ')} UTC" if done.kept else f"{run.wall_s:.1f} s"
     why = f"; {done.why}" if done.why and not done.kept else ""
-    _say(console, f"{run.study}: {run.summary}  ({when}{why})", style)
+    full = full_checks.read()
+    missing, new = full_checks.left_out(run, full), full_checks.unknown(run, full)
+    _say(console, f"{run.study}: {run.summary(missing)}  ({when}{why})", style)
     if run.message:
         _say(console, f"  {run.message}")
     for note in run.notes if not run.checks else ():  # the notes say why there are no checks
         _say(console, f"  {note}")
     for judged in sorted(run.checks, key=lambda judged: judged.is_finding):  # the findings apart, after the others
         check = judged.check
-        found = f"{check.value:.6g} {check.unit}".rstrip()
-        line = f"  {judged.standing:<23}  {check.name}: {found} ({check.requirement()})"
+        line = f"  {judged.standing:<23}  {check.name}: {check.found()} ({check.requirement()})"
         _say(console, line, STYLES[judged.standing])
         if judged.standing == "worse than recorded":
             _say(console, f"    {check.source}", STYLES[judged.standing])
         if judged.standing == "better than recorded":
             verdict = str(judged.recorded).partition(":")[0]
             _say(console, f"    recorded as {verdict}; remove the entry from expected.toml")
+    for name in missing:
+        _say(console, f"  not checked{' (quick)' if run.quick else '':<12}  {name}", "dim")
+    if new:
+        command = "after a full run, python -m validation.harness.full_checks"
+        _say(console, f"  {full_checks.FILE.name} lacks checks of this study ({command}): {new}", "yellow")
     gone = sorted(recorded.keys() - {judged.check.name for judged in run.checks})
     # A quick run may leave a check out.
     if gone and run.status == "finished" and not run.quick:

@@ -4,7 +4,7 @@ import json
 import math
 import subprocess
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
@@ -93,12 +93,14 @@ class Record:
         judged = [judged for judged in self.checks if not (self.variation and judged.check.timed)]
         return self.status == "failed" or any(each.standing == "worse than recorded" for each in judged)
 
-    @property
-    def summary(self) -> str:
-        """The run in a few words, e.g. ``4 met, 1 missed (recorded)``."""
+    def summary(self, left_out: Collection[str] = ()) -> str:
+        """The run in a few words, e.g. ``4 met, 1 missed (recorded), 2 not checked``.
+
+        left_out : see ``full_checks``.
+        """
         if self.status != "finished":
             return self.status
-        counts = Counter(judged.standing for judged in self.checks)
+        counts = Counter[str](judged.standing for judged in self.checks) + Counter({"not checked": len(left_out)})
         return ", ".join(f"{count} {standing}" for standing, count in counts.items()) or "no checks"
 
 

@@ -2,7 +2,7 @@
 
 import math
 import os
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import wraps
 from pathlib import Path
@@ -11,8 +11,9 @@ from typing import Any, Literal, ParamSpec, Protocol, TypeVar
 import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike
+from scipy import stats
 
-from fctd.arena.result import Comparison
+from fctd.arena.result import Comparison, Quartiles
 from references.registry import absent
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -20,6 +21,7 @@ RESULTS = ROOT / "validation" / "results"
 
 Kind = Literal["at_most", "at_least", "within"]
 Need = Literal["data"]
+ENDS = "", "_low", "_high"  # of the columns of a measured number: its median and quartiles
 T = TypeVar("T")
 A = TypeVar("A")
 P = ParamSpec("P")
@@ -46,6 +48,8 @@ class Check:
     ``bound`` is one number for ``at_most`` and ``at_least``, and a pair (low, high) for ``within``.
     ``source`` says where the bound comes from: a closed form, a publication, a target of this project.  ``timed`` :
     whether the number is a time of this machine, or follows from one, so that it differs from run to run.
+    ``interval`` : (low, high) of a measured number, the quartiles of its rounds or of a fit; both ends must meet the
+    bound.
     """
 
     name: str
@@ -55,6 +59,7 @@ class Check:
     unit: str
     source: str
     timed: bool = False
+    interval: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.bound, tuple) != (self.kind == "within"):
@@ -71,7 +76,13 @@ class Check:
     def verdict(self) -> Literal["met", "missed"]:
         """A value that is not finite meets no bound."""
         low, high = self.limits
-        return "met" if math.isfinite(self.value) and low <= self.value <= high else "missed"
+        values = (self.value, *(self.interval or ()))
+        return "met" if all(math.isfinite(value) and low <= value <= high for value in values) else "missed"
+
+    def found(self, number: Callable[[float], str] = "{:.6g}".format) -> str:
+        """The value in words, an interval in brackets, e.g. ``1.32 (1.3 to 1.34)``, with numbers by ``number``."""
+        span = f" ({' to '.join(map(number, self.interval))})" if self.interval else ""
+        return f"{number(self.value)}{span} {self.unit}".rstrip()
 
     def requirement(self, number: Callable[[float], str] = "{:.6g}".format) -> str:
         """The bound in words, e.g. ``at most 0.02 kN·m``, with numbers printed by ``number``."""
@@ -80,6 +91,22 @@ class Check:
         else:
             words = f"{self.kind.replace('_', ' ')} {number(self.bound)}"
         return f"{words} {self.unit}".rstrip()
+
+
+def ratio_check(name: str, ratio: Quartiles, bound: float, kind: Kind, source: str) -> Check:
+    """A check on a ratio of times, by the quartiles of the ratios within its rounds."""
+    return Check(name, ratio.median, bound, kind, "", source, timed=True, interval=(ratio.low, ratio.high))
+
+
+def quartiles_of(row: Any, column: str) -> Quartiles:
+    """A number whose quartiles stand in the columns of the same name with ``_low`` and ``_high``; row : of a table."""
+    return Quartiles(median=row[column], low=row[f"{column}_low"], high=row[f"{column}_high"])
+
+
+def in_columns(rounds: Mapping[str, ArrayLike]) -> dict[str, float]:
+    """Columns of a row for measured numbers, by their rounds; ``quartiles_of`` reads them."""
+    found = {name: Quartiles.of(values) for name, values in rounds.items()}
+    return {f"{name}{end}": value for name, of in found.items() for end, value in zip(ENDS, of.all, strict=True)}
 
 
 @dataclass(frozen=True)
@@ -126,6 +153,13 @@ def left_out(missing: Sequence[str]) -> list[str]:
 def log_slope(x: ArrayLike, y: ArrayLike) -> float:
     """Exponent p of y ~ x^p by least squares, both positive: an order of convergence, a growth of cost."""
     return float(np.polyfit(np.log(np.asarray(x, float)), np.log(np.asarray(y, float)), 1)[0])
+
+
+def fitted_exponent(x: ArrayLike, y: ArrayLike) -> Quartiles:
+    """``log_slope`` of measured times with the quartiles of the fit as its low and high; at least three points."""
+    fit = stats.linregress(np.log(np.asarray(x, float)), np.log(np.asarray(y, float)))
+    half = stats.t.ppf(0.75, len(np.asarray(x)) - 2) * fit.stderr
+    return Quartiles(median=float(fit.slope), low=float(fit.slope - half), high=float(fit.slope + half))
 
 
 class Progress(Protocol):

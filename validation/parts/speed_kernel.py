@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from fctd import Case
+from fctd.arena.result import Quartiles
 from fctd.mechanics import topdrive
 from fctd.mechanics.faults import UnstableError
 from fctd.mechanics.topdrive import Motion
@@ -19,7 +20,7 @@ from references.timing.stopwatch import race, units_for
 from references.timing.workloads import copy_of, fallen, find_walls, free_query, moving, touching, without_wall
 from validation.cases import load, rotation
 from validation.cases.wells import drilled_paper_well
-from validation.harness.study import log_slope
+from validation.harness.study import ENDS, fitted_exponent
 from validation.parts.recorded_kinds import RECORDED_KINDS
 
 BIT = 2450.0
@@ -85,23 +86,28 @@ def scaling(lengths: tuple[int, ...], rounds: int, aim: float) -> pd.DataFrame:
         run.refresh()
         run.check()
     table[["segments", "step_ms", "touching_percent"]] = [facts[name] for name in table["name"]]
-    return with_growth(table[["segments", "step_ms", "touching_percent", "ns", "ns_least"]])
+    return with_growth(table[["segments", "step_ms", "touching_percent", "ns", "ns_low", "ns_high", "ns_least"]])
 
 
 def with_growth(table: pd.DataFrame) -> pd.DataFrame:
     """The same with the wall time of a simulated second, and its mean growth from the first row for twice the segments.
 
-    Not from row to row: on a busy machine a single row may take twice as long.
+    Not from row to row: on a busy machine a single row may take twice as long.  Each with its quartiles.
     """
-    second = table["segments"] * table["ns_least"] / (1e3 * table["step_ms"])
     doublings = np.log2(table["segments"] / table["segments"].iloc[0])
-    growth = 2 ** (np.log2(second / second.iloc[0]) / doublings)
-    return table.assign(ms_per_simulated_s=second, growth_when_doubled=growth)
+    for end in ENDS:
+        table = table.assign(
+            **{f"ms_per_simulated_s{end}": table["segments"] * table[f"ns{end}"] / (1e3 * table["step_ms"])}
+        )
+    for end, start in zip(ENDS, ("", "_high", "_low"), strict=True):
+        grown = table[f"ms_per_simulated_s{end}"] / table[f"ms_per_simulated_s{start}"].iloc[0]
+        table = table.assign(**{f"growth_when_doubled{end}": 2 ** (np.log2(grown) / doublings)})
+    return table
 
 
-def exponent(table: pd.DataFrame) -> float:
-    """Growth of the cost of a step with the number of segments."""
-    return log_slope(table["segments"], table["segments"] * table["ns_least"])
+def exponent(table: pd.DataFrame) -> Quartiles:
+    """Growth of the cost of a step with the number of segments; with the quartiles of the fit."""
+    return fitted_exponent(table["segments"], table["segments"] * table["ns"])
 
 
 def kernel(best: float, rounds: int, aim: float) -> pd.DataFrame:

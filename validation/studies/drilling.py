@@ -7,13 +7,14 @@ import numpy as np
 import pandas as pd
 
 from fctd import Case, Simulation, SimulationResult, equilibrium
+from fctd.arena.result import Quartiles
 from fctd.mechanics import state, topdrive
 from fctd.mechanics.topdrive import GRAVITY
 from fctd.model.frames import hole_frame
 from fctd.model.section import section_of
 from fctd.simulation.preparation import contact_points
 from fctd.simulation.run import Run
-from validation.harness.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Study, in_columns, quartiles_of, ratio_check
 
 RPM, WEIGHT = 120.0, 60e3  # [rev/min]; [N] that the autodriller is to hold
 SPEEDS = (0.006, 0.009, 0.012)  # of the block [m/s]
@@ -21,6 +22,7 @@ RADIUS, ENERGY, RATIO, FRICTION = 0.5 * 0.2159, 1e8, 0.6, 0.6  # of the bit [m];
 STEADY = 20.0  # [s] at the end of a run over which loads are averaged
 DEPTHS = np.arange(500.0, 3001.0, 250.0)  # [m] at which the cost is measured
 WINDOW, QUICK_WINDOW = 60.0, 4.0  # [s] whose cost is measured
+PARTS = 8  # of such a window, each timed by itself
 ROCK = {
     "radius": RADIUS, "specific_energy": ENERGY, "force_ratio": RATIO, "friction": FRICTION, "wear_flat": "5 mm",
     "contact_strength": "100 MPa",
@@ -126,15 +128,17 @@ def row_of(case: Case, driller: str) -> dict[str, Any]:
     }
 
 
-def real_time_factor(depth: float, segment: float, window: float) -> float:
-    """Simulated over processor time of a window while drilling."""
+def real_time_factors(depth: float, segment: float, window: float) -> list[float]:
+    """Simulated over processor time of each of the parts of a window while drilling."""
     simulation = Simulation(drilled(depth, segment, SPEEDS[1], 40.0 + WINDOW))
     simulation.start()
     motion = simulation.phases[-1].motion
     simulation.run.advance(motion, 1.0)
-    began = time.process_time()
-    simulation.run.advance(motion, window)
-    return window / (time.process_time() - began)
+    moments = [time.process_time()]
+    for _ in range(PARTS):
+        simulation.run.advance(motion, window / PARTS)
+        moments.append(time.process_time())
+    return list(window / PARTS / np.diff(moments))
 
 
 def run(context: Context) -> Outcome:
@@ -148,9 +152,15 @@ def run(context: Context) -> Outcome:
     _, lengths = completed(drilled(depth, segment, SPEEDS[1], duration, inclination=0.0))
     vertical = pd.DataFrame([lengths])
     window, depths = (QUICK_WINDOW, DEPTHS[::10]) if context.quick else (WINDOW, DEPTHS)
-    factors = np.array([real_time_factor(float(depth), 10.0, window) for depth in depths])
-    speed = pd.DataFrame({"depth_m": depths, "real_time_factor": factors})
-    whole = DEPTHS[-1] / (np.trapezoid(1 / factors, depths) + depths[0] / factors[0])
+    factors = {float(depth): real_time_factors(float(depth), 10.0, window) for depth in depths}
+    speed = pd.DataFrame(
+        [{"depth_m": depth, **in_columns({"real_time_factor": found})} for depth, found in factors.items()]
+    )
+    # Each part of the windows at all depths is a round of the whole well.
+    whole = [
+        DEPTHS[-1] / (np.trapezoid(1 / found, depths) + depths[0] / found[0])
+        for found in np.array(list(factors.values())).T
+    ]
 
     def left(lengths: pd.DataFrame) -> float:
         made = lengths["hole_made_m"] + lengths["in_the_rock_m"]
@@ -179,10 +189,12 @@ def run(context: Context) -> Outcome:
                   "rotating tare less hook load"),
             Check("energy ledger, largest residual over work", 100 * float(table["energy_error"].max()), 0.1,
                   "at_most", "%", "target of this project"),
-            Check("real-time factor of drilling 3 km with segments of 10 m", float(whole), 150.0, "at_least", "",
-                  f"target of this project; processor time of windows of {window:g} s, extrapolated", timed=True),
-            Check("real-time factor at 3 km, 300 segments of 10 m", float(factors[-1]), 150.0, "at_least", "",
-                  f"target of this project; processor time of a window of {window:g} s", timed=True),
+            ratio_check("real-time factor of drilling 3 km with segments of 10 m", Quartiles.of(whole), 150.0,
+                        "at_least",
+                        f"target of this project; processor time of windows of {window:g} s, extrapolated"),
+            ratio_check("real-time factor at 3 km, 300 segments of 10 m",
+                        quartiles_of(speed.iloc[-1], "real_time_factor"), 150.0, "at_least",
+                        f"target of this project; processor time of a window of {window:g} s"),
         ],
         notes=[
             "Hole made and what the bit is in the rock are the travel of the bit along itself.",

@@ -1,17 +1,19 @@
 """The paper's well tripped into and rotated at depth after depth (§6.2, Fig. 12)."""
 
+import time
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from fctd import SimulationResult, simulate
+from fctd import Case, SimulationResult, simulate
 from validation.cases import load, rotation
-from validation.harness.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Study, in_columns, quartiles_of, ratio_check
 from validation.parts.windows import last_seconds
 
 VARIANTS = {"paper-well": "paper_well", "paper-well-b": "paper_well_b"}
 PROFILE_DEPTHS = [1900.0, 2200.0]  # and the last one, 2450 m
+PARTS = 10  # of a run, each with a real-time factor of its own
 FIRST_METRES = "1752 m"  # of the trips, from 1750 m
 HISTORY = [
     "bit_depth_m", "hookload_N", "surface_torque_N_m", "sum_r_mu_fn_N_m", "sum_r_ft_N_m",
@@ -23,10 +25,20 @@ PROFILE = [
 ]  # fmt: skip
 
 
-def numbers(name: str, result: SimulationResult) -> dict[str, Any]:
+def timed(case: Case) -> tuple[SimulationResult, list[float]]:
+    """A run, and simulated over processor time of each of its parts."""
+    records: list[tuple[float, float]] = []
+    result = simulate(case, progress=lambda now, *_: records.append((now, time.process_time())))
+    moments = np.array(records)[np.linspace(0, len(records) - 1, PARTS + 1).astype(int)]
+    simulated, spent = np.diff(moments, axis=0).T
+    return result, list(simulated / spent)
+
+
+def numbers(name: str, result: SimulationResult, factors: list[float]) -> dict[str, Any]:
     """Row of the run table."""
-    wanted = ("segments", "step_s", "steps", "simulated_s", "wall_s", "real_time_factor", "energy_error")
-    return {"run": name, **{key: result.run[key] for key in wanted}, "status": result.status}
+    wanted = ("segments", "step_s", "steps", "simulated_s", "wall_s", "energy_error")
+    parts = in_columns({"real_time_factor": factors})
+    return {"run": name, **{key: result.run[key] for key in wanted}, **parts, "status": result.status}
 
 
 def run(context: Context) -> Outcome:
@@ -40,18 +52,18 @@ def run(context: Context) -> Outcome:
         law = {"contact__friction_law": "paper"}
         simulate(load(file, **law, operations__0__to_md=FIRST_METRES))
         # A record interval short enough to resolve swings with a period of 2 s.
-        result = simulate(load(file, **law, record__profile_at=PROFILE_DEPTHS, record__interval=0.5))
-        runs.append(numbers(f"{variant}: trip in, law paper", result))
+        result, factors = timed(load(file, **law, record__profile_at=PROFILE_DEPTHS, record__interval=0.5))
+        runs.append(numbers(f"{variant}: trip in, law paper", result, factors))
         trips[variant] = result.history
         profiles.append(result.profile[PROFILE].assign(variant=variant))
         for depth in context.progress(depths, f"{variant}: rotating"):
             turning = rotation(float(depth), duration=60.0, ramp=20.0)
-            result = simulate(load(file, operations=turning, record__interval=0.25))
+            result, factors = timed(load(file, operations=turning, record__interval=0.25))
             end = last_seconds(result, 35.0)
             turns.append({name: end[name] for name in HISTORY} | {"variant": variant})
             if depth >= 1900:  # above this depth the torque is hardly larger than its swing
                 balance.append(abs(end["sum_r_ft_N_m"] / end["surface_torque_N_m"] - 1))
-        runs.append(numbers(f"{variant}: rotating at {depth:.0f} m, law coulomb", result))
+        runs.append(numbers(f"{variant}: rotating at {depth:.0f} m, law coulomb", result, factors))
     table, rotating = pd.DataFrame(runs), pd.DataFrame(turns)
     return Outcome(
         tables={
@@ -63,8 +75,9 @@ def run(context: Context) -> Outcome:
         checks=[
             Check("runs that did not complete", float((table["status"] != "completed").sum()), 0, "at_most", "",
                   "every run must complete"),
-            Check("real-time factor, slowest run", float(table["real_time_factor"].min()), 1.0, "at_least", "",
-                  "§7: faster than real time", timed=True),
+            ratio_check("real-time factor, slowest run",
+                        quartiles_of(table.iloc[int(table["real_time_factor"].argmin())], "real_time_factor"), 1.0,
+                        "at_least", "§7: faster than real time"),
             Check("energy error, largest", float(table["energy_error"].max()), 1e-3, "at_most", "",
                   "target: 0.1 % of the work done"),
             Check("Σ r F_t against surface torque below 1900 m, largest difference", 100 * max(balance), 0.5,
@@ -82,7 +95,7 @@ def run(context: Context) -> Outcome:
             "cylinders at the same time, at a natural frequency of the string (study cylinder_ringing). The well "
             "itself has no seams, and arcs show no such swing.",
         ],
-        display={"runs": "Runs on one core; compile time and settling excluded"},
+        display={"runs": "Runs on one core: real-time factors by processor time, quartiles of tenths of a run"},
     )  # fmt: skip
 
 

@@ -47,6 +47,8 @@ at_most = 1.5
 
 
 def outcome(value, unit="mm"):
+    if isinstance(value, Outcome):
+        return value
     table = pd.DataFrame({"place": ["low", "low", "high"], "depth_m": [0.0, 10.0, 10.0], "force_N": [1.0, -2.0, 3.0]})
     return Outcome({"forces": table}, [Check("error", value, 1.0, "at_most", unit, "closed form")])
 
@@ -219,6 +221,19 @@ def test_a_number_of_a_table(judged, more, value):
     assert check.value == pytest.approx(value)
     assert finding.verdict == ("holds" if value <= 1.5 else "does not hold")
     assert (check.name, check.requirement()) == ("force", "at most 1.5 N")
+
+
+def test_the_quartiles_of_a_number_decide_with_it(judged):
+    """Those of a check, and those of a column in the columns beside it."""
+    row = {"ratio": [1.4], "ratio_low": [1.3], "ratio_high": [1.6]}
+    check = Check("error", 1.4, 9.0, "at_most", "", "test", timed=True, interval=(1.3, 1.6))
+    timed = Outcome({"times": pd.DataFrame(row)}, [check])
+    cell = 'study = "toy"\ntable = "times"\ncolumn = "ratio"\ncalled = "ratio"\nunit = ""\n'
+    for number in ('study = "toy"\ncheck = "error"\n', cell):
+        for bound, met in ((1.5, False), (1.7, True)):
+            text = f"{CLAIM[: CLAIM.index('[claim.number]')]}[claim.number]\n{number}at_most = {bound}\n"
+            found = judged(text, toy=timed).finding.number
+            assert (found.check.interval, found.met) == ((1.3, 1.6), met)
 
 
 @pytest.mark.parametrize(

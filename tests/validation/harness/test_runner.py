@@ -36,6 +36,7 @@ def test_met_check_and_its_table_are_stored(register, run, tmp_path):
         "unit": "mm",
         "source": "closed form",
         "timed": False,
+        "interval": None,
         "verdict": "met",
         "recorded": None,
     }

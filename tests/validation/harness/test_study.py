@@ -1,7 +1,9 @@
 """A verdict follows from the stored number and bound."""
 
+import ast
 import math
 
+import numpy as np
 import pandas as pd
 import pytest
 
@@ -35,6 +37,57 @@ def test_verdict(value, bound, kind, verdict):
 def test_requirement_in_words():
     assert Check("x", 0.0, 0.02, "at_most", "kN·m", "test").requirement() == "at most 0.02 kN·m"
     assert Check("x", 0.0, (-1.0, 1.0), "within", "", "test").requirement() == "within -1 to 1"
+
+
+@pytest.mark.parametrize(
+    ("interval", "bound", "kind", "verdict"),
+    [
+        ((0.9, 1.1), 1.2, "at_most", "met"),
+        ((0.9, 1.3), 1.2, "at_most", "missed"),
+        ((0.7, 1.1), 0.8, "at_least", "missed"),
+        ((0.9, 1.3), (0.8, 1.2), "within", "missed"),
+        ((math.nan, 1.1), 1.2, "at_most", "missed"),
+    ],
+)
+def test_both_ends_of_an_interval_meet_the_bound(interval, bound, kind, verdict):
+    check = Check("x", 1.0, bound, kind, "", "test", timed=True, interval=interval)
+    assert check.verdict == verdict
+    assert check.found() == f"1 ({interval[0]:g} to {interval[1]:g})"
+
+
+def test_a_ratio_of_times_is_that_of_its_rounds():
+    row = study.in_columns({"over": [1.0, 1.5, 2.0, 2.5, 3.0]})
+    assert row == {"over": 2.0, "over_low": 1.5, "over_high": 2.5}
+    check = study.ratio_check("x", study.quartiles_of(row, "over"), 2.2, "at_most", "test")
+    assert (check.value, check.interval, check.timed, check.verdict) == (2.0, (1.5, 2.5), True, "missed")
+
+
+def test_quartiles_of_a_fitted_exponent_widen_with_its_scatter():
+    x = np.array([1.0, 2.0, 4.0, 8.0, 16.0])
+    exact, rough = study.fitted_exponent(x, x**2), study.fitted_exponent(x, x**2 * [1, 1.2, 0.9, 1.1, 1])
+    assert exact.all == pytest.approx((2.0, 2.0, 2.0))
+    assert rough.low < rough.median < rough.high
+    # Half of all fits lie within: by the closed form of the slope's error with three degrees of freedom.
+    u, v = np.log(x), np.log(x**2 * [1, 1.2, 0.9, 1.1, 1])
+    left = v - np.polyval(np.polyfit(u, v, 1), u)
+    error = np.sqrt((left @ left) / 3 / np.sum((u - u.mean()) ** 2))
+    assert rough.high - rough.median == pytest.approx(0.7649 * error, rel=1e-3)
+
+
+RATIOS_WITHOUT = {"contact_fronts.py", "contact_swap.py", "rival_contact.py"}
+
+
+def test_a_ratio_of_times_comes_with_its_interval():
+    """A timed check without a unit is a ratio: `ratio_check` makes it."""
+    without = {
+        path.name
+        for path in (study.ROOT / "validation").glob("*/*.py")
+        for call in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(call, ast.Call) and isinstance(call.func, ast.Name) and call.func.id == "Check"
+        if {"timed", "interval"} & {each.arg for each in call.keywords} == {"timed"}
+        if any(isinstance(each, ast.Constant) and each.value == "" for each in call.args)
+    }
+    assert without - {"study.py"} == RATIOS_WITHOUT
 
 
 @pytest.mark.parametrize(("bound", "kind"), [(1.0, "within"), ((0.0, 1.0), "at_most")])
