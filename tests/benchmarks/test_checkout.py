@@ -1,14 +1,13 @@
-"""The sources of a release from the checkout's history, or the reason why there are none."""
+"""The sources of a commit from the checkout's history, or the reason why there are none."""
 
 import subprocess
 from pathlib import Path
 
 import pytest
 
-from benchmarks import history
-from benchmarks.history import Record
-from benchmarks.release import FOLDERS, NoSourcesError, check_out
-from tests.benchmarks.test_history import a_record
+from benchmarks import checkout
+from benchmarks.checkout import FOLDERS, SUBJECTS, check_out
+from fctd.case.errors import InputError
 
 
 def git(root: Path, *arguments: str) -> str:
@@ -17,74 +16,79 @@ def git(root: Path, *arguments: str) -> str:
     return done.stdout.strip()
 
 
+def commit(root: Path, text: str) -> str:
+    (root / "fctd" / "one.py").write_text(text)
+    git(root, "add", ".")
+    git(root, "commit", "--quiet", "-m", text)
+    return git(root, "rev-parse", "HEAD")
+
+
 @pytest.fixture
-def checkout(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[Path, Record, Path]:
-    """A checkout whose engine changed after a release; the record and its file."""
+def clone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[Path, str]:
+    """A clone whose engine changed after a baseline, and the commit of the baseline."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     root = tmp_path / "project"
     for folder in FOLDERS:
         (root / folder).mkdir(parents=True)
-        (root / folder / "one.py").write_text("released")
+        (root / folder / "one.py").write_text("same")
+    (root / SUBJECTS).write_text('{"old": 1}')
     git(root.parent, "init", "--quiet", str(root))
-    git(root, "add", ".")
-    git(root, "commit", "--quiet", "-m", "release")
-    record = a_record(commit=git(root, "rev-parse", "--short", "HEAD"), sources=history.sources_of(root))
-    file = history.write(record, root / "benchmarks" / "history")
-    git(root, "add", ".")
-    git(root, "commit", "--quiet", "-m", "its record")
-    (root / "fctd" / "one.py").write_text("changed")
-    git(root, "commit", "--quiet", "-am", "change")
-    return root, record, file
+    baseline = commit(root, "baseline")
+    (root / SUBJECTS).write_text('{"old": 1, "fresh": 2}')
+    commit(root, "changed")
+    return root, baseline
 
 
-def released(folder: Path) -> str:
-    return (folder / "fctd" / "one.py").read_text()
+def test_sources_are_those_of_the_commit(clone: tuple[Path, str]) -> None:
+    root, baseline = clone
+    for name in (baseline, baseline[:8], "HEAD^"):
+        folder = check_out(name, root)
+        assert (folder / "fctd" / "one.py").read_text() == "baseline"
+        assert all((folder / name / "one.py").exists() for name in FOLDERS)
 
 
-def test_sources_are_found_by_the_commit_of_the_record(checkout: tuple[Path, Record, Path]) -> None:
-    root, record, file = checkout
-    folder = check_out(record, file, root)
-    assert released(folder) == "released"
-    assert all((folder / name / "one.py").exists() for name in FOLDERS)
+def test_sources_stay_in_the_cache_since_numba_compiles_new_files_anew(clone: tuple[Path, str]) -> None:
+    root, baseline = clone
+    file = check_out(baseline, root) / "fctd" / "one.py"
+    first = file.stat().st_mtime_ns
+    assert check_out(baseline, root) / "fctd" / "one.py" == file
+    assert file.stat().st_mtime_ns == first
+    assert len(list(file.parents[2].iterdir())) == 1  # nothing half written beside it
 
 
-def test_sources_are_found_by_the_commit_that_added_the_record(checkout: tuple[Path, Record, Path]) -> None:
-    """On a rebased branch the recorded commit no longer exists."""
-    root, record, file = checkout
-    assert released(check_out(record.model_copy(update={"commit": "0123abc"}), file, root)) == "released"
+def test_a_subject_is_new_in_the_change_that_brings_it_and_no_longer(clone: tuple[Path, str]) -> None:
+    root, _ = clone
+    assert checkout.brought("fresh", root)
+    assert not checkout.brought("old", root)
+    commit(root, "a later change")
+    assert not checkout.brought("fresh", root)
 
 
-def test_a_record_may_be_in_another_folder(
-    checkout: tuple[Path, Record, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    root, record, file = checkout
-    other = tmp_path / "other.json"
-    other.write_bytes(file.read_bytes())
-    assert released(check_out(record, other, root)) == "released"
-    monkeypatch.chdir(root)
-    gone = record.model_copy(update={"commit": "0123abc"})
-    assert released(check_out(gone, file.relative_to(root), root)) == "released"
-    with pytest.raises(NoSourcesError, match="does not hold"):
-        check_out(gone, other, root)
+@pytest.mark.parametrize("name", ["0123abc", "--output=here", "nobranch"])
+def test_a_commit_that_the_clone_does_not_hold_is_named(clone: tuple[Path, str], name: str) -> None:
+    with pytest.raises(InputError, match="a commit of this clone") as caught:
+        check_out(name, clone[0])
+    assert caught.value.value == name
 
 
-def test_a_commit_with_other_sources_is_refused(checkout: tuple[Path, Record, Path]) -> None:
-    root, record, file = checkout
-    with pytest.raises(NoSourcesError, match="does not hold"):
-        check_out(record.model_copy(update={"sources": "others"}), file, root)
+def test_a_shallow_clone_says_how_to_deepen_it(clone: tuple[Path, str], tmp_path: Path) -> None:
+    root, baseline = clone
+    shallow = tmp_path / "shallow"
+    git(tmp_path, "clone", "--quiet", "--depth", "1", root.as_uri(), str(shallow))
+    with pytest.raises(InputError, match="git fetch --unshallow"):
+        check_out(baseline, shallow)
 
 
-def test_a_shallow_clone_is_reported(checkout: tuple[Path, Record, Path], tmp_path: Path) -> None:
-    root, record, file = checkout
-    clone = tmp_path / "clone"
-    git(tmp_path, "clone", "--quiet", "--depth", "1", root.as_uri(), str(clone))
-    with pytest.raises(NoSourcesError, match="shallow clone does not hold commit"):
-        check_out(record, clone / file.relative_to(root), clone)
+def test_a_folder_that_is_no_clone_is_reported(clone: tuple[Path, str], tmp_path: Path) -> None:
+    root, baseline = clone
+    with pytest.raises(InputError, match="a clone, so that the gate can race"):
+        check_out(baseline, root / "benchmarks")
+    with pytest.raises(InputError, match="a clone with its history"):
+        check_out(baseline, tmp_path)
 
 
-def test_a_folder_that_is_no_checkout_is_reported(checkout: tuple[Path, Record, Path], tmp_path: Path) -> None:
-    root, record, file = checkout
-    with pytest.raises(NoSourcesError, match="not the top of a checkout"):
-        check_out(record, file, root / "benchmarks")
-    with pytest.raises(NoSourcesError, match="not a git repository"):
-        check_out(record, file, tmp_path)
+def test_uncommitted_changes_are_told(clone: tuple[Path, str]) -> None:
+    root, _ = clone
+    assert checkout.uncommitted(root) == ""
+    (root / "fctd" / "one.py").write_text("edited")
+    assert "fctd/one.py" in checkout.uncommitted(root)
