@@ -1,7 +1,7 @@
 """What records have beside pytest-benchmark's own: machine, processor time, and a summary after the times."""
 
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
@@ -32,21 +32,34 @@ SHOWN = {
 }
 
 
+class TwoClocks:
+    """A timer that reads the processor's clock beside another one, at the beginning and at the end of each round."""
+
+    def __init__(self, clock: Callable[[], float]) -> None:
+        self._clock = clock
+        self._wall: list[float] = []
+        self._processor: list[float] = []
+
+    def __call__(self) -> float:
+        """The time of the other clock [s]."""
+        self._processor.append(processor_time())
+        self._wall.append(self._clock())
+        return self._wall[-1]
+
+    @property
+    def processor_percent(self) -> float:
+        """Processor time of all rounds over that of the other clock; NaN before the first round."""
+        wall, processor = (sum(taken[1::2]) - sum(taken[::2]) for taken in (self._wall, self._processor))
+        return 100 * processor / wall if wall > 0 else float("nan")
+
+
 @pytest.fixture
 def benchmark(benchmark: BenchmarkFixture) -> Iterator[BenchmarkFixture]:
     """That of pytest-benchmark; its record also has the processor's share of the time on the wall clock."""
-    clock, wall, processor = benchmark._timer, [], []
-
-    def timer() -> float:  # called at the beginning and end of each round
-        processor.append(processor_time())
-        wall.append(clock())
-        return float(wall[-1])
-
-    benchmark._timer = timer
+    benchmark._timer = clocks = TwoClocks(benchmark._timer)
     yield benchmark
-    spent = [sum(taken[1::2]) - sum(taken[: 2 * (len(taken) // 2) : 2]) for taken in (processor, wall)]
-    if spent[1] > 0:
-        benchmark.extra_info["processor_percent"] = 100 * spent[0] / spent[1]
+    if clocks.processor_percent > 0:  # not where times are switched off
+        benchmark.extra_info["processor_percent"] = clocks.processor_percent
 
 
 def processor_time() -> float:

@@ -1,7 +1,7 @@
 """The table and the picture of the gate."""
 
+import math
 import statistics
-from collections.abc import Sequence
 from pathlib import Path
 
 from matplotlib.figure import Figure
@@ -10,6 +10,7 @@ from rich.table import Table
 
 from benchmarks.gate import Outcome, with_sum
 from benchmarks.history import Record, curves
+from benchmarks.verdict import THRESHOLD
 
 RACED, ACCEPTED = "tab:blue", "tab:orange"  # a change, and a slowdown that its record accepts
 STYLES = {"slower": "bold red", "missing": "bold red", "no baseline": "bold red", "perhaps slower": "yellow",
@@ -17,30 +18,21 @@ STYLES = {"slower": "bold red", "missing": "bold red", "no baseline": "bold red"
 
 
 def verdict_table(outcome: Outcome) -> Table:
-    """The gate's verdicts, a row per kernel; costs before and now in units of the reference kernel."""
+    """The gate's verdicts, a row per kernel; costs are those now, in units of the reference kernel."""
     table = Table(title=outcome.how, title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
-    table.add_column("kernel")
-    for column in ("before", "now", "change", "80 % interval", "fails at"):
-        table.add_column(column, justify="right")
+    table.add_column("kernel", no_wrap=True)
+    for column in ("cost", "change", "80 % interval"):
+        table.add_column(column, justify="right", no_wrap=True)
     table.add_column("verdict")
-    before, now = with_sum(outcome.before, outcome.now), with_sum(outcome.now, outcome.before)
+    costs = with_sum(outcome.before, outcome.now) | with_sum(outcome.now, outcome.before)
     for verdict in outcome.verdicts:
-        numbers = ("–", "–", "–") if verdict.change != verdict.change else (
-            f"{verdict.change - 1:+.1%}", f"{verdict.low - 1:+.1%} to {verdict.high - 1:+.1%}",
-            f"{verdict.threshold - 1:+.0%}",
+        numbers = ("–", "–") if math.isnan(verdict.change) else (
+            f"{verdict.change - 1:+.1%}", f"{verdict.low - 1:+.1%} to {verdict.high - 1:+.1%}"
         )  # fmt: skip
-        table.add_row(
-            verdict.kernel, _middle(before.get(verdict.kernel)), _middle(now.get(verdict.kernel)), *numbers,
-            verdict.status, style=STYLES.get(verdict.status, ""),
-        )  # fmt: skip
+        more = "" if verdict.threshold == THRESHOLD else f", fails at {verdict.threshold - 1:+.0%}"
+        cost = f"{statistics.median(costs[verdict.kernel]):.4g}" if verdict.kernel in costs else "–"
+        table.add_row(verdict.kernel, cost, *numbers, verdict.status + more, style=STYLES.get(verdict.status, ""))
     return table
-
-
-def _middle(samples: Sequence[float] | None) -> str:
-    if samples is None:
-        return "–"
-    value = statistics.median(samples)
-    return f"{value:.4g}" if abs(value) < 1e4 else f"{value:,.0f}"
 
 
 def history_figure(records: list[tuple[Path, Record]]) -> Figure:
