@@ -12,6 +12,7 @@ import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from itertools import chain
 from pathlib import Path
 
 from rich.box import SIMPLE_HEAD
@@ -27,6 +28,7 @@ from fctd.case.errors import InputError
 from fctd.mechanics.state import ARCS, CYLINDERS, OPEN
 
 SLOWDOWN = 1.15
+PAIRS = 2  # of processes, in a race that calibrates
 PLANT = '''"""Extra work in compiled functions, as long as the environment says for the key of a call."""
 
 import json
@@ -97,9 +99,9 @@ SUBJECTS: Mapping[str, tuple[str, int, int]] = {
     "chart row": ("steady", SEGMENTS, 2_000),
     "limits": ("steady", SEGMENTS, 2_000),
 }
-# What is planted at once: the steady solver serves three subjects, and so one of them in a race.
-LATER = ["chart row", "limits"]
-RACES = [[name for name in SUBJECTS if name not in LATER], *([name] for name in LATER)]
+# What is planted at once.  Steps have joint loads too, and the steady solver serves three subjects.
+LATER = [["joint loads", "chart row"], ["limits"]]
+RACES = [[name for name in SUBJECTS if name not in chain.from_iterable(LATER)], *LATER]
 
 
 @dataclass(frozen=True)
@@ -154,14 +156,14 @@ def plant(folder: Path) -> None:
 
 
 def calibrated(slow: Path, targets: Sequence[str]) -> dict[str, int]:
-    """Turns of extra work by which each subject takes ``SLOWDOWN`` times as long."""
-    turns = {subject: SUBJECTS[subject][2] for subject in targets}
-    for pairs in (1, 2):  # the first brings the turns near, the second refines them
-        before, now = side_by_side(slow, turns, pairs)
-        for subject in targets:
-            ratio, _, _ = change_of(before[subject], now[subject])
-            turns[subject] = round(turns[subject] * min(max((SLOWDOWN - 1) / max(ratio - 1, 1e-3), 0.05), 20))
-    return turns
+    """Turns of extra work by which each subject takes ``SLOWDOWN`` times as long, on the line through two races."""
+    guesses = {subject: SUBJECTS[subject][2] for subject in targets}
+    none, some = (side_by_side(slow, turns, PAIRS) for turns in (dict.fromkeys(targets, 0), guesses))
+    found = {}
+    for subject, guess in guesses.items():
+        low, high = (change_of(before[subject], now[subject])[0] for before, now in (none, some))
+        found[subject] = max(round(guess * (SLOWDOWN - low) / max(high - low, 0.01)), 0)
+    return found
 
 
 def table(found: list[Finding]) -> Table:
