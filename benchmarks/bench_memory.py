@@ -78,7 +78,7 @@ def bench_many_strings(benchmark: BenchmarkFixture, count: int) -> None:
     benchmark.extra_info |= benchmark.pedantic(process, args=(MANY.format(count=count), answer), rounds=1)
 
 
-@pytest.mark.parametrize("name", contact.METHODS)
+@pytest.mark.parametrize("name", [*contact.METHODS, *contact.REGISTRY.plugins()])
 def bench_method_memory(benchmark: BenchmarkFixture, name: str) -> None:
     """A contact method for the hole of the curved chain."""
     if contact.installed_version(name) is None:

@@ -14,23 +14,22 @@ from pytest_benchmark.fixture import BenchmarkFixture
 from benchmarks.records import describe
 from benchmarks.strings import LEAD, chain
 from fctd import build_wellbore, find_contacts
+from fctd.arena.exact_hole import ExactHole
+from fctd.arena.frames import frame
 from fctd.mechanics.query import query_walls
 from references import contact
 from references.registry import absent
 from references.timing.workloads import find_walls, moving
 
 POINTS, RADIUS = 240, 0.051
-# Largest distance of points from contact [m].
-BAND = 0.015
 ROUNDS = 25
 COMPILED_CALLS = 40  # per round
 
 
 def points_near_wall(count: int) -> NDArray[np.float64]:
     """Seeded points near the wall of the curved chain's hole, in its vertical, build and horizontal sections."""
-    exact, rng = build_wellbore(chain(wellbore__geometry="arcs")), np.random.default_rng(7)
-    md, angle = rng.uniform(1000.0, 2440.0, count), rng.uniform(0, 2 * np.pi, count)
-    return exact.off_axis(md, angle, 0.1556 - RADIUS + rng.uniform(-BAND, BAND, count))
+    hole = ExactHole(chain(wellbore__geometry="arcs").wellbore)
+    return frame(hole, count, seed=7, radius=RADIUS, md=(1000.0, 2440.0)).places
 
 
 def errors(penetration: NDArray[np.float64], points: NDArray[np.float64]) -> dict[str, float]:
@@ -49,7 +48,7 @@ def note_cost(benchmark: BenchmarkFixture, points: int) -> None:
         benchmark.extra_info["ns_per_point"] = 1e9 * benchmark.stats.stats.median / points
 
 
-@pytest.mark.parametrize("name", contact.METHODS)
+@pytest.mark.parametrize("name", [*contact.METHODS, *contact.REGISTRY.plugins()])
 def bench_query_from_python(benchmark: BenchmarkFixture, name: str) -> None:
     """One call for all points."""
     if contact.installed_version(name) is None:

@@ -14,7 +14,7 @@ from references.timing.workloads import NoWall, asking, energy_error, moving, wi
 OWN, OTHERS = 300, 15
 
 
-@pytest.mark.parametrize("name", ["no contact", *contact.METHODS])
+@pytest.mark.parametrize("name", ["no contact", *contact.METHODS, *contact.REGISTRY.plugins()])
 def bench_swapped_step(benchmark: BenchmarkFixture, name: str) -> None:
     """60 segments turning; ``no contact`` is a query without contacts, in a run without the hole."""
     if name != "no contact" and contact.installed_version(name) is None:

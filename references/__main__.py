@@ -11,6 +11,7 @@ from fctd.case.errors import InputError
 from fctd.case.load import Case, load_case
 from fctd.cli.keeping import AcceptChanges, CheckpointEvery, OptionalCase, Restart, Resume, SaveOptions
 from fctd.cli.main import run
+from fctd.cli.option_names import naming_options
 from fctd.cli.options import CaseFile, Csv, Friction, Out, Overrides, Quiet, changes_of, screen
 from fctd.cli.simulate import RunOutput, simulate_file
 from fctd.store.run_folder import about_of
@@ -117,7 +118,7 @@ def engine_command(
         raise typer.Exit(1)
 
 
-app.command("methods")(methods_command)
+app.command("methods")(naming_options(methods_command))
 
 
 @app.command("check")

@@ -5,6 +5,7 @@ import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
+from itertools import takewhile
 from pathlib import Path
 from typing import Any, Literal
 
@@ -24,6 +25,8 @@ COMMAND = "python -m reports which-contact"
 # The mark at the end of the guide; a text that was written otherwise has another digest.
 MARK = "<!-- written by `{command}`, digest {digest} -->"
 STUDIES = ("contact_fronts", "rival_contact", "rival_engines", "washed_out_hole", "sticking", "sweep")
+# Before the origin of what comes from the guide; the heading of all origins.
+RECORD, MEASURED_ON = "last record, ", "## Measured on"
 HEADINGS = ("need", "method", "setting", "cost", "error in torque", "precision", "licence, size", "Python", "trap")
 
 # Columns of the table of all settings, and their headings.
@@ -96,6 +99,10 @@ class Results:
             except (OSError, ValueError, TypeError, LookupError):
                 continue  # its numbers are said to be missing
 
+    def lacks(self, each: Need) -> bool:
+        """Whether a number of a need is in no result."""
+        return any(self._quantity(source) is None for source in (*each.costs, *each.errors))
+
     def filled(self, text: str, sources: Iterable[Source]) -> str:
         """A text with its numbers; where one has not been measured, the command that measures it."""
         found = [(source[0], self._quantity(source)) for source in sources]
@@ -146,38 +153,43 @@ class Results:
 
 
 def table(folder: Path) -> Table:
-    """The needs with their numbers from the results in a folder."""
-    results = Results(folder)
+    """The needs with their numbers from the results in a folder, and from the guide where a result is missing."""
+    results, kept = Results(folder), recorded()
+    last = {row[0]: row for row in kept.rows}
     rows: list[tuple[str, ...]] = []
+    from_guide: dict[str, None] = {}
     for each in needs():
+        if results.lacks(each) and each.need in last:
+            rows.append(last[each.need])
+            from_guide |= dict.fromkeys(source[0] for source in (*each.costs, *each.errors))
+            continue
         cost, error = results.filled(each.cost, each.costs), results.filled(each.error, each.errors)
         if failed := results.gate(each.take):
             cost = f"~~{cost}~~ {failed}"
         method = "FCTD itself" if each.take == "own" else f"`{each.take}`"
         rows.append((each.need, method, each.setting, cost, error, each.precision, *_package(each, results), each.trap))
-    return Table(HEADINGS, rows, results.origins())
+    origins = [line for line in kept.origins if line.removeprefix(RECORD).partition(":")[0] in from_guide]
+    return Table(HEADINGS, rows, results.origins() + [RECORD + line.removeprefix(RECORD) for line in origins])
+
+
+def recorded() -> Table:
+    """The needs of the guide: the last record, whose numbers stand for results that are missing."""
+    lines = GUIDE.read_text(encoding="utf-8").splitlines() if GUIDE.exists() else []
+    begin = lines.index("| " + " | ".join(HEADINGS) + " |") + 2 if lines else 0
+    cells = [line[2:-2].split(" | ") for line in takewhile(lambda line: line.startswith("| "), lines[begin:])]
+    whole = [tuple(row) for row in cells if len(row) == len(HEADINGS)]
+    measured = lines[lines.index(MEASURED_ON) :] if lines else []
+    return Table(HEADINGS, whole, [line[2:] for line in measured if line.startswith("- ") and ": 20" in line])
 
 
 def fronts(folder: Path) -> Table:
     """Every setting of every method that has been measured, in the order of the studies."""
     results = Results(folder)
     columns = list(MEASURED)
-    found = [of["fronts"] for of in results.tables.values() if "fronts" in of]
-    if {"cost", "errors"} <= set(rivals := results.tables.get("rival_contact", {})):
-        found.append(_of_rivals(rivals["cost"], rivals["errors"]))
+    found = [of["fronts"] for of in results.tables.values() if "setting" in of.get("fronts", ())]
     rows = pd.concat(found, ignore_index=True).reindex(columns=columns) if found else pd.DataFrame(columns=columns)
+    rows = rows.drop_duplicates("setting")  # the baselines of rivals are those of the suite
     return Table(tuple(MEASURED.values()), list(zip(*(words.column(rows[name]) for name in columns), strict=True)), [])
-
-
-def _of_rivals(cost: pd.DataFrame, errors: pd.DataFrame) -> pd.DataFrame:
-    """Settings of rivals and plugins with the columns of ``contact_fronts``."""
-    cost, errors = (rows[rows["status"] == "measured"] for rows in (cost, errors))
-    cost = cost[~cost["method"].isin(contact.METHODS)]
-    spent = cost.pivot_table(index="setting", columns="points", values="median_ns")
-    worst = errors.groupby("setting")[["max_penetration_error_mm", "max_angle_error_deg"]].max()
-    table = pd.DataFrame({"single_us": 1e-3 * spent[1], "ns_1000": spent[1000]} if len(spent) else {})
-    table["max_error_mm"], table["max_angle_deg"] = worst["max_penetration_error_mm"], worst["max_angle_error_deg"]
-    return table.loc[list(dict.fromkeys(cost["setting"]))].rename_axis("setting").reset_index()
 
 
 def write_guide(folder: Path) -> None:
@@ -197,7 +209,7 @@ def guide(chosen: Table, measured: Table) -> str:
         "## Every setting\n\n"
         f"{SETTINGS}\n"
         f"{_markdown(measured)}\n"
-        "## Measured on\n\n"
+        f"{MEASURED_ON}\n\n"
         f"{origins}\n"
         f"{NOT_TAKEN}\n"
     )

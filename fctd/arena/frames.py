@@ -46,9 +46,15 @@ def frame(
     """
     rng = np.random.default_rng(seed)
     top, bottom = md or (hole.md[0] + 5.0, hole.md[1] - 5.0)
-    depths, angle = rng.uniform(top, bottom, count), rng.uniform(0, 2 * np.pi, count)
-    distance = hole.wall(depths, angle) - radius + rng.uniform(-BAND, BAND, count)
-    return Frame(hole, depths, hole.off_axis(depths, angle, distance), np.full(count, radius))
+    return beside(hole, rng.uniform(top, bottom, count), rng, radius)
+
+
+def beside(hole: ExactHole, md: Array, rng: np.random.Generator, radius: float = RADIUS) -> Frame:
+    """Points at measured depths (n,) [m], at any angle, within BAND of touching."""
+    count = len(md)
+    angle = rng.uniform(0, 2 * np.pi, count)
+    distance = hole.wall(md, angle) - radius + rng.uniform(-BAND, BAND, count)
+    return Frame(hole, md, hole.off_axis(md, angle, distance), np.full(count, radius))
 
 
 def case_of(name: str, stations: list[list[float]], intervals: list[tuple[float, float]], **hole: Any) -> Case:

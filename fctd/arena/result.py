@@ -188,12 +188,25 @@ class WindowOf(_Part):
         return max(math.ceil(self.duration_s / self.step_s), 1)
 
 
+class Counts(_Part):
+    """Loads of the string of a window over a range of counts of segments, in the hole of the engine's own arcs.
+
+    tolerance : relative, of the counts that suffice.  steps, orders : rows of ``fctd.refine(case, segments=...)`` by
+    their columns, those of the stage ``counts`` alone.
+    """
+
+    tolerance: float
+    steps: list[dict[str, str | int | float | None]]
+    orders: list[dict[str, str | int | float | None]]
+
+
 class Comparison(_Part):
     """Contact methods and engines on one well.
 
     case, digest : its name, and the hash of its contents.  reference : of the errors.  md_m : of the contact points in
-    the window, from the top.  kernel_ns : processor time of a column of the reference kernel.  machine : what times
-    depend on.  notes : what a reader of the numbers has to know.  interrupted : whether Ctrl-C ended it.
+    the window, from the top.  kernel_ns : processor time of a column of the reference kernel.  counts : of segments,
+    where a range was asked for.  machine : what times depend on.  notes : what a reader of the numbers has to know.
+    interrupted : whether Ctrl-C ended it.
     """
 
     schema_version: int = SCHEMA
@@ -204,6 +217,7 @@ class Comparison(_Part):
     md_m: list[float] = Field(default=[], repr=False)
     rows: list[Row] = []
     kernel_ns: Quartiles | None = None
+    counts: Counts | None = None
     machine: dict[str, str] = {}
     budget_s: float
     quick: bool = False

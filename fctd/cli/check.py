@@ -4,7 +4,19 @@ from fctd.case.load import naming_file
 from fctd.case.text import printable
 from fctd.cli.base_command import Silent
 from fctd.cli.job import FOLD, print_facts, print_table
-from fctd.cli.options import CaseFile, Friction, Overrides, Strict, Units, changes_of, read_case, screen, tell
+from fctd.cli.options import (
+    CaseFile,
+    Friction,
+    Overrides,
+    Strict,
+    Units,
+    changes_of,
+    finish,
+    print_notes,
+    read_case,
+    screen,
+    tell,
+)
 from fctd.model.summary import Summary, segments_in_words, summarise
 from fctd.results.case_facts import (
     caliper_facts,
@@ -15,6 +27,7 @@ from fctd.results.case_facts import (
     path_facts,
     string_table,
 )
+from fctd.results.notes import sagitta
 from fctd.results.unit_systems import System, shown
 
 
@@ -37,6 +50,10 @@ def check_command(
     if not quiet:
         screen.print(segments_in_words(case, string, metre.factor, metre.label), soft_wrap=True)
     tell(case, case.warnings, strict=strict, units=units)
+    note = sagitta(case, string)
+    notes = [] if note is None else [note]
+    print_notes(notes, units)
+    finish(True, [note.code for note in notes], strict)
 
 
 def _print(summary: Summary, units: System) -> None:

@@ -12,7 +12,8 @@ P = ParamSpec("P")
 R = TypeVar("R")
 
 # Arguments of the library's functions that are options of the commands.
-OPTIONS = {name: f"--{name}" for name in ("operation", "speed", "rpm", "flow", "friction", "tolerance", "most")}
+_NAMES = "operation", "speed", "rpm", "flow", "friction", "tolerance", "most", "segments"
+OPTIONS = {name: f"--{name}" for name in _NAMES}
 
 
 def naming_options(command: Callable[P, R], others: Mapping[str, str] | None = None) -> Callable[P, R]:

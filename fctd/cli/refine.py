@@ -2,12 +2,14 @@
 
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 import typer
 
-from fctd.cli.job import FOLD, WHOLE, Job, headed, print_table, right, rows_of
+from fctd import plots
+from fctd.case.operations import KINDS
+from fctd.cli.job import FOLD, WHOLE, Job, Written, headed, print_table, right, rows_of
 from fctd.cli.options import (
     CaseFile,
     Friction,
@@ -19,13 +21,21 @@ from fctd.cli.options import (
     print_notes,
     print_status,
     read_share,
+    screen,
 )
 from fctd.cli.quantities import BIT_DEPTH, Given, quantity
 from fctd.cli.steady import DEPTH_HELP, KIND_HELP, Flow, ResolveBuckling, Rpm, Speed, read_drive, read_kinds
-from fctd.results.shown_tables import of_column, shown_table
-from fctd.results.unit_systems import shown
+from fctd.plots import DRAWN
+from fctd.results.convergence import counts_in_words, orders_table
+from fctd.results.shown_tables import Table, of_column, shown_table
+from fctd.results.unit_systems import System, shown
 from fctd.steady.refine import Refinement, refine
 from fctd.steady.refined_file import survey_from, write_refined
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+RANGE = "10:1000"  # of counts, where only a picture is asked for
 
 
 def refine_command(
@@ -44,6 +54,21 @@ def refine_command(
         bool, typer.Option("--graded", help="Short segments only in bends and near the bit, if that saves a tenth.")
     ] = False,
     most: Annotated[int, typer.Option("--most", metavar="N", help="Largest number of segments.")] = 5000,
+    segments: Annotated[
+        str | None,
+        typer.Option(
+            "--segments",
+            metavar="FROM:TO",
+            show_default=False,
+            help=f"Observed order, extrapolated loads and errors over a range of counts, {RANGE} with --plot.",
+        ),
+    ] = None,
+    plot: Annotated[
+        Path | None,
+        typer.Option(
+            "--plot", metavar="FILE", show_default=False, help=f"Errors against the counts, {', '.join(DRAWN)}."
+        ),
+    ] = None,
     speed: Speed = None,
     rpm: Rpm = None,
     flow: Flow = None,
@@ -64,8 +89,10 @@ def refine_command(
     share = read_share(tolerance, "--tolerance")
     job = Job(
         case_file, overrides, friction, resolve_buckling, units=units, strict=strict, quiet=quiet,
-        files={"--out": (out, (".toml",))},
+        files={"--out": (out, (".toml",)), "--plot": (plot, DRAWN)},
     )  # fmt: skip
+    if plot is not None and segments is None:
+        segments = RANGE
     if out is not None:
         survey_from(out, job.case)  # raises InputError before the computing
     depth = None if bit_depth is None else bit_depth.depth(job.case, units)
@@ -73,10 +100,15 @@ def refine_command(
     kinds = read_kinds(operations) if operations else []
     job.warn(kinds, **drive)
     with job.status("compiling") as show:
-        refined = refine(job.case, share, kinds or None, depth, graded, most, **drive, progress=show)
+        refined = refine(job.case, share, kinds or None, depth, graded, most, **drive, progress=show, segments=segments)
     found = refined.status.has_loads
+    files: dict[str, Written] = {"--out": partial(write_refined, refined, case_file, job.changes) if found else None}
+    if (orders := refined.orders) is not None:
+        files["--plot"] = lambda path: plots.save(
+            plots.counts_figure(job.case.name, refined.steps, orders, share), path
+        )
     job.end(
-        {"--out": partial(write_refined, refined, case_file, job.changes) if found else None},
+        files,
         lambda: _print(job, refined, graded, lacking=out is not None and not found),
         title=f"{job.case.name}: bit at {job.depth(refined.bit_depth)}",
         rates=(refined.steps["operation"].unique().tolist(), drive), acceptable=refined.status.acceptable,
@@ -84,17 +116,28 @@ def refine_command(
     )  # fmt: skip
 
 
-def _print(job: Job, refined: Refinement, graded: bool, *, lacking: bool) -> None:
-    """Print every level and the conclusion; name the layout of a string only where both were tried.
+def print_counts(steps: "pd.DataFrame", orders: "pd.DataFrame", tolerance: float, units: System) -> None:
+    """Print a range of counts: every string, observed orders with extrapolated loads, and the counts that suffice.
 
-    lacking : whether a file was asked for, and there is nothing to write.
+    steps, orders, tolerance : of a ``Refinement`` with a range of counts.
     """
-    units, metre, across = job.units, shown("bit_depth_m", job.units), shown("clearance_m", job.units)
+    steps = steps[steps["stage"] == "counts"]
+    print_table(_levels(steps, units, layouts=True), words=WHOLE, numbers=FOLD)
+    for kind, rows in orders.groupby("operation", sort=False):
+        screen.print(KINDS[str(kind)].label)
+        print_table(orders_table(rows, tolerance, units), words=WHOLE, numbers=FOLD)
+    for line in counts_in_words(steps, orders, tolerance):
+        screen.print(line, soft_wrap=True)
+
+
+def _levels(steps: "pd.DataFrame", units: System, *, layouts: bool) -> Table:
+    """A row for each level and operation; layouts : whether the layout of a string is named."""
+    across = shown("clearance_m", units)
     loads = headed({"hookload_N": "hook load", "surface_torque_N_m": "torque"}, units)
     told: list[list[Any]] = []
-    for (stage, layout, _), rows in refined.steps.groupby(["stage", "layout", "level"], sort=False):
+    for (stage, layout, _), rows in steps.groupby(["stage", "layout", "level"], sort=False):
         chord, segments = rows["chord_m"].iloc[0] * across.factor, rows["segments"].iloc[0]
-        string = f"{segments} {layout}" if graded else f"{segments} segments"
+        string = f"{segments} {layout}" if layouts else f"{segments} segments"
         name = f"chords {chord:.3g} {across.label}" if stage == "hole" else string
         for row in rows_of(rows):
             answer = (
@@ -109,11 +152,17 @@ def _print(job: Job, refined: Refinement, graded: bool, *, lacking: bool) -> Non
                 f"{1e3 * row['time_s']:.0f}",
             ])  # fmt: skip
             name = ""
-    print_table(
-        shown_table(["", "operation", *loads, *right("change\n%", "error\n%", "time\nms")], told),
-        words=WHOLE,
-        numbers=FOLD,
-    )
+    return shown_table(["", "operation", *loads, *right("change\n%", "error\n%", "time\nms")], told)
+
+
+def _print(job: Job, refined: Refinement, graded: bool, *, lacking: bool) -> None:
+    """Print every level and the conclusion; name the layout of a string only where both were tried.
+
+    lacking : whether a file was asked for, and there is nothing to write.
+    """
+    metre = shown("bit_depth_m", job.units)
+    levels = refined.steps[refined.steps["stage"] != "counts"]
+    print_table(_levels(levels, job.units, layouts=graded), words=WHOLE, numbers=FOLD)
     if refined.status.acceptable:
         cut = f"{refined.layout} segments" if graded else "segments"
         job.say(
@@ -129,6 +178,8 @@ def _print(job: Job, refined: Refinement, graded: bool, *, lacking: bool) -> Non
             "The string is buckled. Its buckled stretch has segments that can bend as it does (solver.buckling = "
             f'"resolve"), {refined.resolved} in all; the loads depend on the length of the others alone.'
         )
+    if refined.orders is not None:
+        print_counts(refined.steps, refined.orders, refined.tolerance, job.units)
     print_notes(refined.notes, job.units)
     if lacking:
         messages.print("Nothing is written: no equilibrium was found.")

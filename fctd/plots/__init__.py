@@ -13,6 +13,7 @@ DRAWN: Final = (".png", ".svg", ".pdf")  # suffixes of pictures
 if TYPE_CHECKING:  # what ``offer`` reads
     from fctd.plots.calibration import calibration_figure as calibration_figure, prediction_figure as prediction_figure
     from fctd.plots.chart import chart_figure as chart_figure
+    from fctd.plots.counts import counts_figure as counts_figure
     from fctd.plots.depth_panels import panels_figure as panels_figure, panels_page as panels_page
     from fctd.plots.feeding import feeding_figure as feeding_figure
     from fctd.plots.loads import ChartLook as ChartLook

@@ -20,6 +20,8 @@ from fctd.steady.steady_string import Equilibrium
 Progress = Callable[[str], None]
 # Roache's factor of a grid convergence index (1994).
 SAFETY = 1.25
+# Largest number of segments beside those of a buckled stretch: each level takes seconds.
+MOST_BESIDE = 512
 # The error of a load near zero is relative to this share of its parts (weight, Σ r μ F_n).
 SHARE_OF_WHOLE = 0.1
 
@@ -34,10 +36,11 @@ class Task(NamedTuple):
 
 
 class Level(NamedTuple):
-    """The strings of one layout and fineness, each level twice as fine as the one before.
+    """The strings of one layout and fineness.
 
     loads (operations, 2) : hook load [N] and torque [N m], NaN where a string was not solved; scales (operations, 2) :
-    the values errors are relative to; seconds (operations,); length : that the layout was asked for [m].
+    the values errors are relative to; seconds (operations,); length : that the layout was asked for [m]; fineness : how
+    many times as fine as the first level.
     """
 
     stage: str
@@ -50,6 +53,7 @@ class Level(NamedTuple):
     points: list[Equilibrium]
     seconds: list[float]
     length: float = 0.0
+    fineness: float = 1.0
 
     @property
     def answered(self) -> bool:
@@ -60,6 +64,11 @@ class Level(NamedTuple):
     def resolved(self) -> int:
         """Segments of the longest string with a buckled stretch laid out by the solver, 0 without one."""
         return max((len(point.profile) - 1 for point in self.points if point.shape != "none"), default=0)
+
+
+def cut(case: Case, task: Task, layout: str, length: float, least: int = 1) -> Case:
+    """The case with its string in a layout; length, least : of ``Layout``."""
+    return layouts.with_components(case, layouts.LAYOUTS[layout](case, task.bit_depth, length, least))
 
 
 def solve_level(stage: str, layout: str, case: Case, task: Task) -> Level:
@@ -131,7 +140,7 @@ def errors_of(levels: Sequence[Level]) -> tuple[Array, Array]:
             continue
         changes = [abs(levels[j].loads[k, column] - levels[i].loads[k, column]) for i, j in pairwise(answers)]
         left = [
-            step / (2.0 ** (j - i) - 1) * 0.5 ** (len(levels) - 1 - j)
+            step / (levels[j].fineness / levels[i].fineness - 1) * levels[j].fineness / last.fineness
             for step, (i, j) in zip(changes, pairwise(answers), strict=True)
         ]
         change[k, column], missing[k, column] = changes[-1], max(left)

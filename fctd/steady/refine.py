@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from fctd.arrays import Array
 from fctd.case.errors import InputError
 from fctd.case.friction import FrictionChoice
 from fctd.case.load import Case, check_bit_depth, naming_file, with_friction
@@ -35,7 +36,19 @@ from fctd.model.operations import rates_of_all
 from fctd.results.notes import Note, worst
 from fctd.results.status import RefineStatus
 from fctd.steady.chords import largest_chord, shorter_cylinders
-from fctd.steady.levels import Level, Progress, Task, counts, errors_of, is_judged, largest_error, solve_level
+from fctd.steady.counts import ends_of, judged, solve_counts
+from fctd.steady.levels import (
+    MOST_BESIDE,
+    Level,
+    Progress,
+    Task,
+    counts,
+    cut,
+    errors_of,
+    is_judged,
+    largest_error,
+    solve_level,
+)
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -47,8 +60,6 @@ FIRST, IN_HOLE = 16, (128, 512)
 HALVINGS = 6
 # Share of the tolerance for the error of the cylinders.
 SHARE_OF_HOLE = 0.25
-# Largest number of segments beside those of a buckled stretch: each level takes seconds.
-MOST_BESIDE = 512
 # Solved levels that an estimate needs, and unsolved finer levels after which the refinement stops.
 ANSWERS, UNANSWERED = 3, 2
 # Segments of a graded string over those of a uniform one, at most.
@@ -62,11 +73,13 @@ class Refinement:
     status : how the search ended; message : details.  case : with the last string that was solved, else as given.
     tolerance, error : allowed and estimated relative error of hook load and torque, the largest over the
     operations.  layout : ``uniform`` or ``graded``.  segments : of the string in the hole.  shortest : of them [m].
-    steps : a row per stage, layout, level and operation; columns stage, layout, level, operation, segments,
-    shortest_m, chord_m (largest distance of a cylinder from the hole), hookload_N, surface_torque_N_m, hookload_change,
-    torque_change, hookload_error, torque_error (all relative; NaN while there is none), status, time_s.
+    steps : a row per stage, layout, level and operation; columns stage ("hole", "string", or "counts" of a range),
+    layout, level, operation, segments, shortest_m, chord_m (largest distance of a cylinder from the hole), hookload_N,
+    surface_torque_N_m, hookload_change, torque_change, hookload_error, torque_error (all relative; NaN while there is
+    none), status, time_s.
     notes : of the last strings that were solved, each code once.  resolved : largest number of their segments where
-    the solver laid out a buckled stretch (such loads need ``solver.buckling = "resolve"``), else 0.
+    the solver laid out a buckled stretch (such loads need ``solver.buckling = "resolve"``), else 0.  orders : of a
+    range of counts, the columns of ``counts.judged``; else None.
     """
 
     status: RefineStatus
@@ -82,6 +95,7 @@ class Refinement:
     steps: pd.DataFrame
     notes: tuple[Note, ...] = ()
     resolved: int = 0
+    orders: pd.DataFrame | None = None
 
 
 def refine(
@@ -97,6 +111,7 @@ def refine(
     progress: Progress | None = None,
     *,
     friction: FrictionChoice | None = None,
+    segments: str | Sequence[int] | None = None,
 ) -> Refinement:
     """Cut the string of a case finer until hook load and torque are within ``tolerance`` (0.01 is 1 %).
 
@@ -106,9 +121,13 @@ def refine(
     bit depth only.  most : segments at most.  speed [m/s], rpm, flow [m³/s] : see ``torque_drag``.  friction : factors
     as of ``equilibrium``, which the refined case has too.  Errors are relative to the load, or to a tenth of the
     string's weight (hook load) or of Σ r μ F_n (torque) where that is more; without rotation to all of Σ r μ F_n.  The
-    solver lays out the buckled stretch of a string, unless the case sets ``solver.buckling``.  Raises InputError for
-    bad input.
+    solver lays out the buckled stretch of a string, unless the case sets ``solver.buckling``.  segments : a range of
+    counts, "10:1000" or a pair, all of which is solved beside the search, uniform, graded and by default: observed
+    orders, extrapolated loads, and the counts that the tolerance needs.  Raises InputError for bad input.
     """
+    import pandas as pd
+
+    ends = None if segments is None else ends_of(segments)
     with naming_file(case):
         case = with_friction(case, friction)
         kinds = _kinds(case, operation)
@@ -116,9 +135,8 @@ def refine(
         _check(case, tolerance, most, depth)
         task = Task(rates_of_all(case, kinds, speed, rpm, flow), depth, most, progress)
         coarse = _with_buckling(case, "detect")
-        solve_level(
-            "string", "uniform", _cut(coarse, task, "uniform", layouts.divided_length(case, depth) / FIRST), task
-        )  # compile
+        whole = layouts.divided_length(case, depth)
+        solve_level("string", "uniform", cut(coarse, task, "uniform", whole / FIRST), task)  # compile
         resolving = case if "buckling" in case.solver.model_fields_set else _with_buckling(case, "resolve")
         # Chords change the loads of a string that lies too straight where it is buckled as they do those of any other.
         holes = _refine_hole(coarse, task, SHARE_OF_HOLE * tolerance)
@@ -126,11 +144,17 @@ def refine(
         in_hole = resolving.model_copy(update={"wellbore": holes[-1].case.wellbore}) if holes else resolving
         strings = _refine_string(in_hole, task, "uniform", tolerance - error_of_hole)
         found = _result(case, task, tolerance, error_of_hole, holes, strings)
-        if not graded:
+        if graded:
+            fewer = task._replace(most=int(WORTH * found.segments)) if found.status.acceptable else task
+            strings = _refine_string(in_hole, fewer, "graded", tolerance - error_of_hole)
+            found = _better(found, _result(case, task, tolerance, error_of_hole, holes, strings))
+        if ends is None:
             return found
-        fewer = task._replace(most=int(WORTH * found.segments)) if found.status.acceptable else task
-        strings = _refine_string(in_hole, fewer, "graded", tolerance - error_of_hole)
-        return _better(found, _result(case, task, tolerance, error_of_hole, holes, strings))
+        by_layout = solve_counts(in_hole, task, *ends)
+        orders, errors = judged(task, by_layout, tolerance)
+        solved = [row for layout, levels in by_layout.items() for row in _rows(task, levels, errors[layout])]
+        steps = pd.concat([found.steps, pd.DataFrame(solved)], ignore_index=True)
+        return replace(found, steps=steps, orders=pd.DataFrame(orders))
 
 
 def _refine_hole(case: Case, task: Task, allowed: float) -> list[Level]:
@@ -139,13 +163,13 @@ def _refine_hole(case: Case, task: Task, allowed: float) -> list[Level]:
     if case.wellbore.geometry != "cylinders" or not case.contact.enabled:
         return levels
     for segments in IN_HOLE:
-        cut = _cut(case, task, "uniform", layouts.divided_length(case, task.bit_depth) / segments)
-        levels = [solve_level("hole", "uniform", cut, task)]
+        of = cut(case, task, "uniform", layouts.divided_length(case, task.bit_depth) / segments)
+        levels = [solve_level("hole", "uniform", of, task)]
         if levels[0].answered:
             break
     while len(levels) <= HALVINGS and not (largest_error(levels) <= allowed):
-        cut = shorter_cylinders(cut)
-        levels.append(solve_level("hole", "uniform", cut, task))
+        of = shorter_cylinders(of)
+        levels.append(solve_level("hole", "uniform", of, task)._replace(fineness=2.0 ** len(levels)))
     return levels
 
 
@@ -154,11 +178,12 @@ def _refine_string(case: Case, task: Task, layout: str, allowed: float) -> list[
     levels: list[Level] = []
     length = layouts.divided_length(case, task.bit_depth) / FIRST
     while True:
-        cut = _cut(case, task, layout, length, 2 ** len(levels))
+        of = cut(case, task, layout, length, 2 ** len(levels))
         most = min(task.most, MOST_BESIDE) if levels and levels[-1].resolved else task.most
-        if levels and layouts.segments_in_hole(cut, task.bit_depth) > most:
+        if levels and layouts.segments_in_hole(of, task.bit_depth) > most:
             return levels
-        levels.append(solve_level("string", layout, cut, task)._replace(length=length))
+        fineness = 2.0 ** len(levels)
+        levels.append(solve_level("string", layout, of, task)._replace(length=length, fineness=fineness))
         answered = [k for k, level in enumerate(levels) if level.answered]
         if len(answered) >= ANSWERS and largest_error(levels) <= allowed and is_judged(case, levels[-1]):
             return levels
@@ -222,11 +247,12 @@ def _better(uniform: Refinement, graded: Refinement) -> Refinement:
     return replace(min(uniform, graded, key=merit), steps=steps)
 
 
-def _rows(task: Task, levels: list[Level]) -> list[dict[str, Any]]:
-    """A row per level and operation."""
+def _rows(task: Task, levels: list[Level], errors: Array | None = None) -> list[dict[str, Any]]:
+    """A row per level and operation; errors (levels, operations, 2) : in place of those at first order."""
     rows = []
     for k, level in enumerate(levels):
         change, error = errors_of(levels[: k + 1])
+        error = error if errors is None else errors[k]
         for i, kind in enumerate(task.rates):
             row = {
                 "stage": level.stage, "layout": level.layout, "level": k, "operation": kind,
@@ -242,10 +268,6 @@ def _rows(task: Task, levels: list[Level]) -> list[dict[str, Any]]:
 
 def _with_buckling(case: Case, how: str) -> Case:
     return case.model_copy(update={"solver": case.solver.model_copy(update={"buckling": how})})
-
-
-def _cut(case: Case, task: Task, layout: str, length: float, least: int = 1) -> Case:
-    return layouts.with_components(case, layouts.LAYOUTS[layout](case, task.bit_depth, length, least))
 
 
 def _kinds(case: Case, operation: str | Sequence[str] | None) -> list[str]:

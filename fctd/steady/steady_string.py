@@ -21,7 +21,17 @@ from fctd.model.tortuosity import shortfall
 from fctd.model.wellbore import Wellbore
 from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling
 from fctd.results.limits import WORST
-from fctd.results.notes import Note, bent, flow_law, flow_lie, homogenised, limit_notes, rig_notes, several_balances
+from fctd.results.notes import (
+    Note,
+    bent,
+    flow_law,
+    flow_lie,
+    homogenised,
+    limit_notes,
+    rig_notes,
+    sagitta,
+    several_balances,
+)
 from fctd.results.profile import profile_table
 from fctd.results.status import SteadyStatus
 from fctd.steady.continuation import CONVERGED, NOT_FINITE
@@ -175,6 +185,8 @@ class Equilibrium:
             found = (*found, *(note for note in (law, lies) if note is not None))
         if (falls := shape.laid.falling) is not None:
             found = (*found, falls)
+        if self.case.contact.enabled and (long := sagitta(self.case, string)) is not None:
+            found = (*found, long)
         if self.method != HOMOGENISED:
             return found
         # How deep its long segments lie in the wall says nothing of the string's waves.

@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
+from fctd.arena.method import settings_of
 from fctd.arena.result import Kind, Row
 from fctd.case.errors import InputError
 from fctd.case.raw_case import parse_override
@@ -59,6 +60,22 @@ def rows_of(kind: Kind, wanted: Iterable[Wanted]) -> tuple[list[Row], list[str]]
         rows.append(_row(kind, name, options))
     unique = {row.label: row for row in rows}
     return list(unique.values()), absent_ones
+
+
+def every_setting(wanted: Iterable[Wanted], *, defaults: bool = False) -> list[Row]:
+    """A row for each setting of contact methods that studies try; with ``defaults`` one for each method.
+
+    A pair of name and options is that setting alone.
+    """
+    rows: list[Row] = []
+    for each in wanted:
+        name, options = read(each, "--contact")
+        row = _row("contact", name, options)
+        if options or defaults or row.status != "not run":
+            rows.append(row)
+        else:
+            rows += [_row("contact", name, chosen) for chosen in settings_of(contact.method_class(name))]
+    return rows
 
 
 def left_out(kind: Kind) -> Iterator[Row]:

@@ -32,7 +32,7 @@ from fctd.results.table_files import write_table
 from fctd.store.whole_file import whole_file
 from references.methods.asked import ALL
 from references.methods.compare import BUDGET, compare_methods
-from references.methods.tables import print_comparison
+from references.methods.tables import counts_of, print_comparison
 
 TABLES = (".csv", ".parquet", ".json")
 
@@ -55,6 +55,10 @@ def methods_command(
     quick: Annotated[
         bool, typer.Option("--quick", help="A first look, within a minute: no loads of meshes, no memory.")
     ] = False,
+    segments: Annotated[
+        str | None,
+        typer.Option("--segments", metavar="FROM:TO", help="Also loads over a range of counts of segments: 10:1000."),
+    ] = None,
     out: Annotated[Path | None, typer.Option("--out", metavar="FILE", help=f"The table, {', '.join(TABLES)}.")] = None,
     plot: Annotated[
         Path | None, typer.Option("--plot", metavar="FILE", help="Cost against error, and forces along the string.")
@@ -80,8 +84,9 @@ def methods_command(
             bar.update(task, description=printable(what), completed=done, total=total)
 
         found = compare_methods(
-            case, contact or [ALL], engine, operation=operation, budget=budget, quick=quick, progress=show
-        )
+            case, contact or [ALL], engine, operation=operation, budget=budget, quick=quick, segments=segments,
+            progress=show,
+        )  # fmt: skip
     written: list[Path] = []
     try:
         with deferred():
@@ -90,6 +95,9 @@ def methods_command(
                 from fctd.plots.methods import methods_figure
 
                 written += plots.save(methods_figure(found, case.system), plot)
+                if (counts := found.counts) is not None:
+                    figure = plots.counts_figure(found.case, *counts_of(counts), counts.tolerance)
+                    written += plots.save(figure, plot.with_stem(f"{plot.stem}_segments"))
     finally:
         print_comparison(found, case.system)
     print_written(written)

@@ -10,10 +10,12 @@ from numpy.typing import NDArray
 
 from fctd.arena.frames import Frame, frame
 from fctd.arena.method import ContactMethod
-from fctd.arena.result import Comparison, Row
+from fctd.arena.result import Comparison, Counts, Row
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.mechanics.faults import UnstableError
+from fctd.steady.counts import ends_of
+from fctd.steady.refine import refine
 from references import contact, engines, packages
 from references.contact.reference_hole import EXACT, hole_of
 from references.contact.tube_mesh import MeshMethod
@@ -33,7 +35,7 @@ from references.methods.loop import (
     timed_run,
 )
 from references.methods.stopping import remembering
-from references.methods.window import Plan, plan_of
+from references.methods.window import WHOLE, Plan, plan_of
 from references.timing.footprint import measured_apart
 from references.timing.stopwatch import machine
 
@@ -41,6 +43,7 @@ BUDGET, QUICK = 300.0, 60.0  # [s] by the clock; the longest of a quick comparis
 OWN = "fctd"  # the engine with its own arcs, with which others are compared
 ARCS = "arcs"  # the row of them as a contact method, if there is one
 CALL = 1000  # points of a call in the race, at most; as many as the string has contact points
+TOLERANCE = 0.01  # of the counts of segments that suffice
 MESHES = "a mesh, which has frames alone in a quick comparison"
 # Called with what is done, how many of it, and of how many.
 Progress = Callable[[str, float, float], object]
@@ -48,20 +51,23 @@ Progress = Callable[[str, float, float], object]
 
 def compare_methods(
     case: Case, methods: Iterable[asked.Wanted] = (asked.ALL,), engine: Iterable[asked.Wanted] = (), *,
-    operation: str | None = None, budget: float = BUDGET, quick: bool = False, progress: Progress = lambda *_: None,
+    operation: str | None = None, budget: float = BUDGET, quick: bool = False,
+    segments: str | Sequence[int] | None = None, progress: Progress = lambda *_: None,
 ) -> Comparison:  # fmt: skip
     """Compare contact methods and engines on the hole, string and operation of a case.
 
     methods, engine : names, texts "name,key=value", or pairs of name and options; "all" stands for all that are
     installed.  operation : its number in the case, from 1, or its kind.  budget : wall-clock time [s] in which loads
     are computed, those that are expected to be cheapest first.  quick : a first look, of a minute: meshes have no
-    loads, the contract no long holes, and memory is not measured.
+    loads, the contract no long holes, and memory is not measured.  segments : a range of counts, as of ``fctd.refine``,
+    over which the loads of the window's operation are found beside all that, by the engine's own steady string.
 
     Ctrl-C ends it with the rows so far.  Raises InputError for a case that cannot be simulated, and for an unknown name
     or option; whatever else fails is a row with its reason.
     """
     began = time.perf_counter()
     progress("the engine's own loads", 0, 1)
+    ends = None if segments is None else ends_of(segments)
     rows, missing = asked.rows_of("contact", methods)
     more, absent = asked.rows_of("engine", engine)
     preset = preset_of(case, operation, quick=quick)
@@ -76,6 +82,8 @@ def compare_methods(
         with remembering() as again:
             comparing.again = again
             comparing.compare()
+            if ends is not None and preset.plan is not None:
+                comparing.count(preset.plan, ends)
     except KeyboardInterrupt:
         comparison.interrupted = True
         for row in comparison.rows:
@@ -106,9 +114,9 @@ class Preset:
     meshes: bool = True
 
 
-def preset_of(case: Case, operation: str | None, *, quick: bool) -> Preset:
+def preset_of(case: Case, operation: str | None = None, *, quick: bool = False, periods: int = WHOLE) -> Preset:
     """All that can be measured on the hole, string and operation of a case; see ``compare_methods``."""
-    plan = plan_of(case, operation)
+    plan = plan_of(case, operation, periods)
     hole, reference = hole_of(plan.case)
     near = frame(hole, POINTS, radius=float(np.median(plan.own_radii)))
     return Preset(
@@ -164,6 +172,20 @@ class Comparing:
             self._memory(row)
         if self.preset.plan is not None:
             self._loops(self.preset.plan, able)
+
+    def count(self, plan: Plan, ends: tuple[int, int]) -> None:
+        """The loads of the window's operation over a range of counts; a note says why there are none."""
+        moved = plan.case.operations[0]
+        self.progress("numbers of segments", 0, 1)
+        try:
+            found = refine(plan.case, TOLERANCE, moved.kind, max(moved.start_md, moved.end_md), segments=ends)
+        except InputError as error:
+            self.comparison.notes.append(f"no range of counts of segments: {error}")
+            return
+        assert found.orders is not None
+        steps = found.steps[found.steps["stage"] == "counts"]
+        tables = {"steps": steps.to_dict("records"), "orders": found.orders.to_dict("records")}
+        self.comparison.counts = Counts.model_validate({"tolerance": TOLERANCE, **tables})
 
     def progress(self, what: str, done: float, total: float) -> None:
         """Tell what is done; raises a Ctrl-C that a library has caught."""

@@ -2,10 +2,13 @@
 
 from collections.abc import Callable, Iterator, Sequence
 
-from fctd.arena.result import Comparison, Quartiles, Row
+import pandas as pd
+
+from fctd.arena.result import Comparison, Counts, Quartiles, Row
 from fctd.case.text import counted, printable
 from fctd.cli.job import FOLD, headed, print_table
 from fctd.cli.options import messages, screen
+from fctd.cli.refine import print_counts
 from fctd.results.shown_tables import NONE, Cell, Head, Table, number, of_column, short, shown_table
 from fctd.results.unit_systems import System, shown
 
@@ -191,6 +194,9 @@ def print_comparison(comparison: Comparison, units: System) -> None:
         )  # fmt: skip
         _print(lambda each: loads(each, rows[0], units), [row for row in rows if row.loads is not None])
         _print(steps, [row for row in rows if row.loads is not None or row.predicted_s is not None])
+    if comparison.counts is not None:
+        screen.print("numbers of segments, by the engine's own steady string")
+        print_counts(*counts_of(comparison.counts), comparison.counts.tolerance, units)
     machine = comparison.machine
     screen.print(
         f"times on {machine['processor']}, {machine['cores']} cores, load average {machine['load average']}",
@@ -198,6 +204,11 @@ def print_comparison(comparison: Comparison, units: System) -> None:
     )
     end = "interrupted after" if comparison.interrupted else "compared in"
     screen.print(f"{counted(len(rows), 'row')} {end} {comparison.seconds:.0f} s", soft_wrap=True)
+
+
+def counts_of(counts: Counts) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Steps and orders of a range of counts as tables."""
+    return pd.DataFrame(counts.steps), pd.DataFrame(counts.orders)
 
 
 def _print(table: Callable[[Sequence[Row]], Table], rows: Sequence[Row]) -> None:

@@ -76,11 +76,12 @@ def chosen(case: Case, which: str | None) -> Operation:
     raise InputError(expected, key="--operation", value=which)
 
 
-def plan_of(case: Case, which: str | None = None) -> Plan:
+def plan_of(case: Case, which: str | None = None, periods: int = WHOLE) -> Plan:
     """The window of an operation of a case, and the engine's own run in it.
 
     It lies at the deepest end of the operation, and begins once the string moves: the start is ramped over RAMP periods
-    of the slowest vibration, torsional where the string turns, else axial, so that it excites little of it.  Raises
+    of the slowest vibration, torsional where the string turns, else axial, so that it excites little of it.  Over a
+    single of these periods a mean keeps half of the swing, and differences of methods from one start stand.  Raises
     InputError for a case that cannot be simulated, and for one whose string does not settle.
     """
     case, operation = in_arcs(case), chosen(case, which)
@@ -89,14 +90,15 @@ def plan_of(case: Case, which: str | None = None) -> Plan:
     turning = operation.rpm > 0
     period = period_of(string) if turning else axial_period_of(string)
     ramp = max(operation.ramp_time, RAMP * period, LEAST_RAMP)
-    whole = max(WHOLE, int(np.ceil(LEAST_WINDOW / period)))
-    window = Window(ramp + max(REST * period, LEAST_REST), whole * period)
+    whole = max(periods, int(np.ceil(LEAST_WINDOW / period)))
+    begins, lasts = ramp + max(REST * period, LEAST_REST), whole * period
     notes: tuple[str, ...] = ()
-    for _ in range(TRIES):
+    for later in range(TRIES):
+        window = Window(begins + later * lasts, lasts)
         planned, run = _run(case, operation, ramp, window)
-        if not turning or _turns(run, operation.rpm):
+        # The mean over a single period has half of the swing.
+        if not turning or periods < WHOLE or _turns(run, operation.rpm):
             break
-        window = Window(window.start + window.duration, window.duration)
     else:
         notes = ("the bit does not turn as planned in the window: loads swing with it",)
     if run.status != "valid":

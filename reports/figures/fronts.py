@@ -10,6 +10,7 @@ from reports.figures import Tables, figure, style
 LEAST_MM, LEAST_PERCENT = 1e-3, 1e-3
 # A second round of markers is empty.
 MARKERS = 6
+ERROR = "error of penetration, mm (root mean square)"
 
 
 @figure(
@@ -26,8 +27,6 @@ MARKERS = 6
 def fronts(tables: Tables, distance: Axes, torque: Axes) -> None:
     """Error of penetration and of torque against the cost of a point, a line for each method."""
     table = tables["fronts"].dropna(subset="ns_1000")
-    # A method's variants, a word at the end of a setting, are lines of their own.
-    table = table.assign(series=table["method"] + table["setting"].str.extract(r"(, [a-z]+)$", expand=False).fillna(""))
     for ax, column, least in (
         (distance, "rms_error_mm", LEAST_MM),
         (torque, "torque_off_percent", LEAST_PERCENT),
@@ -41,9 +40,29 @@ def fronts(tables: Tables, distance: Axes, torque: Axes) -> None:
         for index, series in enumerate(sorted(table["series"].unique())):
             _series(ax, rows[rows["series"] == series].sort_values("error"), index, words.name(str(series)))
         ax.set(xscale="log", yscale="log", xlabel="time of a point, ns")
-    distance.set_ylabel("error of penetration, mm (root mean square)")
+    distance.set_ylabel(ERROR)
     torque.set_ylabel("change of torque, %")
     style.legend_outside(distance, columns=4)
+
+
+@figure(
+    "rival_contact",
+    name="fronts",
+    caption=(
+        "Rivals and plugins beside three methods of the suite, over their settings: cost of a point in a call with "
+        "1000 of them against the root mean square error of its penetration; errors below a thousandth stand at the "
+        "bottom."
+    ),
+)
+@style.panels(5.2)
+def rivals(tables: Tables, ax: Axes) -> None:
+    """Error of penetration against the cost of a point, a line for each method."""
+    table = tables["fronts"].dropna(subset="ns_1000")
+    table = table.assign(error=table["rms_error_mm"].clip(lower=LEAST_MM))
+    for index, series in enumerate(sorted(table["series"].unique())):
+        _series(ax, table[table["series"] == series].sort_values("error"), index, words.name(str(series)))
+    ax.set(xscale="log", yscale="log", xlabel="time of a point, ns", ylabel=ERROR)
+    style.legend_outside(ax, columns=4)
 
 
 def _series(ax: Axes, rows: pd.DataFrame, index: int, label: str) -> None:

@@ -39,27 +39,28 @@ FLOOR = 0.3
     "contact_accuracy",
     name="error_and_cost",
     caption=(
-        "Largest error of penetration (left) and of the wall's direction (right) over all points in bends, against "
-        "the time per point of a query from Python. Lines lead from coarse to fine: cylinders and FOR-loop by "
-        "length, meshes by facets and ring spacing. Points on the dotted line are exact."
+        "Largest error of penetration (left) and of the wall's direction (right) over all points, against "
+        "the processor time of a point in a query from Python, with quartiles. Lines lead from coarse to fine: "
+        "cylinders and FOR-loop by length, meshes by facets and ring spacing. Points on the dotted line are exact."
     ),
 )
 @style.panels(4.3, 1, 2, sharex=True)
 def error_and_cost(tables: Tables, depth: Axes, angle: Axes) -> None:
     """A line for each method from its coarse to its fine settings: error of depth and of direction."""
     cost = tables["cost"]
+    panels = ((depth, "max_error_mm"), (angle, "max_angle_deg"))
     for index, method in enumerate(cost["method"].unique()):
         chosen = cost[cost["method"] == method]
         look = style.dots(index, filled=index < 6) | {"linestyle": "-", "linewidth": 0.8}
-        for ax, column in ((depth, "max_penetration_error_mm"), (angle, "max_angle_error_deg")):
+        for ax, column in panels:
             smallest = cost.loc[cost[column] > 1e-5, column].min()
-            ax.plot(
-                chosen["ns_per_point"], chosen[column].clip(lower=FLOOR * smallest), **look, label=words.name(method)
-            )
+            at, height = chosen["point_ns"], chosen[column].clip(lower=FLOOR * smallest)
+            ax.plot(at, height, **look, label=words.name(method))
+            ax.hlines(height, chosen["point_ns_low"], chosen["point_ns_high"], color=style.colour(index), linewidth=2)
     for ax, label in ((depth, "largest error of penetration, mm"), (angle, "largest error of direction, °")):
         ax.set(xscale="log", yscale="log", xlabel="cost per point, ns", ylabel=label)
         style.plain_log_ticks(ax.yaxis)
-    for ax, column in ((depth, "max_penetration_error_mm"), (angle, "max_angle_error_deg")):
+    for ax, column in panels:
         exact_line(ax, FLOOR * cost.loc[cost[column] > 1e-5, column].min())
     style.legend_outside(depth, columns=4)
 
@@ -113,14 +114,15 @@ def figure_13(tables: Tables, above: Axes, below: Axes) -> None:
         linewidth=1.2,
         label="FCTD, the whole trip",
     )
-    above.plot(windows["bit_depth_m"], windows["FCTD_kN_m"], **style.dots(0), markersize=8, label="FCTD, windows")
+    depth, off = windows["bit_depth_m"], windows["sum_difference_percent"]
+    above.plot(depth, windows["FCTD_sum_r_mu_fn_kN_m"], **style.dots(0), markersize=8, label="FCTD, windows")
     above.plot(
-        windows["bit_depth_m"], windows["fcl_kN_m"], **style.dots(1, filled=False), markersize=5, label="FCL, windows"
+        depth, windows["fcl_sum_r_mu_fn_kN_m"], **style.dots(1, filled=False), markersize=5, label="FCL, windows"
     )
     above.set_ylabel("Σ rμFₙ, kN·m")
-    below.plot(windows["bit_depth_m"], windows["difference_percent"], **style.dots(1, filled=False))
+    below.plot(depth, off, **style.dots(1, filled=False))
     below.axhline(0, **style.ZERO)
-    below.set(xlabel="bit depth, m", ylabel="FCL − FCTD, %", ylim=style.around_zero(windows["difference_percent"]))
+    below.set(xlabel="bit depth, m", ylabel="FCL − FCTD, %", ylim=style.around_zero(off))
     style.legend_above(above, columns=3)
 
 
@@ -129,7 +131,7 @@ def figure_13(tables: Tables, above: Axes, below: Axes) -> None:
     name="torques",
     caption=(
         "The curved chain rotating against the wall of every contact method at its default options: difference of "
-        "the sum from that with the engine's own cylinders."
+        "the sum from that with the engine's own arcs."
     ),
 )
 def torques(tables: Tables) -> Canvas:
@@ -169,7 +171,7 @@ def facets(tables: Tables, ax: Axes) -> None:
         meshes["facets"],
         meshes["sum_difference_percent"].abs(),
         **style.marked(1),
-        label="|mesh − cylinders|",
+        label="|mesh − arcs|",
     )
     ax.set(xscale="log", yscale="log", xlabel="number of facets, –", ylabel="difference of Σ rμFₙ, %")
     style.plain_log_ticks(ax.xaxis, ax.yaxis)
@@ -182,9 +184,8 @@ def facets(tables: Tables, ax: Axes) -> None:
     name="figure_13b",
     caption=(
         "Paper's Fig. 13 in reading (b): the string rotates off bottom under law coulomb, contact with FCL on a mesh "
-        "and in cylinders; above Σ rμFₙ, in rotation the torque of friction, over the last seconds of short windows. "
-        "Below: differences, also of the surface torque, which still swings in such a window. The study contact_swap "
-        "shows reading (a)."
+        "and in cylinders; above Σ rμFₙ, in rotation the torque of friction, over the same windows from one start. "
+        "Below: differences, also of the surface torque. The study contact_swap shows reading (a)."
     ),
 )
 @style.panels(4.6, 2, 1, sharex=True, height_ratios=[2, 1])
@@ -201,7 +202,7 @@ def figure_13b(tables: Tables, above: Axes, below: Axes) -> None:
         depth, windows["fcl_sum_r_mu_fn_kN_m"], **style.dots(1, filled=False), markersize=5, label="FCL, windows"
     )
     above.set_ylabel("Σ rμFₙ, kN·m")
-    differences = (("sum_r_mu_fn_difference_percent", 1, "Σ rμFₙ"), ("difference_percent", 2, "surface torque"))
+    differences = (("sum_difference_percent", 1, "Σ rμFₙ"), ("torque_difference_percent", 2, "surface torque"))
     for column, index, label in differences:
         below.plot(depth, windows[column], **style.dots(index, filled=False), label=label)
     below.axhline(0, **style.ZERO)

@@ -136,3 +136,11 @@ def test_the_flow_curve_and_its_misfit(case_file: Path, cli: Command) -> None:
     field = printed(cli, case_file, *more, "--units", "field")
     assert "4.27 lbf" in field
     assert "flow curve" not in printed(cli, case_file)
+
+
+def test_segments_that_are_too_long_for_a_bend_are_noted(cli: Command, case_file: Path) -> None:
+    cut = ("--set", "string.components[1].segment_length=60 m")
+    said = cli("check", case_file, *cut).err
+    assert "note: segments of 6" in said
+    assert "leave out segments and segment_length there, or use shorter segments" in said
+    assert "strict: notes are errors (sagitta)" in cli("check", case_file, *cut, "--strict", "--quiet", code=1).err

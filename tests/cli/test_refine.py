@@ -1,11 +1,12 @@
 """``fctd refine``: the table, the refined case file, exit codes."""
 
 from pathlib import Path
-from unittest.mock import Mock
+from unittest.mock import Mock, patch
 
 import pytest
 
 import fctd
+from fctd import InputError
 from fctd.steady.balance import IN_THE_OPEN
 from tests.cli.tiny import LEVEL
 from tests.commands import Command
@@ -153,3 +154,27 @@ def test_a_string_without_an_answer_is_exit_code_1_and_no_file(
     assert "max_iterations" in captured.err
     assert "no answer" in captured.out
     assert not out.exists()
+
+
+def test_a_range_of_counts_is_printed_and_drawn(case_file: Path, tmp_path: Path, cli: Command) -> None:
+    pytest.importorskip("matplotlib")
+    picture = tmp_path / "counts.svg"
+    asked = ("--operation", "rotate_off_bottom", "--set", "string.components[0].bend=", "--tolerance", "3%", "--quiet")
+    screen = cli("refine", case_file, *asked, "--segments", "10:80", "--plot", picture).out
+    found = fctd.refine(
+        fctd.load_case(case_file, {"string.components[0].bend": None}), 0.03, "rotate_off_bottom", segments="10:80"
+    )
+    counts = found.steps[found.steps["stage"] == "counts"]
+    for layout, segments in counts[["layout", "segments"]].to_numpy():
+        assert f" {segments} {layout} " in screen
+    assert "observed order  " in screen
+    assert "segments" in screen
+    assert f"The default layout has {counts['segments'].iloc[-1]} segments, and an error of " in screen
+    assert picture.read_text().startswith("<?xml")
+
+
+def test_a_picture_alone_has_the_usual_range(case_file: Path, tmp_path: Path, cli: Command) -> None:
+    pytest.importorskip("matplotlib")
+    with patch("fctd.cli.refine.refine", side_effect=InputError("nothing", key="segments")) as asked:
+        cli("refine", case_file, "--plot", tmp_path / "a.png", "--quiet", code=2)
+    assert asked.call_args.kwargs["segments"] == "10:1000"

@@ -1,5 +1,7 @@
 """Segment lengths by default: chords within the clearance of bends, short at the bit, long elsewhere."""
 
+from random import Random
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -7,10 +9,20 @@ from hypothesis import strategies as st
 
 from fctd import Case
 from fctd.case.errors import InputError
-from fctd.model.default_layout import AT_BIT, AT_MOVING_BIT, COURSE, GROWTH, LEAST_CLEARANCE, LONGEST, DefaultLayout
+from fctd.model.default_layout import (
+    AT_BIT,
+    AT_MOVING_BIT,
+    COURSE,
+    GROWTH,
+    LEAST_CLEARANCE,
+    LONGEST,
+    DefaultLayout,
+    sagittas,
+)
 from fctd.model.drillstring import lay_out
 from fctd.model.layouts import resolved, segments_in_hole, with_components
 from tests.cases import make_case, pipe
+from validation.parts.random_wells import well
 
 BUILD = [[0, 0, 0], [600, 0, 0], [900, 60, 0], [2000, 60, 0]]
 CURVATURE = np.radians(60) / 300
@@ -141,3 +153,27 @@ def test_the_short_segments_at_the_bit_do_not_keep_others_short() -> None:
     assert length[-1] < 1.2 * AT_BIT
     assert length.max() > 15.0
     assert len(length) < 260
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.integers(0, 10_000))
+def test_segments_by_default_hardly_miss_a_bend_by_more_than_the_clearance(seed: int) -> None:
+    """Random wells and depths: far below the four clearances from which on there is a note."""
+    raw = well(Random(seed))
+    for part in raw["string"]["components"]:
+        del part["segment_length"]
+    case = Case.model_validate(raw)
+    least, most = case.depths
+    string = lay_out(case, least + Random(seed).uniform(0.2, 1.0) * (most - least))
+    middle = string.bit_depth - 0.5 * (string.above_bit[1:] + string.above_bit[:-1])
+    missed, clearance = sagittas(case, middle, string.length, string.of("contact_radius"))
+    assert (missed / np.maximum(clearance, LEAST_CLEARANCE)).max() < 1.3
+
+
+def test_a_sagitta_is_that_of_the_mean_curvature_over_the_segment() -> None:
+    """Over 30 m where the segment is shorter, and over all of a segment that is longer than its bend."""
+    md, length, radius = np.array([750.0, 750.0, 300.0]), np.array([10.0, 600.0, 10.0]), np.full(3, 0.0635)
+    missed, clearance = sagittas(whole_case(), md, length, radius)
+    expected = [CURVATURE * 100 / 8, np.radians(60) / 600 * 600**2 / 8, 0.0]
+    assert missed == pytest.approx(expected)
+    assert clearance == pytest.approx(CLEARANCE)

@@ -31,8 +31,8 @@ WELL = {
     },
     "string": {
         "components": [
-            {"name": FORMULA, "pipe": "6 3/4 x 2 13/16 NC50 collar", "length": 60, "segment_length": 30},
-            {"name": "<i>pipe</i>", "pipe": "5 in 19.5 S-135 NC50", "segment_length": 30},
+            {"name": FORMULA, "pipe": "6 3/4 x 2 13/16 NC50 collar", "length": 60, "segment_length": 10},
+            {"name": "<i>pipe</i>", "pipe": "5 in 19.5 S-135 NC50", "segment_length": 12},
         ]
     },
     "mud": {"density": "1.2 sg", "fann": {600: 60, 300: 40, 6: 8, 3: 6}},

@@ -14,9 +14,13 @@ from validation.harness.store import Judged
 from validation.harness.study import Check
 
 FRONTS = pd.DataFrame(
-    {"setting": ["arcs", "cylinders, 2 m"], "ns_1000": [40.0, 50.0], "torque_off_percent": [0.0, 0.3]}
+    {
+        "setting": ["arcs", "cylinders, cylinder_length=2.0, overlap=0.2"],
+        "ns_1000": [40.0, 50.0],
+        "torque_off_percent": [0.0, 0.3],
+    }
 )
-CHEAPEST = "cheapest mesh over the engine's own arcs, a point in a batch of 1000"
+CHEAPEST = "cheapest mesh over the engine's own arcs, a point in a batch of 1000, lower quartile"
 
 
 def test_every_need_takes_what_a_registry_has() -> None:
@@ -34,7 +38,7 @@ def test_numbers_are_those_of_stored_results(tmp_path: Path) -> None:
     assert "40" in survey[3]
     assert "321" in survey[3]
     assert "0.3" in survey[4]
-    assert [line.partition(":")[0] for line in found.origins] == ["contact_fronts"]
+    assert found.origins[0].startswith("contact_fronts: ")
 
 
 EMPTY = pd.DataFrame({"other": [1.0]})
@@ -42,9 +46,10 @@ EMPTY = pd.DataFrame({"other": [1.0]})
 
 @pytest.mark.parametrize("tables", [None, {}, {"fronts": EMPTY, "cost": EMPTY, "loads": EMPTY}, {"cost": EMPTY}])
 def test_what_has_not_been_measured_is_said_with_its_command(
-    tables: dict[str, pd.DataFrame] | None, tmp_path: Path
+    tables: dict[str, pd.DataFrame] | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Also where a study has been run, and left a table or a column out."""
+    monkeypatch.setattr(which_contact, "GUIDE", tmp_path / "absent.md")
     if tables is not None:
         for study in which_contact.STUDIES:
             store.write(replace(BLANK, study=study, tables=tuple(tables)), tables, tmp_path)
@@ -53,6 +58,14 @@ def test_what_has_not_been_measured_is_said_with_its_command(
     assert "not measured yet: run `python -m validation contact_fronts`" in costs
     assert "not measured yet: run `.venv-rivals/bin/python -m validation rival_contact`" in costs
     assert all(set(row[1:]) == {"–"} for row in which_contact.fronts(tmp_path).rows)
+
+
+def test_without_results_the_last_record_stands_with_its_date(tmp_path: Path) -> None:
+    found, kept = which_contact.table(tmp_path), which_contact.recorded()
+    assert found.rows == kept.rows
+    assert len(found.rows) == len(which_contact.needs())
+    assert {line.split(", ")[1].partition(":")[0] for line in found.origins} == set(which_contact.STUDIES)
+    assert all(line.startswith("last record, ") and ": 20" in line for line in found.origins)
 
 
 @pytest.fixture

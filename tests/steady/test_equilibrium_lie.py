@@ -37,7 +37,7 @@ def test_a_string_without_a_steady_lie_is_taken_as_concentric_and_says_so(monkey
     unknown = equilibrium(case, "trip_in", 1100.0)
     concentric = case.model_copy(update={"mud": case.mud.model_copy(update={"eccentricity": 0.0})})
     assert unknown.lift == equilibrium(concentric, "trip_in", 1100.0).lift > known.lift
-    assert [note.code for note in unknown.notes] == ["flow_lie"]
+    assert "flow_lie" in {note.code for note in unknown.notes}
     with pytest.raises(InputError, match="a bit depth at which the solver finds a steady string"):
         lie_along(case, 1100.0)
 
@@ -58,7 +58,7 @@ def test_a_string_that_the_first_attempt_does_not_find_has_the_lie_of_its_row() 
     motor = pipe(8.0, 2, outer=0.165, inner=0.07, bend=0.01)
     case = make_case([[0, 0, 0], [500, 0, 0], [800, 60, 0], [1200, 60, 0]], [motor, *SLEEVES], mud=mud)
     found = equilibrium(case, "trip_in", 1100.0)
-    assert found.notes == ()
+    assert "flow_lie" not in {note.code for note in found.notes}
     laid = Solver(case).lay_out(1100.0)
     straight = Solver(make_case([[0, 0, 0], [500, 0, 0], [800, 60, 0], [1200, 60, 0]], SLEEVES, mud=mud))
     share, other = lie_of(laid), lie_of(straight.lay_out(1100.0))

@@ -14,7 +14,18 @@ from tests.cases import make_case, pipe
 def levels(values: list[float]) -> list[Level]:
     """Levels with one load, NaN where a string was not solved."""
     return [
-        Level("string", "uniform", make_case(), 2**k, 1.0, np.array([[value, 0.0]]), np.ones((1, 2)), [], [])
+        Level(
+            "string",
+            "uniform",
+            make_case(),
+            2**k,
+            1.0,
+            np.array([[value, 0.0]]),
+            np.ones((1, 2)),
+            [],
+            [],
+            fineness=2.0**k,
+        )
         for k, value in enumerate(values)
     ]
 

@@ -19,6 +19,7 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 from rich.text import Text
 
+from fctd.arena.result import Comparison
 from fctd.case.errors import InputError
 from fctd.case.text import counted, printable_lines
 from validation.harness import fingerprint, store
@@ -220,6 +221,7 @@ def run_one(
         variation=rules.variation,
     )
     why, results = "", rules.results
+    comparisons: Mapping[str, Comparison] = {}
     try:
         study = load(name)
         blank = replace(blank, question=study.question)
@@ -240,8 +242,9 @@ def run_one(
         else:
             outcome, now.files = _run(study, context, now.code, rules)
             run, tables = _finished(blank, outcome, recorded), outcome.tables
+            comparisons = outcome.comparisons
         run = replace(run, wall_s=time.perf_counter() - start)
-        store.write(run, tables, results, now)
+        store.write(run, tables, results, now, comparisons)
     except Exception as error:
         # A failed study must not stop the others: its failure is a result, and the exit code reports it.
         if not isinstance(error, InputError):  # its message is complete
@@ -333,6 +336,8 @@ def tell(done: StudyRun, recorded: Mapping[str, str], console: Console) -> None:
         found = f"{check.value:.6g} {check.unit}".rstrip()
         line = f"  {judged.standing:<23}  {check.name}: {found} ({check.requirement()})"
         _say(console, line, STYLES[judged.standing])
+        if judged.standing == "worse than recorded":
+            _say(console, f"    {check.source}", STYLES[judged.standing])
         if judged.standing == "better than recorded":
             verdict = str(judged.recorded).partition(":")[0]
             _say(console, f"    recorded as {verdict}; remove the entry from expected.toml")

@@ -7,12 +7,14 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Literal
 
 import pandas as pd
 from pyarrow import parquet
 from pydantic import TypeAdapter
 
+from fctd.arena.result import Comparison
 from fctd.store.limits import cores
 from fctd.store.origin import environment_of_git, versions
 from fctd.store.parquet import read_frame
@@ -110,7 +112,10 @@ def provenance() -> Provenance:
     return Provenance(commit, found, cpu_name(), cores())
 
 
-def write(record: Record, tables: dict[str, pd.DataFrame], results: Path, inputs: Inputs | None = None) -> Path:
+def write(
+    record: Record, tables: dict[str, pd.DataFrame], results: Path, inputs: Inputs | None = None,
+    comparisons: Mapping[str, Comparison] = MappingProxyType({}),
+) -> Path:  # fmt: skip
     """Store a run and its inputs as ``results/STUDY/``, replacing the one before; return the folder.
 
     A run that is interrupted leaves the earlier result or none, never half of one.  Raises InputError where the folder
@@ -120,6 +125,8 @@ def write(record: Record, tables: dict[str, pd.DataFrame], results: Path, inputs
     with whole_folder(folder) as new:
         for name, table in tables.items():
             table.to_parquet(new / f"{name}.parquet", index=False)
+        for name, comparison in comparisons.items():
+            (new / f"{name}.json").write_text(comparison.model_dump_json(indent=1), encoding="utf-8")
         _write_verdict(record, new / "verdict.json")
         if inputs is not None:
             inputs.write(new)

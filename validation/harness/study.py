@@ -12,6 +12,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike
 
+from fctd.arena.result import Comparison
 from references.registry import absent
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -87,13 +88,14 @@ class Outcome:
 
     ``tables`` are stored one file each; row labels are not stored, so what matters is in a column, and a
     column's name ends in its unit (``bit_depth_m``). ``display`` maps the tables the report prints in full to
-    their captions. ``notes`` are sentences for the reader of the numbers.
+    their captions. ``notes`` are sentences for the reader of the numbers. ``comparisons`` are stored as JSON.
     """
 
     tables: dict[str, pd.DataFrame]
     checks: list[Check]
     notes: list[str] = field(default_factory=list)
     display: dict[str, str] = field(default_factory=dict)
+    comparisons: dict[str, Comparison] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if unknown := self.display.keys() - self.tables.keys():

@@ -1,92 +1,44 @@
-"""A hole with bends, points near its wall, and the errors of a contact method there."""
+"""The hole of the studies of contact, points near its wall, and usual calls of libraries that give wrong results."""
 
 from collections.abc import Sequence
 
 import numpy as np
-import pandas as pd
+from numpy.typing import NDArray
 
-from fctd import Case, build_wellbore, find_contacts
-from references import contact
+from fctd import Case
+from fctd.arena.exact_hole import ExactHole
+from fctd.arena.frames import Frame, beside, case_of, frame
 from references.contact import traps
-from validation.cases import load
+from references.contact.frames import TURN
 from validation.harness.study import Rows, table_of_rows
 
-RADIUS = 0.051  # contact radius of the pipe [m]
 HOLE = 0.1556  # hole radius [m]
-BAND = 0.015  # points lie within this distance of touching [m]
-SLID = 0.5  # way of the string between two queries [m]
-# Vertical, a build and then a turn of 286 m radius (20°/100 m, as sharp as the paper's), and straight hole.
-STATIONS: list[list[float]] = [[0, 0, 0], [200, 0, 0], [500, 60, 0], [740, 60, 55], [900, 60, 55]]
+# Vertical, a build and then a turn of 286 m radius (20°/100 m, as sharp as the paper's); depths in the hole of TURN.
 REGIONS = {"straight": (10.0, 190.0), "build": (205.0, 495.0), "turn in space": (505.0, 735.0)}
+OVERLAP = "overlap"  # the first 0.2 m of the cylinders of 2 m that stand for build and turn
+SEED = 20240525
 
 
 def the_case(deeper: float = 0.0) -> Case:
     """The hole of exact arcs, its bends ``deeper`` [m]; the meshes and the cylinders are made from it."""
-    stations: list[list[float]] = [STATIONS[0], *([md + deeper, *angles] for md, *angles in STATIONS[1:])]
-    size = [{"to_md": stations[-1][0], "diameter": 2 * HOLE, "friction": 0.2}]
-    return load(
-        "curved_chain",
-        wellbore__stations=stations,
-        wellbore__intervals=size,
-        wellbore__geometry="arcs",
-        string__top_md=0.0,
-        operations=None,
-    )
+    stations = [TURN[0], *([md + deeper, *angles] for md, *angles in TURN[1:])]
+    return case_of("build and turn", stations, [(stations[-1][0], 2 * HOLE)])
 
 
-def points_in(case: Case, count: int) -> pd.DataFrame:
-    """``count`` seeded points near the wall in each region, and as many where 2 m cylinders overlap in the bends.
+def near_wall(case: Case, count: int) -> tuple[Frame, NDArray[np.str_]]:
+    """Points near the wall, ``count`` in each region and as many where cylinders overlap, in random order.
 
-    Who times a query shuffles them first: in this order the first lie in the straight part, and a tree looks fast.
+    Returns their frame, and the region (n,) of each.
     """
-    exact, rng = build_wellbore(case), np.random.default_rng(20240525)
-    deeper = exact.total_depth - STATIONS[-1][0]
-    parts = []
-    for region in (*REGIONS, "overlap"):
-        if region == "overlap":
-            # The first 0.2 m of the cylinders of 2 m that stand for build and turn.
-            md = 200.0 + 2.0 * rng.integers(3, 265, count) + rng.uniform(0.0, 0.2, count)
-        else:
-            md = rng.uniform(*REGIONS[region], count)
-        angle = rng.uniform(0, 2 * np.pi, count)
-        offset = HOLE - RADIUS + rng.uniform(-BAND, BAND, count)
-        places = exact.off_axis(md + deeper, angle, offset)
-        parts.append(pd.DataFrame(places, columns=["x", "y", "z"]).assign(region=region, offset=offset))
-    return pd.concat(parts, ignore_index=True)
-
-
-def errors_of(method: contact.ContactMethod, points: pd.DataFrame, case: Case) -> Rows:
-    """A row for each region: contacts missed and false, errors of penetration and normal, and their bounds.
-
-    The method was asked before at points SLID further up, as in a string that slides: what it keeps it has from there.
-    """
-    places, hole = np.ascontiguousarray(points[["x", "y", "z"]]), build_wellbore(case)
-    exact = find_contacts(hole, places, RADIUS)
-    method.query(places - SLID * hole.at(exact.md)[1], np.full(len(places), RADIUS))
-    hits = method.query(places, np.full(len(places), RADIUS))
-    for region, chosen in points.groupby("region", sort=False).indices.items():
-        depth, turn = method.error_bound(0.0 if region == "straight" else 1 / 286.479)
-        truth, found = exact.penetration[chosen], hits.penetration[chosen]
-        known = np.isfinite(found)
-        error = found[known] - truth[known]
-        cosine = np.sum(hits.normal[chosen] * exact.normal[chosen], axis=1)[known]
-        direction = np.degrees(np.arccos(np.clip(cosine, -1, 1)))
-        turned = np.degrees(turn + np.arcsin(np.minimum(depth / points["offset"].to_numpy()[chosen][known], 1)))
-        # NaN, no answer, counts as a miss.
-        missed, false = (truth > 0) & ~(found > 0), (truth <= 0) & (found > 0)
-        yield {
-            "region": region,
-            "points": len(chosen),
-            "missed_percent": 100 * float(missed.mean()),
-            "false_percent": 100 * float(false.mean()),
-            "deepest_missed_mm": 1e3 * float(truth[missed].max(initial=0.0)),
-            "max_penetration_error_mm": 1e3 * float(np.abs(error).max()),
-            "rms_penetration_error_mm": 1e3 * float(np.sqrt((error**2).mean())),
-            "bound_mm": 1e3 * depth,
-            "max_angle_error_deg": float(direction.max()),
-            "angle_over_bound": float((direction / np.maximum(turned, 1e-4)).max()),
-            "max_md_error_m": float(np.nanmax(np.abs(hits.md - exact.md)[chosen])),
-        }
+    hole = ExactHole(case.wellbore)
+    rng = np.random.default_rng(SEED)
+    parts = [frame(hole, count, md=md, seed=SEED + k) for k, md in enumerate(REGIONS.values())]
+    begins = 200.0 + 2.0 * rng.integers(3, 265, count) + rng.uniform(0.0, 0.2, count)
+    parts.append(beside(hole, begins, rng))
+    order = rng.permutation(len(parts) * count)
+    md, places, radii = (np.concatenate([getattr(part, name) for part in parts]) for name in ("md", "places", "radii"))
+    regions = np.repeat(np.array([*REGIONS, OVERLAP]), count)
+    return Frame(hole, md, places, radii).part(order), regions[order]
 
 
 @table_of_rows

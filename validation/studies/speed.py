@@ -17,7 +17,7 @@ from references.timing.stopwatch import machine_table, race, units_for
 from references.timing.workloads import NoWall, asking, copy_of, moving
 from validation.harness.study import Check, Context, Kind, Outcome, Study, left_out
 from validation.parts import gated, speed_kernel
-from validation.parts.methods import FULL_ONLY, TOO_SLOW
+from validation.parts.contact_presets import FULL_ONLY, TOO_SLOW
 from validation.parts.speed_kernel import BEST, CONTACT, LEAD, chain, step_on
 
 SEGMENTS = (60, 170)  # of the paper's FCTD model and of its Adams model

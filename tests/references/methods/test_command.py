@@ -8,11 +8,13 @@ from typing import Any
 import pandas as pd
 import pytest
 
+import fctd
 from fctd.arena.result import Comparison, Row
 from fctd.cli import job
 from fctd.cli.options import Terminal
 from fctd.store.parquet import read_frame
 from references.methods import command, tables
+from references.methods.window import in_arcs
 from tests.references.methods.planted import plant
 from tests.references.test_command_line import call
 from tests.references.wells import STATIONS
@@ -76,11 +78,21 @@ def test_a_file_has_all_rows(suffix: str, case: Path, tmp_path: Path, monkeypatc
         assert json.loads(out.with_name("compared.csv.json").read_text())["window"]["whole"] == 8
 
 
-def test_a_picture_is_written(case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    plot = tmp_path / "compared.png"
-    arguments = ("--quick", "--quiet", "--contact", "arcs", "--contact", "cylinders")
-    assert call(monkeypatch, "methods", case, *arguments, "--plot", plot) == 0
-    assert plot.stat().st_size > 10_000
+def test_pictures_and_a_range_of_counts(
+    case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    plot, out = tmp_path / "compared.png", tmp_path / "compared.json"
+    arguments = ("--quick", "--quiet", "--contact", "arcs", "--contact", "cylinders", "--segments", "8:64")
+    assert call(monkeypatch, "methods", case, *arguments, "--plot", plot, "--out", out) == 0
+    assert min(path.stat().st_size for path in (plot, tmp_path / "compared_segments.png")) > 10_000
+    found = Comparison.model_validate_json(out.read_text())
+    assert found.counts is not None
+    same = fctd.refine(in_arcs(fctd.load_case(case)), 0.01, "rotate_off_bottom", segments="8:64")
+    told = [row["hookload_N"] for row in found.counts.steps]
+    assert told == pytest.approx(same.steps.loc[same.steps["stage"] == "counts", "hookload_N"].tolist(), rel=1e-9)
+    screen = capsys.readouterr().out
+    assert f"The default layout has {found.counts.steps[-1]['segments']} segments" in screen
+    assert "observed order" in screen
 
 
 @pytest.mark.parametrize(
@@ -90,6 +102,7 @@ def test_a_picture_is_written(case: Path, tmp_path: Path, monkeypatch: pytest.Mo
         (("--operation", "9"), 2, "from 1 to 1"),
         (("--out", "table.txt"), 2, ".csv or .parquet or .json"),
         (("--budget", "0"), 2, "--budget"),
+        (("--segments", "10:20"), 2, '--segments = "10:20": expected FROM:TO'),
         (("--contact", "absent", "--quick", "--quiet"), 1, "No module named 'no_such_module'"),
     ],
 )

@@ -12,7 +12,7 @@ from fctd.arena.result import Comparison, Row
 from fctd.case.errors import InputError
 from references.contact.reference_hole import hole_of
 from references.engines import checks
-from references.methods import asked, compare_methods, in_hole
+from references.methods import asked, compare_methods, in_hole, window
 from references.methods.in_hole import POINTS
 from references.methods.window import plan_of
 from tests.references.methods.planted import FACTOR, OFF, Slow, plant, well
@@ -64,6 +64,14 @@ def test_exact_methods_have_no_error_and_the_loads_of_the_engine(compared: Compa
     assert row.loads.hookload_N == pytest.approx(own.loads.hookload_N, rel=1e-6)
     assert row.loads.force_off_N < 1.0
     assert row.loads.energy_error < 1e-3
+
+
+def test_a_bit_that_never_turns_as_planned_has_the_window_of_the_last_try(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(window, "_turns", lambda run, rpm: False)
+    plan = plan_of(well())
+    times = plan.own.history["time_s"]
+    assert plan.window.start < times.min() <= times.max() <= plan.window.start + plan.window.duration + 1e-6
+    assert "does not turn as planned" in plan.notes[0]
 
 
 def test_the_window_has_the_loads_of_the_steady_string(compared: Comparison) -> None:

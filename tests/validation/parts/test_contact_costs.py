@@ -1,13 +1,12 @@
-"""Costs of contact methods: fronts, crossovers, batches that are not run."""
+"""Costs of contact methods: fronts, crossovers, wrappers."""
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from fctd.arrays import Contacts
 from references import contact
-from validation.parts.contact_costs import BATCHES, OWN, Points, batches, crossover, pareto, wrapper_time
-from validation.parts.wall_points import RADIUS, points_in, the_case
+from validation.parts.contact_costs import OWN, crossover, pareto, wrapper_time
+from validation.parts.wall_points import near_wall, the_case
 
 
 def test_a_front_holds_what_no_other_row_beats_in_both() -> None:
@@ -25,37 +24,9 @@ def test_a_crossover_is_where_two_straight_lines_of_cost_meet() -> None:
     assert crossover(single, pd.Series({OWN: 5.0, "other": 10.0}), "other") == np.inf
 
 
-class Slow:
-    """A method that takes 20 µs a point, too long for a batch of 100 000."""
-
-    def __init__(self) -> None:
-        self.asked: list[int] = []
-
-    def query(self, points: np.ndarray, radii: np.ndarray) -> Contacts:
-        import time
-
-        self.asked.append(len(points))
-        end = time.perf_counter() + 2e-5 * len(points)
-        while time.perf_counter() < end:
-            pass
-        return Contacts(radii, points, radii)
-
-
-def test_a_batch_that_would_take_too_long_is_not_run_and_says_so() -> None:
-    case, slow = the_case(), Slow()
-    sample = points_in(case, 50)
-    points = Points(sample[["x", "y", "z"]].to_numpy(), np.full(len(sample), RADIUS))
-    table = batches({OWN: contact.build(OWN, case), "slow": slow}, points, most=100_000, rounds=1).set_index("setting")  # type: ignore[dict-item]
-    assert table["measured_100000"].to_dict() == {OWN: True, "slow": False}
-    assert table["ns_100000"]["slow"] == table["ns_1000"]["slow"] > 1.9e4
-    assert max(slow.asked) == 1000
-    assert set(BATCHES) >= {1, 1000, 100_000}
-
-
 def test_the_wrapper_of_a_mesh_is_what_follows_its_query(monkeypatch: pytest.MonkeyPatch) -> None:
     case = the_case()
-    sample = points_in(case, 250)
-    points = Points(np.ascontiguousarray(sample[["x", "y", "z"]]), np.full(len(sample), RADIUS))
+    points, _ = near_wall(case, 250)
     method = contact.build("libigl", case)
     near = method.nearest(points.places)  # type: ignore[attr-defined]
     assert len(near) == 3

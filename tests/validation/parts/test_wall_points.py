@@ -3,28 +3,18 @@
 import numpy as np
 import pytest
 
-from fctd import build_wellbore, find_contacts
-from validation.parts.wall_points import BAND, RADIUS, REGIONS, points_in, the_case
+from fctd.arena.frames import BAND
+from validation.parts.wall_points import OVERLAP, REGIONS, near_wall, the_case
 
 
-@pytest.mark.parametrize("deeper", [0.0, 3500.0])
-def test_points_lie_in_their_region_near_the_wall(deeper: float) -> None:
-    case = the_case(deeper)
-    points = points_in(case, 60)
-    hits = find_contacts(build_wellbore(case), np.ascontiguousarray(points[["x", "y", "z"]]), RADIUS)
-    assert np.abs(hits.penetration).max() <= BAND + 1e-9
+def test_points_lie_in_their_region_near_the_wall() -> None:
+    case = the_case()
+    near, regions = near_wall(case, 60)
+    assert np.abs(near.exact.penetration).max() <= BAND + 1e-9
+    assert [(regions == region).sum() for region in (*REGIONS, OVERLAP)] == [60, 60, 60, 60]
     for region, (top, end) in REGIONS.items():
-        md = hits.md[points["region"] == region] - deeper
+        md = near.exact.md[regions == region]
         assert top <= md.min() <= md.max() <= end
-
-
-def test_a_deeper_hole_has_the_same_bends() -> None:
-    shallow, deep = (
-        find_contacts(build_wellbore(case), points_of(case), RADIUS) for case in (the_case(), the_case(800.0))
-    )
-    np.testing.assert_allclose(deep.penetration, shallow.penetration, atol=1e-9)
-    np.testing.assert_allclose(deep.md - 800.0, shallow.md, atol=1e-9)
-
-
-def points_of(case) -> np.ndarray:
-    return np.ascontiguousarray(points_in(case, 20)[["x", "y", "z"]])
+    assert the_case(3500.0).wellbore.trajectory[-1, 0] == pytest.approx(4400.0)
+    # In the order of depth the first lie in the straight part, which flatters a tree.
+    assert abs(np.corrcoef(np.arange(len(near.md)), near.md)[0, 1]) < 0.2

@@ -6,6 +6,7 @@ import pandas as pd
 import pytest
 
 from references import contact
+from references.methods import compare
 from references.timing.workloads import moving
 from reports import figures
 from tests.references.listing import listed
@@ -67,12 +68,12 @@ def test_it_is_listed(toy):
 
 @pytest.mark.slow
 def test_it_is_in_every_table_of_errors_cost_and_memory(toy, monkeypatch):
-    monkeypatch.setattr(contact_accuracy, "footprint", lambda name, case: (1.0, 0.1))
+    monkeypatch.setattr(compare, "measured_apart", lambda name, case, options: (1.0, 0.1))
     monkeypatch.setattr(contact_accuracy.traps, "TRAPS", [])
     tables = contact_accuracy.run(Context(quick=False)).tables
     errors = tables["errors"].query("method == 'toy'")
     assert set(errors["region"]) == {*wall_points.REGIONS, "overlap"}
-    assert errors["max_penetration_error_mm"].max() < 1e-6
+    assert errors["largest_penetration_m"].max() < 1e-9
     assert "toy" in set(tables["cost"]["method"])
     assert "toy" in set(tables["builds"]["method"])
     assert "numpy" in set(tables["machine"]["what"])
@@ -87,7 +88,7 @@ def test_it_is_raced_and_turns_the_chain(toy, monkeypatch):
     cost = tables["cost"].query("loop == 'toy, from Python'")
     assert cost["segments"].to_list() == [60]
     turned = tables["torques"].set_index("method")
-    assert turned.loc["toy", "sum_difference_percent"] == pytest.approx(0.0, abs=0.02)
+    assert turned.loc["toy", "sum_difference_percent"] == pytest.approx(0.0, abs=1e-6)
     assert pd.notna(turned.loc["toy", "surface_torque_kN_m"])
     assert {"toy, from Python", "toy"} <= written("contact_swap", tables)
 
