@@ -66,8 +66,7 @@ def test_a_kernel_slower_by_five_per_cent_never_fails() -> None:
 
 
 def test_planted_slowdowns_are_found_by_name() -> None:
-    """Samples of the races that ``python -m benchmarks planted`` ran."""
-    assert RECORDED["planted"].keys() == set(OWN)
+    """Samples of races against sources with extra work in a kernel (benchmarks/planted.py)."""
     for kernel, sides in RECORDED["planted"].items():
         found = {each.kernel: each for each in decide(sides["before"], sides["now"])}
         assert found[kernel].status == "slower", kernel
