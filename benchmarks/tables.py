@@ -19,7 +19,7 @@ STYLES = {"slower": "bold red", "missing": "bold red", "no baseline": "bold red"
 
 def verdict_table(outcome: Outcome) -> Table:
     """The gate's verdicts, a row per kernel; costs are those now, in units of the reference kernel."""
-    table = Table(title=outcome.how, title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
+    table = Table(title=outcome.how, title_justify="left", box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
     table.add_column("kernel", no_wrap=True)
     for column in ("cost", "change", "80 % interval"):
         table.add_column(column, justify="right", no_wrap=True)
@@ -30,7 +30,7 @@ def verdict_table(outcome: Outcome) -> Table:
             f"{verdict.change - 1:+.1%}", f"{verdict.low - 1:+.1%} to {verdict.high - 1:+.1%}"
         )  # fmt: skip
         more = "" if verdict.threshold == THRESHOLD else f", fails at {verdict.threshold - 1:+.0%}"
-        cost = f"{statistics.median(costs[verdict.kernel]):.4g}" if verdict.kernel in costs else "–"
+        cost = f"{statistics.median(costs[verdict.kernel]):.3g}" if verdict.kernel in costs else "–"
         table.add_row(verdict.kernel, cost, *numbers, verdict.status + more, style=STYLES.get(verdict.status, ""))
     return table
 
