@@ -2,8 +2,8 @@
 #                  TARGET=NAME run them with other rounding beside the plain results (python -m validation --help)
 # make test        the fast tests, in two processes, then those of pages in a browser, which skip without Chromium
 #                  (BROWSER=0 leaves them out)
-# make bench       time the benchmarks on this machine, keep the times in .benchmarks for --benchmark-compare, and compare
-#                  the kernels with the last release
+# make bench       time the benchmarks on this machine, keep the times in .benchmarks for --benchmark-compare, and race
+#                  the kernels against those of the accepted baseline
 # make docs        write the docs site to docs/out: open docs/out/index.html
 # make lint        check style, types and allowed imports
 # make bullet      build pybullet from source, which has no wheel for Python 3.12 and later: needs a C++ compiler and
@@ -59,7 +59,7 @@ endif
 
 bench: $(STAMP)
 	$(BIN)/python -m pytest benchmarks --benchmark-enable --benchmark-autosave --benchmark-sort=name
-	$(BIN)/python -m benchmarks compare
+	$(BIN)/python -m benchmarks gate
 
 docs: $(STAMP)
 	rm -rf docs/out

@@ -1,1 +1,1 @@
-"""Benchmarks of the engine, the references and the release gate."""
+"""Benchmarks of the engine, the references and the gate."""

@@ -1,136 +1,131 @@
-"""Records of releases: one readable file each in benchmarks/history/, and whether a record is comparable here."""
+"""The baselines of the gate: one readable file each in benchmarks/history/, of which the newest is raced.
 
-import statistics
-import subprocess
+No time in a file is compared with a time measured elsewhere: a record keeps how each kernel changed against the
+baseline before, raced on one machine, and a curve of the history is the product of these changes.
+"""
+
+import math
 from collections.abc import Mapping
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
-import llvmlite.binding
-from pydantic import AwareDatetime, BaseModel, ConfigDict, Field, ValidationError, computed_field
+from pydantic import AwareDatetime, BaseModel, ConfigDict, Field, ValidationError
 
-from benchmarks.measure import ROOT, Costs, ratios
-from benchmarks.subjects import REFERENCE
-from benchmarks.worker import reference_digest, sources_digest
+from benchmarks import checkout
+from benchmarks.measure import ROOT
+from benchmarks.verdict import Verdict
 from fctd.case.errors import MISSING, InputError
-from fctd.store.origin import environment_of_git
-from references.timing.stopwatch import cpu_name, machine
+from references.timing.stopwatch import machine
 
-# Packages that compile the sources to machine code.
-COMPILER = ("python", "numba", "llvmlite")
 HISTORY = Path(__file__).parent / "history"
 
-Cost = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+Ratio = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 
 
-class Kernel(BaseModel):
-    """One subject of a record: cost per unit, absolute and relative to the reference kernel in the same process.
-
-    samples : the ratio in each process; ratio, spread : their median and range.
-    """
+class Change(BaseModel):
+    """Cost of a kernel over that in the baseline before, with its 80 % interval."""
 
     model_config = ConfigDict(frozen=True)
 
-    unit: str
-    size: str
-    ns: float
-    samples: Annotated[tuple[Cost, ...], Field(min_length=1)]
-
-    @computed_field  # type: ignore[prop-decorator]
-    @property
-    def ratio(self) -> float:
-        """Median of the samples."""
-        return _round(statistics.median(self.samples))
-
-    @computed_field  # type: ignore[prop-decorator]
-    @property
-    def spread(self) -> tuple[float, float]:
-        """Least and largest sample."""
-        return min(self.samples), max(self.samples)
+    ratio: Ratio
+    low: Ratio
+    high: Ratio
 
 
 class Record(BaseModel):
-    """Costs of a release, with machine, versions and sources.
+    """A baseline: the commit, where and when it was raced against the baseline before, and what came out.
 
-    sources, reference : hashes of the engine's sources and of the reference kernel.  reference_ns : cost of the
-    reference kernel's column [ns].
+    sources : hash of the engine's sources.  machine : all that times depend on.  changes : of the kernels that both
+    baselines have, empty in the first record.  accepted : kernels that became slower or are gone, and why.
     """
 
-    model_config = ConfigDict(frozen=True)
+    model_config = ConfigDict(frozen=True, extra="forbid")
 
-    release: str
     date: AwareDatetime
-    commit: Annotated[str, Field(pattern="^[0-9a-f]*$")]
+    commit: Annotated[str, Field(pattern="^[0-9a-f]+$")]
     sources: str
-    reference: str
-    processor: str
-    versions: dict[str, str]
-    reference_ns: float
-    kernels: Annotated[dict[str, Kernel], Field(min_length=1)]
-    accepted: str = ""  # what became slower since the record before, and why this is the baseline all the same
+    machine: dict[str, str]
+    changes: dict[str, Change]
+    accepted: dict[str, str] = {}
 
     @property
-    def ratios(self) -> Costs:
-        """Ratio of every kernel to the reference kernel in each process; the reference's own is 1."""
-        found = {name: list(kernel.samples) for name, kernel in self.kernels.items()}
-        processes = max(len(taken) for taken in found.values())
-        return {REFERENCE: [1.0] * processes} | found
+    def name(self) -> str:
+        """Commit and date as text."""
+        return f"{self.commit[:8]} of {self.date:%Y-%m-%d}"
 
-    def not_here(self, reference: str, processor: str, versions: Mapping[str, str]) -> str:
-        """Why ratios measured here are not comparable with this record; empty if they are."""
-        if self.reference != reference:
-            return "another reference kernel"
-        if self.processor != processor:
-            return f"another processor, {self.processor}"
-        other = [name for name in COMPILER if self.versions.get(name) != versions.get(name)]
-        return f"another {' and '.join(f'{name} {self.versions.get(name)}' for name in other)}" if other else ""
+    def entry(self, kernel: str) -> str:
+        """What the record accepts of a kernel, for the screen."""
+        change = self.changes.get(kernel)
+        by = "" if change is None else f" {change.ratio:.2f} times ({change.low:.2f} to {change.high:.2f})"
+        return f"{kernel}{by}: {self.accepted[kernel]}"
 
 
-def processor() -> str:
-    """Name of the processor and, since virtual machines hide it, the architecture for which code is compiled."""
-    return f"{cpu_name()}, {llvmlite.binding.get_host_cpu_name()}"
+def record_of(verdicts: list[Verdict], accepted: Mapping[str, str], last: Record | None) -> Record:
+    """The record of the last commit after a race against the last baseline.
 
-
-def machine_versions() -> dict[str, str]:
-    """Versions of everything timed, of the compiler, and the commit."""
-    found = machine() | {"llvmlite": llvmlite.__version__}
-    found.pop("processor")
-    return found
-
-
-def sources_of(root: Path) -> str:
-    """Hash of the engine's sources in a checkout."""
-    return sources_digest(root)
-
-
-def record_of(costs: Costs, subjects: dict[str, Any], release: str, accepted: str = "") -> Record:
-    """The record of a measurement of these sources, now."""
-    kernels = {
-        name: Kernel(
-            **subjects[name],
-            ns=_round(statistics.median(costs[name])),
-            samples=tuple(map(_round, samples)),
+    InputError where the baseline may not move: a kernel fails without a reason, a reason names a kernel that does not
+    fail, or nothing became faster and nothing is accepted.
+    """
+    failing = {verdict.kernel for verdict in verdicts if verdict.fails}
+    for kernel in accepted.keys() - failing:
+        raise InputError(
+            f"a kernel that the gate fails ({', '.join(sorted(failing)) or 'none'})", key="--accept", value=kernel
         )
-        for name, samples in ratios(costs).items()
-    }
-    found = machine_versions()
+    for kernel in sorted(failing - accepted.keys()):
+        raise InputError(f"a reason, as in --accept '{kernel}=REASON', or no slowdown", key="--accept", value=kernel)
+    if last is not None and not accepted and not any(verdict.status in ("faster", "new") for verdict in verdicts):
+        raise InputError("a gain, a new kernel or an accepted entry: the baseline stays", key="record", value=last.name)
     return Record(
-        release=release, date=datetime.now(UTC).replace(microsecond=0), commit=found.pop("commit", ""),
-        sources=sources_of(ROOT), reference=reference_digest(), processor=processor(),
-        versions=found, reference_ns=_round(statistics.median(costs[REFERENCE])),
-        kernels=kernels, accepted=accepted,
+        date=datetime.now(UTC).replace(microsecond=0), commit=checkout.resolved("HEAD"),
+        sources=checkout.sources_of(ROOT), machine=machine(), accepted=dict(accepted),
+        changes={each.kernel: change_in(each) for each in verdicts if not math.isnan(each.change)},
     )  # fmt: skip
 
 
-def _round(value: float) -> float:
-    """Rounded to five digits, for readable files."""
-    return float(f"{value:.5g}")
+def change_in(verdict: Verdict) -> Change:
+    """The change of a verdict, rounded for a readable file."""
+    return Change(ratio=round(verdict.change, 4), low=round(verdict.low, 4), high=round(verdict.high, 4))
+
+
+def accepted_since(date: datetime, records: list[tuple[Path, Record]]) -> dict[str, float]:
+    """By how much kernels became slower with a reason in the records after a date."""
+    since: dict[str, float] = {}
+    for _, record in records:
+        for kernel in record.accepted if record.date > date else ():
+            if kernel in record.changes:
+                since[kernel] = since.get(kernel, 1.0) * record.changes[kernel].ratio
+    return since
+
+
+def curves(records: list[tuple[Path, Record]]) -> dict[str, list[float]]:
+    """Cost of each kernel over its cost in the first record that has it; NaN before that one."""
+    found: dict[str, list[float]] = {}
+    for k, (_, record) in enumerate(records):
+        for kernel, change in record.changes.items():
+            curve = found.setdefault(kernel, [math.nan] * (k - 1) + [1.0])
+            curve.extend([math.nan] * (k - len(curve)))
+            curve.append((1.0 if math.isnan(curve[-1]) else curve[-1]) * change.ratio)
+    return found
+
+
+def commit_of(record: Record, file: Path) -> str:
+    """The commit of a record; if it was rewritten, the one that added the record's file has the same sources.
+
+    InputError where the clone holds neither.
+    """
+    try:
+        return checkout.resolved(record.commit)
+    except InputError:
+        added = checkout.commit_of(file) if file.resolve().is_relative_to(ROOT) else ""
+        if not added or checkout.sources_of(checkout.check_out(added)) != record.sources:
+            raise
+        return added
 
 
 def write(record: Record, folder: Path = HISTORY) -> Path:
     """Store a record; returns its file."""
-    path = folder / f"{record.date:%Y-%m-%d}-{record.release}-{record.commit or 'unknown'}.json"
+    path = folder / f"{record.date:%Y-%m-%d}-{record.commit[:8]}.json"
     folder.mkdir(parents=True, exist_ok=True)
     path.write_text(record.model_dump_json(indent=1) + "\n", encoding="utf-8")
     return path
@@ -138,7 +133,7 @@ def write(record: Record, folder: Path = HISTORY) -> Path:
 
 def read(folder: Path = HISTORY) -> list[tuple[Path, Record]]:
     """All records with their files, oldest first; InputError for an invalid file or a missing folder."""
-    if not folder.is_dir():  # without this check the gate would pass for want of a record
+    if not folder.is_dir():
         raise InputError("a folder of records", key="--history", value=folder)
     found = []
     for path in folder.glob("*.json"):
@@ -150,21 +145,3 @@ def read(folder: Path = HISTORY) -> list[tuple[Path, Record]]:
             value = MISSING if first["type"] == "missing" else first["input"]
             raise InputError(f"a record ({first['msg']})", key=key, value=value, file=path) from None
     return sorted(found, key=lambda one: one[1].date)
-
-
-def last_release(folder: Path = HISTORY) -> tuple[Path, Record] | None:
-    """The newest record by the date inside, with which this run is compared; None without records."""
-    records = read(folder)
-    return records[-1] if records else None
-
-
-def uncommitted() -> str:
-    """Uncommitted changes in the folders that a record depends on, as git reports them; InputError without git."""
-    try:
-        done = subprocess.run(
-            ["git", "-C", str(ROOT), "status", "--porcelain", "--", "fctd", "references", "benchmarks/*.py"],
-            capture_output=True, text=True, check=True, env=environment_of_git(),
-        )  # fmt: skip
-    except (OSError, subprocess.SubprocessError):
-        raise InputError("a checkout with its history: a record names its commit", key="git") from None
-    return done.stdout.strip()

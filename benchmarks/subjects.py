@@ -1,6 +1,6 @@
 """The subjects of the gate: a fixed workload for every kernel, on one settled, turning string.
 
-The gate compares equal names of two releases, so that changed work or a changed unit needs a new name.
+The gate compares equal names of two commits, so that changed work or a changed unit needs a new name.
 """
 
 from collections.abc import Callable, Mapping
@@ -13,39 +13,36 @@ from numba import njit
 
 from benchmarks.strings import drilling, tripping
 from fctd import Case, load_case
-from fctd.case.errors import InputError
 from fctd.mechanics.joints import update_joint_loads
 from fctd.mechanics.query import query_walls
-from fctd.mechanics.state import OPEN, RADIUS, copy_state, row
+from fctd.mechanics.state import OPEN, copy_state
 from fctd.mechanics.topdrive import Motion
 from fctd.model.operations import steady_rates
-from fctd.simulation.preparation import contact_points, prepare
+from fctd.simulation.preparation import prepare
 from fctd.simulation.run import Run
 from fctd.simulation.settling import settle, start_from_rest
 from fctd.simulation.simulate import Simulation
 from fctd.steady.equilibrium import Solver
+from fctd.steady.margin_table import limits_of
 from fctd.steady.torque_drag import chart_rows
-from references import contact
 from references.timing import reference_kernel
 
 CASE = Path(__file__).parents[1] / "validation" / "cases" / "curved_chain.toml"
 REFERENCE, FREE, CYLINDERS, ARCS = "reference", "step, contact-free", "step, cylinders", "step, arcs"
-FCL = "FCL query from Python"
 SEGMENTS = 60
 BIT_DEPTH = 2450.0  # [m]
 ROTATION = {"kind": "rotate_off_bottom", "at_md": BIT_DEPTH, "duration": 60.0, "rpm": 60.0, "ramp_time": 4.0}
 POINTS = 2_000  # per compiled query
+SOLVERS = 6  # of a steady depth
 JOINTS = 64  # a multiple of the width of packed instructions
 
 
 @dataclass(frozen=True)
 class Subject:
-    """The workload of one kernel: a call of ``act`` does ``count`` units; size describes the data of a call."""
+    """The workload of one kernel: a call of ``act`` does ``count`` units of about a millisecond or more in all."""
 
     act: Callable[[], object]
     count: int
-    unit: str
-    size: str
 
 
 def turning(segments: int, changes: Mapping[str, Any] = {}) -> tuple[Run, Motion]:
@@ -78,7 +75,7 @@ def joint_loads(S, n, count):  # type: ignore[no-untyped-def]
 
 
 def subjects() -> dict[str, Subject]:
-    """All subjects, the reference kernel first; FCL only if it is installed."""
+    """All subjects, the reference kernel first."""
     touching, motion = turning(SEGMENTS)
     free = replace(
         touching,
@@ -88,7 +85,7 @@ def subjects() -> dict[str, Subject]:
         laws=touching.laws._replace(geometry=OPEN),
     )
     arcs, _ = turning(SEGMENTS, {"wellbore.geometry": "arcs"})
-    found = {
+    return {
         REFERENCE: _reference(2_000),
         FREE: _steps(free, motion, 1_000),
         CYLINDERS: _steps(touching, motion, 1_000),
@@ -98,40 +95,30 @@ def subjects() -> dict[str, Subject]:
         "query, arcs": _query(arcs, 20),
         "step, tripping": _steps(*moving(tripping()), 200),
         "step, drilling": _steps(*moving(drilling()), 200),
-        "steady depth": _steady(touching, 2),
+        "steady depth": _steady(touching),
         "chart row": _chart(touching),
-    }
-    try:
-        wall = contact.build("fcl", touching.case)
-    except InputError:
-        return found
-    points, radii = contact_points(touching.S, SEGMENTS), row(touching.S, RADIUS, SEGMENTS).copy()
-    return found | {
-        FCL: Subject(
-            lambda: wall.query(points, radii), SEGMENTS, "point", f"{SEGMENTS} points, {wall.pieces} triangles"
-        )
+        "limits": _limits(touching),
     }
 
 
 def _reference(passes: int) -> Subject:
+    """A column of the reference kernel."""
     S = reference_kernel.new_buffer()
-    columns = reference_kernel.COLUMNS
-    return Subject(
-        lambda: reference_kernel.reference_kernel(S, passes), passes * columns, "column", f"{columns} columns"
-    )
+    return Subject(lambda: reference_kernel.reference_kernel(S, passes), passes * reference_kernel.COLUMNS)
 
 
 def _steps(run: Run, motion: Motion, count: int) -> Subject:
-    size = f"{run.segments} segments"
-    return Subject(lambda: run.advance(motion, count * run.step), count * run.segments, "segment-step", size)
+    """A step of a segment."""
+    return Subject(lambda: run.advance(motion, count * run.step), count * run.segments)
 
 
 def _joints(S: Any, count: int) -> Subject:
-    return Subject(lambda: joint_loads(S, JOINTS, count), count * JOINTS, "joint", f"{JOINTS} joints")
+    """The loads of a joint."""
+    return Subject(lambda: joint_loads(S, JOINTS, count), count * JOINTS)
 
 
 def _query(run: Run, count: int) -> Subject:
-    """Query of points near the wall along the whole hole, each with the piece of its last query."""
+    """A point near the wall, of points along the whole hole, each with the piece of its last query."""
     hole = run.hole
     md = np.linspace(10.0, hole.total_depth - 10.0, POINTS)
     points = hole.at(md)[0] + 0.1 * np.stack([np.cos(md), np.sin(md), np.zeros(POINTS)], axis=1)
@@ -141,22 +128,26 @@ def _query(run: Run, count: int) -> Subject:
         for _ in range(count):
             query_walls(hole.pieces, hole.geometry, points, owner, out)
 
-    return Subject(act, count * POINTS, "point", f"{POINTS} points, {len(hole.pieces)} pieces")
+    return Subject(act, count * POINTS)
 
 
-def _steady(run: Run, count: int) -> Subject:
-    solver, rates = Solver(run.case), steady_rates(run.case, "trip_out")
+def _steady(run: Run) -> Subject:
+    """A bit depth of ``SOLVERS`` solvers: one takes up to a tenth longer where its arrays lie badly."""
+    solvers, rates = [Solver(run.case) for _ in range(SOLVERS)], steady_rates(run.case, "trip_out")
 
     def act() -> None:
-        for _ in range(count):
+        for solver in solvers:
             solver.solve("trip_out", rates, BIT_DEPTH)
 
-    return Subject(act, count, "depth", f"{SEGMENTS} segments")
+    return Subject(act, SOLVERS)
 
 
 def _chart(run: Run) -> Subject:
-    """A chart of one operation, in this thread: the clock of a subject is that of its thread."""
+    """A bit depth of a chart of one operation, in this thread: the clock of a subject is that of its thread."""
     depths = [BIT_DEPTH - 20.0 * k for k in reversed(range(16))]
-    return Subject(
-        lambda: chart_rows(run.case, "trip_out", depths, threads=1), len(depths), "depth", f"{SEGMENTS} segments"
-    )
+    return Subject(lambda: chart_rows(run.case, "trip_out", depths, threads=1), len(depths))
+
+
+def _limits(run: Run) -> Subject:
+    """The margins of one operation at one bit depth."""
+    return Subject(lambda: limits_of(run.case, "trip_out", BIT_DEPTH), 1)

@@ -1,21 +1,21 @@
-"""Whether a kernel has become slower, as a pure function of the samples of two releases.
+"""Whether a kernel has become slower, as a pure function of the samples of two commits.
 
-Every process places its memory and compiled code anew, which changes a kernel's cost by several per cent for the whole
-process, while rounds of one process agree to one per cent.  A sample is therefore one process.  The change is the
-median of all quotients of a sample now and a sample before (Hodges and Lehmann), with the confidence interval of Mann
-and Whitney, which assumes no distribution and is robust against outliers.
+Every process places its memory and compiled code anew, which changes a kernel's cost by a per cent for the whole
+process.  A sample is therefore one process.  The change is the median of all quotients of a sample now and a sample
+before (Hodges and Lehmann), with the confidence interval of Mann and Whitney, which assumes no distribution and is
+robust against outliers.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from math import nan
 
 import numpy as np
 
-THRESHOLD = 1.15
+THRESHOLD = 1.10
 # Standard deviations of the Mann–Whitney statistic: one-sided confidence of 90 %.
 CONFIDENCE = 1.2816
-# With fewer processes on either side the interval has no meaning.
-LEAST_SAMPLES = 3
+FAILING = ("slower", "missing", "no baseline")
 
 Samples = Mapping[str, Sequence[float]]  # kernel -> cost in each process, in the same unit on both sides
 
@@ -25,22 +25,22 @@ class Verdict:
     """One kernel now, compared with before.
 
     status : ``slower`` (by the threshold, beyond noise), ``perhaps slower`` (by the threshold, within noise),
-    ``faster`` (by the threshold, beyond noise), ``as before``, ``new``, ``missing`` (measured before, not now) or
-    ``too few`` (samples).  change, low, high : cost now over cost before and its 80 % interval, NaN without one;
-    threshold : change at which a kernel fails.
+    ``faster`` (by the threshold, beyond noise), ``as before``, ``new`` (the change at hand brings it), ``no baseline``
+    (an earlier change brought it) or ``missing`` (measured before, not now).  change, low, high : cost now over cost
+    before and its 80 % interval, NaN without one; threshold : change at which a kernel fails.
     """
 
     kernel: str
     status: str
-    change: float = float("nan")
-    low: float = float("nan")
-    high: float = float("nan")
+    change: float = nan
+    low: float = nan
+    high: float = nan
     threshold: float = THRESHOLD
 
     @property
     def fails(self) -> bool:
-        """Whether the gate fails: the kernel is slower, or no longer measured."""
-        return self.status in ("slower", "missing")
+        """Whether the gate fails: the kernel is slower, has no baseline, or is no longer measured."""
+        return self.status in FAILING
 
     @property
     def open(self) -> bool:
@@ -48,23 +48,33 @@ class Verdict:
         return self.high >= self.threshold
 
 
-def decide(before: Samples, now: Samples, threshold: float = THRESHOLD) -> list[Verdict]:
-    """A verdict for every kernel of either side, in the order of ``before``."""
-    verdicts = [_one(kernel, before[kernel], now[kernel], threshold) if kernel in now else Verdict(kernel, "missing")
-                for kernel in before]  # fmt: skip
-    return verdicts + [Verdict(kernel, "new") for kernel in now if kernel not in before]
+def decide(
+    before: Samples,
+    now: Samples,
+    accepted: Mapping[str, float] = {},
+    brings: Callable[[str], bool] = lambda kernel: False,
+) -> list[Verdict]:
+    """A verdict for every kernel of either side, in the order of ``before``.
+
+    accepted : by how much kernels became slower since, with a reason; their thresholds rise by it.
+    brings : whether the change at hand brings a kernel, which then needs no baseline.
+    """
+    verdicts = [
+        _one(kernel, before[kernel], now[kernel], THRESHOLD * accepted.get(kernel, 1.0))
+        if kernel in now
+        else Verdict(kernel, "missing")
+        for kernel in before
+    ]
+    fresh = [kernel for kernel in now if kernel not in before]
+    return verdicts + [Verdict(kernel, "new" if brings(kernel) else "no baseline") for kernel in fresh]
 
 
 def _one(kernel: str, before: Sequence[float], now: Sequence[float], threshold: float) -> Verdict:
-    if min(len(before), len(now)) < LEAST_SAMPLES:
-        return Verdict(kernel, "too few")
     change, low, high = change_of(before, now)
-    if low >= threshold:
-        status = "slower"
-    elif change >= threshold:
-        status = "perhaps slower"
+    if change < threshold:
+        status = "faster" if high <= 1 / THRESHOLD else "as before"
     else:
-        status = "faster" if high <= 1 / threshold else "as before"
+        status = "slower" if low > threshold else "perhaps slower"
     return Verdict(kernel, status, change, low, high, threshold)
 
 

@@ -1,65 +1,41 @@
-"""``python -m benchmarks.worker``: one process that measures on request; two of them let two releases take turns.
+"""A process that measures the subjects of the sources on its path; two of them let two commits take turns.
 
-When ready it prints its subjects as a line of JSON; then, for every line that it reads, a line with the cost of each
-subject [ns per unit] in a round.  A release runs the worker of its own sources, so that a change of these lines needs a
-new PROTOCOL.
+When ready it prints the names of its subjects as a line of JSON; then, for every line that it reads, a line with the
+cost of each subject [ns per unit] in a round.  Both sides of a race run this file of today's sources, each with its own
+``benchmarks.subjects``: the technique is the same on both sides, and the work that of each commit.
 """
 
-import hashlib
 import json
 import sys
 import time
-from pathlib import Path
-from typing import Any
+from collections.abc import Callable
 
-from benchmarks.subjects import Subject, subjects
-from references.timing import reference_kernel
-from references.timing.stopwatch import turn
+from benchmarks.subjects import subjects
 
-PROTOCOL = 1
-# Calls of each subject per round, of which the shortest counts: a disturbance can only lengthen a call.
-CALLS = 3
-
-
-def digest(*files: Path) -> str:
-    """Hash of names and contents of files."""
-    found = hashlib.sha256()
-    for file in sorted(files):
-        found.update(file.name.encode() + file.read_bytes())
-    return found.hexdigest()[:16]
+# A packed loop keeps some values on the stack.  Where these lie a multiple of 4096 bytes from a row of the string, the
+# processor takes one for the other: joint loads then take up to 1.35 times as long.  The stack begins anywhere, so
+# that one depth would mark a whole process; calls from all depths within 4096 bytes give each process the same mix.
+DEPTHS = 12
+STRIDE = 5  # of depths between rounds, so that neighbours in time lie apart
 
 
-def sources_digest(root: Path) -> str:
-    """Hash of the engine's sources in a checkout: names relative to ``fctd/`` and contents, subfolders included."""
-    folder, found = root / "fctd", hashlib.sha256()
-    for file in sorted(folder.rglob("*.py")):
-        found.update(file.relative_to(folder).as_posix().encode() + file.read_bytes())
-    return found.hexdigest()[:16]
+def spent(act: Callable[[], object], depth: int) -> float:
+    """Processor time of a call [s] from ``depth`` frames further down the stack, about 340 bytes each.
 
-
-def reference_digest() -> str:
-    """Hash of the reference kernel's source: costs relative to different kernels are not comparable."""
-    return digest(Path(reference_kernel.__file__))
-
-
-def hello(found: dict[str, Subject]) -> dict[str, Any]:
-    """The content of the first line."""
-    return {
-        "protocol": PROTOCOL,
-        "reference": reference_digest(),
-        "subjects": {name: {"unit": one.unit, "size": one.size} for name, one in found.items()},
-    }
-
-
-def one_round(found: dict[str, Subject], backwards: bool) -> dict[str, float]:
-    """Cost of each subject [ns per unit]: the shortest of ``CALLS`` turns by this thread's own clock.
-
-    Time in which another process had the core is not counted.
+    By this thread's own clock: a core that another process had meanwhile is not counted.
     """
-    actions = {name: one.act for name, one in found.items()}
-    counts = {name: one.count for name, one in found.items()}
-    turns = [turn(actions, counts, time.thread_time, backwards) for _ in range(CALLS)]
-    return {name: min(taken[name] for taken in turns) for name in actions}
+    taken: list[float] = []
+
+    def below(_: object) -> int:
+        taken.append(spent(act, depth - 1))
+        return 0
+
+    if depth:
+        max([None], key=below)
+        return taken[0]
+    began = time.thread_time()
+    act()
+    return time.thread_time() - began
 
 
 def main() -> None:
@@ -67,9 +43,11 @@ def main() -> None:
     found = subjects()
     for one in found.values():
         one.act()
-    print(json.dumps(hello(found)), flush=True)
+    print(json.dumps(list(found)), flush=True)
     for k, _ in enumerate(sys.stdin):
-        print(json.dumps(one_round(found, backwards=k % 2 == 1)), flush=True)
+        order = reversed(found) if k % 2 else iter(found)
+        depth = STRIDE * k % DEPTHS
+        print(json.dumps({name: 1e9 * spent(found[name].act, depth) / found[name].count for name in order}), flush=True)
 
 
 if __name__ == "__main__":

@@ -9,6 +9,8 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 import fctd
+from benchmarks import history
+from benchmarks.tables import history_figure
 from fctd import plots
 from fctd.arena.result import Comparison
 from fctd.case.units import in_steps
@@ -169,11 +171,17 @@ def methods() -> Figure:
     return methods_figure(Comparison.model_validate_json((ROOT / "docs" / "methods.json").read_text(encoding="utf-8")))
 
 
+def baselines() -> Figure:
+    """The cost of each kernel over the baselines of the gate."""
+    return history_figure(history.read())
+
+
 PICTURES: dict[str, Callable[[], Figure]] = {
     "overview": overview, "chart": chart, "compare": compare, "limits": limits, "feeding": feeding, "monitor": monitor,
     "roadmap": roadmap, "run": run, "hydraulics": hydraulics, "wear": wear,
     "public_well": public_well, "judged_rows": judged_rows,
     "bands": bands, "stick_slip": stick_slip, "methods": methods,
+    "baselines": baselines,
 }  # fmt: skip
 # Those drawn from the stored study of a public well, whose data are not part of the project.
 STUDY = ROOT / "validation" / "results" / "volve_f4"

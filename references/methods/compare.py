@@ -1,6 +1,5 @@
 """Compare contact methods and engines on any well: errors and cost of a point in its hole, and loads of its string."""
 
-import os
 import subprocess
 import time
 from collections.abc import Callable, Iterable, Sequence
@@ -152,8 +151,7 @@ class Comparing:
         self.comparison = Comparison(
             case=preset.case.name, digest=preset.case.digest, reference=preset.reference,
             window=None if plan is None else plan.described, md_m=[] if plan is None else self.md.tolist(), rows=rows,
-            budget_s=budget, quick=quick, units=preset.case.system, date=date.today().isoformat(),
-            machine={**machine(), "load average": _load()},
+            budget_s=budget, quick=quick, units=preset.case.system, date=date.today().isoformat(), machine=machine(),
             notes=[] if plan is None else list(plan.notes),
         )  # fmt: skip
 
@@ -334,11 +332,6 @@ class Comparing:
             row.status = "failed"
         else:
             row.loads = loads_of(run, stepper, self.forces, self.md, self.shared)
-
-
-def _load() -> str:
-    """Load average of the machine over 1, 5 and 15 minutes; Windows has none."""
-    return ", ".join(f"{each:.1f}" for each in os.getloadavg()) if hasattr(os, "getloadavg") else "unknown"
 
 
 def _broken(engine: StringEngine) -> list[str]:

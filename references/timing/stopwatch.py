@@ -4,6 +4,7 @@ On a shared machine times drift by factors within seconds.  All actions are ther
 alternating order, and a ratio is the median of the ratios of the rounds.
 """
 
+import os
 import platform
 import time
 from collections.abc import Callable, Iterable, Mapping
@@ -20,6 +21,7 @@ from references.registry import version_of
 from references.timing import reference_kernel
 
 Action = Callable[[], object]
+CPU, GOVERNOR = Path("/sys/devices/system/cpu/cpu0"), "cpufreq/scaling_governor"
 PASSES = 200  # of the reference kernel in a call of its action
 
 
@@ -99,19 +101,45 @@ def turn(
 
 
 def machine(more: Iterable[str] = ()) -> dict[str, str]:
-    """Properties of the machine on which timings depend: processor, cores, and versions of all packages timed.
+    """What timings depend on: processor and its state now, the cost of the reference kernel, versions of packages.
 
-    more : packages beside those of the suite.
+    more : packages beside those of the suite.  What a system does not tell is "unknown".
     """
     suite = [method_class(name).distribution for name in METHODS]
     suite += [engine_class(name).distribution for name in ENGINES]
     timed = {name: version_of(name) or "not installed" for name in (*suite, *more)}
-    return {"processor": cpu_name(), "cores": str(cores()), **versions(), **timed}
+    work, columns = kernel()
+    cost = min(turn({"": work}, {"": columns}, time.thread_time, backwards=False)[""] for _ in range(20))
+    return {
+        "processor": cpu_name(), "cores": str(cores()), "caches": caches(), "governor": _said(CPU / GOVERNOR),
+        "load average": load_average(), "reference kernel": f"{cost:.4g} ns a column", **versions(), **timed,
+    }  # fmt: skip
 
 
 def machine_table(more: Iterable[str] = ()) -> pd.DataFrame:
     """``machine`` as a table with the columns what and value."""
     return pd.DataFrame(machine(more).items(), columns=["what", "value"])
+
+
+def load_average() -> str:
+    """Processes that want a core, on average over 1, 5 and 15 minutes; Windows does not count them."""
+    return ", ".join(f"{each:.1f}" for each in os.getloadavg()) if hasattr(os, "getloadavg") else "unknown"
+
+
+def caches() -> str:
+    """Level, kind and size of the first core's caches."""
+    found = [
+        f"L{_said(cache / 'level')} {_said(cache / 'type').lower()} {_said(cache / 'size')}"
+        for cache in sorted((CPU / "cache").glob("index*"))
+    ]
+    return ", ".join(found) or "unknown"
+
+
+def _said(file: Path) -> str:
+    try:
+        return file.read_text().strip()
+    except OSError:
+        return "unknown"
 
 
 def cpu_name() -> str:

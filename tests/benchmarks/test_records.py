@@ -22,7 +22,7 @@ def test_a_record_names_machine_versions_and_commit():
     benchmark = SimpleNamespace(extra_info={}, group=None)
     records.describe(benchmark, "a group", segments=3)
     assert benchmark.group == "a group"
-    assert {"processor", "cores", "fctd", "numba", "pyelastica", "segments"} <= benchmark.extra_info.keys()
+    assert {"processor", "load average", "fctd", "numba", "pyelastica", "segments"} <= benchmark.extra_info.keys()
     assert benchmark.extra_info["extrapolated"] is False
 
 
@@ -54,3 +54,13 @@ def test_a_summary_line_is_printed_for_each_record_with_shown_entries():
     silent = SimpleNamespace(name="b", has_error=False, extra_info={"segments": 60})
     broken = SimpleNamespace(name="c", has_error=True, extra_info={"real_time_factor": 1.0})
     assert list(conftest.summary_lines([shown, silent, broken])) == ["a: × real time 1.23e+03  (extrapolated)"]
+
+
+def test_the_processors_share_is_that_of_the_rounds(monkeypatch):
+    """Time between rounds counts on neither clock."""
+    wall, processor = iter([0.0, 2.0, 10.0, 12.0]), iter([0.0, 1.0, 8.0, 8.5])
+    monkeypatch.setattr(conftest, "processor_time", lambda: next(processor))
+    clocks = conftest.TwoClocks(lambda: next(wall))
+    assert not clocks.processor_percent > 0
+    assert [clocks() for _ in range(4)] == [0.0, 2.0, 10.0, 12.0]
+    assert clocks.processor_percent == 37.5

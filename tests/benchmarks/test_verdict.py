@@ -1,7 +1,7 @@
 """The decision of the gate on samples of real processes.
 
-recorded.json has the samples of pairs of processes with the same sources, on two cores shared with five to ten other
-processes, and of pairs of which one had a deliberately slower contact.
+recorded.json has the samples of pairs of processes with the same sources, on two cores for which five to nine processes
+competed, and of pairs of which one had a planted slowdown of 15 %.
 """
 
 import json
@@ -13,12 +13,12 @@ import numpy as np
 import pytest
 
 from benchmarks import measure
-from benchmarks.gate import MOST, PROCESSES, sampled
+from benchmarks.gate import MOST, PROCESSES, SUM, sampled, with_sum
 from benchmarks.measure import Costs
-from benchmarks.verdict import THRESHOLD, Verdict, change_of, decide
+from benchmarks.verdict import THRESHOLD, change_of, decide
 
 RECORDED = json.loads((Path(__file__).parent / "recorded.json").read_text())
-KERNELS = list(measure.judged(RECORDED["unchanged"]["now"]))
+OWN = [name for name in RECORDED["unchanged"]["now"] if name != measure.REFERENCE]
 
 
 def draws(count: int) -> Iterator[tuple[Costs, Costs]]:
@@ -35,77 +35,76 @@ def draws(count: int) -> Iterator[tuple[Costs, Costs]]:
         yield sides
 
 
-def gated(before: Costs, now: Costs, kernel: str = "", factor: float = 1.0) -> dict[str, Verdict]:
-    """The gate on recorded samples instead of processes, with one kernel slower by a factor."""
-    before, now = measure.judged(before), measure.judged(now)
-    if kernel:
-        now[kernel] = [factor * cost for cost in now[kernel]]
-    few = {verdict.kernel: verdict for verdict in decide(cut(before, PROCESSES), cut(now, PROCESSES))}
-    many = {verdict.kernel: verdict for verdict in decide(cut(before, MOST), cut(now, MOST))}
-    return many if any(verdict.open for verdict in few.values()) else few
+def failing(before: Costs, now: Costs) -> set[str]:
+    """Kernels that the gate fails, on recorded samples in place of processes."""
+    batches = iter(range(0, MOST, PROCESSES))
+
+    def more() -> tuple[Costs, Costs]:
+        k = next(batches)
+        cut = slice(k, k + PROCESSES)
+        return tuple({name: taken[cut] for name, taken in side.items()} for side in (before, now))  # type: ignore[return-value]
+
+    return {verdict.kernel for verdict in sampled("", more, str, decide).verdicts if verdict.fails}
 
 
-def cut(costs: Costs, processes: int) -> Costs:
-    return {name: taken[:processes] for name, taken in costs.items()}
+def slowed(costs: Costs, kernels: list[str], factor: float) -> Costs:
+    return costs | {name: [factor * cost for cost in costs[name]] for name in kernels}
 
 
-def test_unchanged_sources_pass_under_load() -> None:
-    for before, now in draws(200):
-        statuses = {verdict.status for verdict in gated(before, now).values()}
-        assert "slower" not in statuses
+def test_no_kernel_fails_that_did_not_change() -> None:
+    assert not any(failing(*sides) for sides in draws(100))
 
 
-def share_caught(factor: float, kernels: list[str], count: int) -> float:
-    """Share of gates that fail and name only the slower kernel, when one kernel is slower by ``factor``."""
-    found = []
-    for before, now in draws(count):
-        for kernel in kernels:
-            found.append([name for name, v in gated(before, now, kernel, factor).items() if v.fails] == [kernel])
-    return float(np.mean(found))
+@pytest.mark.parametrize("kernel", OWN)
+def test_a_kernel_slower_by_fifteen_per_cent_is_found_each_time(kernel: str) -> None:
+    assert all(kernel in failing(before, slowed(now, [kernel], 1.15)) for before, now in draws(30))
 
 
-@pytest.mark.slow
-def test_slower_kernels_are_caught_and_named() -> None:
-    """Slower by a fifth is close to the threshold for this noise; contact's addition is three times as noisy."""
-    for factor, least, added in ((1.2, 0.85, False), (1.25, 0.98, False), (1.3, 0.9999, False), (1.5, 0.9999, True)):
-        assert share_caught(factor, [name for name in KERNELS if ("addition" in name) == added], 20) > least
+def test_a_kernel_slower_by_five_per_cent_never_fails() -> None:
+    for kernel in OWN:
+        assert not any(kernel in failing(before, slowed(now, [kernel], 1.05)) for before, now in draws(10))
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("factor", [1.05, 1.1])
-def test_kernels_slower_below_the_threshold_pass(factor: float) -> None:
-    for kernel in KERNELS:
-        if "addition" not in kernel:
-            assert not any(gated(before, now, kernel, factor)[kernel].fails for before, now in draws(30))
+def test_planted_slowdowns_are_found_by_name() -> None:
+    """Samples of races against sources with extra work in a kernel (benchmarks/planted.py)."""
+    for kernel, sides in RECORDED["planted"].items():
+        found = {each.kernel: each for each in decide(sides["before"], sides["now"])}
+        assert found[kernel].status == "slower", kernel
 
 
-def test_deliberately_slower_contact_is_caught_by_name() -> None:
-    """Samples of a race of the slower of the two copies in benchmarks/README.md."""
-    slowed = RECORDED["slowed"]
-    found = decide(measure.judged(slowed["before"]), measure.judged(slowed["now"]))
-    caught = {verdict.kernel for verdict in found if verdict.fails}
-    assert caught >= {"contact's addition, cylinders", "contact's addition, arcs"}
-    assert caught <= {"contact's addition, cylinders", "contact's addition, arcs", measure.CYLINDERS, measure.ARCS}
+def test_slow_creep_of_all_kernels_fails_by_the_sum() -> None:
+    """Where each kernel alone is within noise of the threshold."""
+    for before, now in draws(10):
+        assert SUM in failing(before, slowed(now, OWN, 1.13))
+        sides = {SUM: with_sum(before, now)[SUM]}, {SUM: with_sum(slowed(now, OWN, 1.13), before)[SUM]}
+        assert decide(*sides)[0].change == pytest.approx(1.13, abs=0.02)
 
 
 def test_missing_and_new_kernels_are_reported() -> None:
-    before, now = {"a": [1.0] * 3, "gone": [1.0] * 3}, {"a": [1.0] * 3, "fresh": [9.0] * 3}
-    found = {verdict.kernel: verdict for verdict in decide(before, now)}
-    assert list(found) == ["a", "gone", "fresh"]
-    assert [found[name].status for name in found] == ["as before", "missing", "new"]
-    assert [found[name].fails for name in found] == [False, True, False]
+    before, now = {"a": [1.0] * 3, "gone": [1.0] * 3}, {"a": [1.0] * 3, "fresh": [9.0] * 3, "late": [9.0] * 3}
+    found = {each.kernel: each for each in decide(before, now, brings=lambda kernel: kernel == "fresh")}
+    assert list(found) == ["a", "gone", "fresh", "late"]
+    assert [found[name].status for name in found] == ["as before", "missing", "new", "no baseline"]
+    assert [found[name].fails for name in found] == [False, True, False, True]
 
 
 def test_each_status_at_its_side_of_the_threshold() -> None:
     steady, wide = [1.0, 1.01, 0.99, 1.0], [0.8, 0.9, 1.1, 1.3]
 
-    def status(before: list[float], factor: float) -> str:
-        (verdict,) = decide({"a": before}, {"a": [factor * cost for cost in before]})
+    def status(before: list[float], factor: float, accepted: float = 1.0) -> str:
+        (verdict,) = decide({"a": before}, {"a": [factor * cost for cost in before]}, {"a": accepted})
         return verdict.status
 
-    assert [status(steady, factor) for factor in (1.2, 1.1, 0.8)] == ["slower", "as before", "faster"]
+    assert [status(steady, factor) for factor in (1.13, 1.07, 0.8)] == ["slower", "as before", "faster"]
     assert status(wide, 1.2) == "perhaps slower"
-    assert status([1.0, 1.0], 2.0) == "too few"
+
+
+def test_an_accepted_slowdown_hides_no_further_one() -> None:
+    steady = [1.0, 1.01, 0.99, 1.0]
+    for factor, status in ((1.2, "as before"), (1.36, "slower")):
+        (verdict,) = decide({"a": steady}, {"a": [factor * cost for cost in steady]}, {"a": 1.2})
+        assert verdict.status == status
+        assert verdict.threshold == pytest.approx(1.2 * THRESHOLD)
 
 
 def test_the_change_is_the_ratio_of_two_samples_and_robust_against_outliers() -> None:
@@ -135,35 +134,3 @@ def test_more_processes_narrow_the_interval() -> None:
         bounds = [change_of(before, now)[1:] for before, now in zip(*samples, strict=True)]
         widths.append(np.mean([high - low for low, high in bounds]))
     assert all(wide > 1.2 * narrow for wide, narrow in pairwise(widths))
-
-
-def batches(factors: list[float]) -> tuple[list[float], Iterator[tuple[Costs, Costs]]]:
-    """Batches whose cylinders are slower by the given factors; factors that remain in the list were not used."""
-    base = {measure.REFERENCE: [1.0] * PROCESSES, measure.FREE: [5.0] * PROCESSES, measure.ARCS: [9.0] * PROCESSES}
-
-    def one() -> Iterator[tuple[Costs, Costs]]:
-        while factors:
-            factor = factors.pop(0)
-            yield (
-                base | {measure.CYLINDERS: [8.0] * PROCESSES},
-                base | {measure.CYLINDERS: [factor * 8.0] * PROCESSES},
-            )
-
-    return factors, one()
-
-
-def test_the_gate_measures_again_only_if_a_kernel_looks_slower() -> None:
-    left, taken = batches([1.0, 1.0])
-    outcome = sampled("raced", lambda: next(taken), str)
-    assert outcome.passed
-    assert len(left) == 1
-    reported: list[str] = []
-    left, taken = batches([1.5, 1.0, 1.0, 1.0])
-    outcome = sampled("raced", lambda: next(taken), reported.append)
-    assert outcome.passed  # an outlier in the first batch
-    assert "step, cylinders" in reported[0]
-    left, taken = batches([1.5] * 9)
-    outcome = sampled("raced", lambda: next(taken), str)
-    assert not outcome.passed
-    assert len(outcome.now[measure.CYLINDERS]) == MOST
-    assert THRESHOLD < 1.2

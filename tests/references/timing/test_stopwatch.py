@@ -29,7 +29,12 @@ def test_turns_alternate_and_the_first_round_does_not_count(monkeypatch: pytest.
     assert table["ns_low"].le(table["ns"]).all()
 
 
-def test_the_machine_is_named_with_every_version() -> None:
+def test_the_machine_is_named_with_its_state_and_every_version(monkeypatch, tmp_path) -> None:
+    cache = tmp_path / "cache" / "index0"
+    cache.mkdir(parents=True)
+    for name, text in {"level": "1\n", "type": "Data\n", "size": "32K\n"}.items():
+        (cache / name).write_text(text)
+    monkeypatch.setattr(stopwatch, "CPU", tmp_path)
     found = stopwatch.machine()
     assert {
         "processor",
@@ -42,6 +47,12 @@ def test_the_machine_is_named_with_every_version() -> None:
         "mujoco",
         "trimesh",
     } <= found.keys()
+    assert found["caches"] == "L1 data 32K"
+    assert found["governor"] == "unknown"
+    assert all(float(each) >= 0 for each in found["load average"].split(", "))
+    number, unit = found["reference kernel"].split(" ", 1)
+    assert 0.1 < float(number) < 100
+    assert unit == "ns a column"
 
 
 def test_each_has_its_own_baseline(monkeypatch: pytest.MonkeyPatch) -> None:
