@@ -32,7 +32,7 @@ SAME_PLACE = 1e-6
 # Distance of the samples along the string [m], and near the bit of a steady one, up to so far above it.
 SAMPLE, SAMPLE_AT_BIT, NEAR_BIT = 5.0, 0.5, 30.0
 # The last stations, and what ``_turned`` says of them.
-_LAST: list[tuple[Array, Array]] = [(np.empty(0), np.empty(0))]
+_LAST: list[tuple[Array, tuple[Array, float]]] = [(np.empty(0), (np.empty(0), 0.0))]
 
 
 class DefaultLayout:
@@ -111,17 +111,27 @@ def sagittas(case: Case, md: Array, length: Array, radius: Array) -> tuple[Array
     return bend * length**2 / 8, hole - radius
 
 
+def largest_sagitta(case: Case, length: float) -> float:
+    """The sagitta [m] of a segment of a length [m] in the sharpest arc of the hole."""
+    return _turned(case.wellbore.trajectory)[1] * length**2 / 8
+
+
 def mean_curvature(stations: Array, md: Array, course: Array | float = COURSE) -> Array:
     """Mean curvature [1/m] of a course about each depth (n,) [m]; stations (k, 3) [m, rad, rad]."""
-    turned = _turned(stations)
+    turned, _ = _turned(stations)
     below, above = (np.interp(md + side * 0.5 * course, stations[:, 0], turned) for side in (1, -1))
     return np.asarray((below - above) / course)
 
 
-def _turned(stations: Array) -> Array:
-    """How far the hole turns down to each of its stations (k,) [rad]; kept, as rows of a chart ask for one hole."""
-    known, turned = _LAST[0]
+def _turned(stations: Array) -> tuple[Array, float]:
+    """How far the hole turns down to each of its stations (k,) [rad], and its largest curvature [1/m].
+
+    They are kept, as rows of a chart ask for one hole.
+    """
+    known, found = _LAST[0]
     if known is not stations or stations.flags.writeable:
-        turned = np.append(0.0, np.cumsum(survey.dogleg(stations)))
-        _LAST[0] = stations, turned
-    return turned
+        turns, long = survey.dogleg(stations), np.diff(stations[:, 0])
+        sharpest = np.divide(turns, long, out=np.zeros_like(turns), where=long > 0).max(initial=0.0)
+        found = np.append(0.0, np.cumsum(turns)), float(sharpest)
+        _LAST[0] = stations, found
+    return found
