@@ -20,7 +20,7 @@ from references.timing.stopwatch import race, units_for
 from references.timing.workloads import copy_of, fallen, find_walls, free_query, moving, touching, without_wall
 from validation.cases import load, rotation
 from validation.cases.wells import drilled_paper_well
-from validation.harness.study import ENDS, fitted_exponent
+from validation.harness.study import ENDS, Check, fitted_exponent, quartiles_of
 from validation.parts.recorded_kinds import RECORDED_KINDS
 
 BIT = 2450.0
@@ -147,3 +147,34 @@ def steady(rounds: int) -> pd.DataFrame:
     rows = [{"segments": n, **{f"{kind}_ms": table[f"{n} {kind}"] for kind in RECORDED_KINDS}} for n in solvers]
     rows = [row | {"slowest_ms": max(list(row.values())[1:])} for row in rows]
     return pd.DataFrame(rows)
+
+
+def real_time(kernel: pd.DataFrame, name: str) -> Quartiles:
+    """Simulated over wall time of 60 segments in contact."""
+    (row,) = kernel[kernel["name"] == name].to_dict("records")
+    step = 1e6 * row["step_ms"] / 60
+    return Quartiles(median=step, low=step, high=step).over(quartiles_of(row, "ns"))
+
+
+def table_of(held: list[Check], made: list[Check], kernel: pd.DataFrame) -> pd.DataFrame:
+    """Targets and measured values, and the real-time factor at the default step, which has no target.
+
+    made : the checks of this run; the other targets have no verdict.
+    """
+    rows: list[tuple[str, str, str, str]] = [
+        (
+            check.name,
+            check.requirement(),
+            check.found("{:.3g}".format),
+            check.verdict if check in made else "not checked",
+        )
+        for check in held
+    ]
+    default = real_time(kernel, CONTACT)
+    rows = [*rows, ("real-time factor, 60 segments, default step", "", f"{default.median:.3g}", "")]
+    return pd.DataFrame(rows, columns=["what", "target", "reached", "verdict"])
+
+
+def less(one: Quartiles, other: Quartiles) -> Quartiles:
+    """A difference of what was not measured in the same rounds."""
+    return Quartiles(median=one.median - other.median, low=one.low - other.high, high=one.high - other.low)

@@ -20,7 +20,7 @@ from references.timing.workloads import NoWall, asking, copy_of, moving
 from validation.harness.study import ENDS, Check, Context, Kind, Outcome, Study, left_out, quartiles_of, ratio_check
 from validation.parts import gated, speed_kernel
 from validation.parts.contact_presets import FULL_ONLY, TOO_SLOW
-from validation.parts.speed_kernel import BEST, CONTACT, LEAD, chain, step_on
+from validation.parts.speed_kernel import BEST, CONTACT, LEAD, chain, less, real_time, step_on, table_of
 
 SEGMENTS = (60, 170)  # of the paper's FCTD model and of its Adams model
 # After this time a wave of torque has run down 1500 m of steel [s].
@@ -41,8 +41,6 @@ CHEAPER = {"fcl": {"query": "collide"}, "coal": {"query": "collide"}}  # the che
 SWAP_TARGET = 200.0
 LEFT_AS_OURS = "the same with FCTD's own growth from 60 to 170 segments in place of 170/60"
 LEAST_OTHER = 5.0  # least cost of every other engine over FCTD
-
-
 COLUMNS = [
     "state", "segments", "step", "engine", "step_ms", *(f"ms_per_simulated_s{end}" for end in ENDS),
     "real_time_factor", *(f"ratio_to_fctd{end}" for end in ENDS), "check", "gate",
@@ -229,7 +227,7 @@ def ratios(times: pd.DataFrame, scaling: pd.DataFrame) -> pd.DataFrame:
                 both, loop, own = (
                     ratio(TOUCHING, EQUAL, n, name), ratio(TAKEN, EQUAL, n, name), ratio(TAKEN, EQUAL, n, FCTD)
                 )  # fmt: skip
-                alone = _less(both, loop).over(_less(exact, own))
+                alone = less(both, loop).over(less(exact, own))
                 rows += [
                     ("ours", f"{name} : FCTD, {n} segments, a step", ratio(TOUCHING, EQUAL, n, name),
                      "contact, and a call from Python in every step", held[TOUCHING, EQUAL, n, name]),
@@ -262,11 +260,6 @@ def ratios(times: pd.DataFrame, scaling: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(told, columns=["whose", "ratio", "value", "value_low", "value_high", "contains", "gate"])
 
 
-def _less(one: Quartiles, other: Quartiles) -> Quartiles:
-    """A difference of what was not measured in the same rounds."""
-    return Quartiles(median=one.median - other.median, low=one.low - other.high, high=one.high - other.low)
-
-
 def targets(times: pd.DataFrame, found: dict[str, pd.DataFrame]) -> list[Check]:
     """The targets for one free core with compiled code loaded.
 
@@ -297,13 +290,6 @@ def targets(times: pd.DataFrame, found: dict[str, pd.DataFrame]) -> list[Check]:
     return [*swap_checks(times), *checks]
 
 
-def real_time(kernel: pd.DataFrame, name: str) -> Quartiles:
-    """Simulated over wall time of 60 segments in contact."""
-    (row,) = kernel[kernel["name"] == name].to_dict("records")
-    step = 1e6 * row["step_ms"] / 60
-    return Quartiles(median=step, low=step, high=step).over(quartiles_of(row, "ns"))
-
-
 def swap_checks(times: pd.DataFrame) -> list[Check]:
     """Ratios within one race; what an old processor, or code compiled for one, leaves of them is in expected.toml."""
     equal = times[(times["state"] == TOUCHING) & (times["step"] == EQUAL) & (times["segments"] == SEGMENTS[0])]
@@ -327,25 +313,6 @@ def swap_checks(times: pd.DataFrame) -> list[Check]:
             "timed strings that did not stay in their hole", invalid, 0, "at_most", "", "finite, in the hole, unfolded"
         ),
     ]
-
-
-def table_of(held: list[Check], made: list[Check], kernel: pd.DataFrame) -> pd.DataFrame:
-    """Targets and measured values, and the real-time factor at the default step, which has no target.
-
-    made : the checks of this run; the other targets have no verdict.
-    """
-    rows: list[tuple[str, str, str, str]] = [
-        (
-            check.name,
-            check.requirement(),
-            check.found("{:.3g}".format),
-            check.verdict if check in made else "not checked",
-        )
-        for check in held
-    ]
-    default = real_time(kernel, CONTACT)
-    rows = [*rows, ("real-time factor, 60 segments, default step", "", f"{default.median:.3g}", "")]
-    return pd.DataFrame(rows, columns=["what", "target", "reached", "verdict"])
 
 
 def run(context: Context) -> Outcome:

@@ -122,7 +122,7 @@ def test_targets_and_real_time_factor():
     assert found["query of free points, cylinders"] == (12.0, "missed")
     assert found["steady depth, 500 segments"] == (9.5, "missed")
     assert found["exponent of a step's cost, 60 to 10000 segments"][1] == "missed"
-    table = speed.table_of(checks, checks[:1], kernel).set_index("what")
+    table = speed_kernel.table_of(checks, checks[:1], kernel).set_index("what")
     # A quick run has no verdict on the targets of absolute times.
     assert table["verdict"].iloc[:-1].to_list() == [checks[0].verdict, *["not checked"] * (len(checks) - 1)]
     assert table["reached"]["real-time factor, 60 segments, default step"] == "1.67e+03"
