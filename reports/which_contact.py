@@ -124,7 +124,7 @@ class Results:
         if len(source) == 2:
             checks = {judged.check.name: judged.check for judged in self.records[study].checks}
             check = checks.get(source[1])
-            return None if check is None else words.quantity(check.value, check.unit)
+            return None if check is None else words.found(check)
         _, table, key, column, unit, *where = source
         others = where[0] if where else {}
         rows = self.tables[study].get(table)

@@ -21,8 +21,8 @@ SYSTEMS: tuple[System, ...] = ("si", "field")
 # Texts that are no quantities, by what the help calls them.
 OTHERS = {
     "ADDRESS", "E", "ENDS", "FROM:TO", "KEY=HEADER", "KEY=VALUE", "KIND", "KINDS", "MD or NAME", "NAME",
-    "NAME=MEAN+-SD", "NAME=VALUE", "NAME[=LOW:HIGH]", "QUANTITY", "QUANTITY=HEADER", "SHARE", "SIZE", "X", "X or LOW:HIGH",
-    "X,Y[,COLUMN]",
+    "NAME=MEAN+-SD", "NAME=VALUE", "NAME[=LOW:HIGH]", "QUANTITY", "QUANTITY=HEADER", "SHARE", "SIZE", "X",
+    "X or LOW:HIGH", "X,Y[,COLUMN]",
 }  # fmt: skip
 
 

@@ -20,7 +20,7 @@ FRONTS = pd.DataFrame(
         "torque_off_percent": [0.0, 0.3],
     }
 )
-CHEAPEST = "cheapest mesh over the engine's own arcs, a point in a batch of 1000, lower quartile"
+CHEAPEST = "cheapest mesh over the engine's own arcs, a point in a batch of 1000"
 
 
 def test_every_need_takes_what_a_registry_has() -> None:
