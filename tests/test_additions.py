@@ -246,7 +246,7 @@ def test_a_limit_and_its_note_are_one_entry_of_a_table(copy: Path) -> None:
     (copy / "well.toml").write_text(well + ROTATE.replace("duration = 30", "duration = 6"))
     walked, codes, headline, events, *texts = lines_of(copy, compiled=ONE_WALK, interpreted=LIMITED)
     assert walked == "['1500 N m at 700 m, the connection holds 1000 N m']"
-    assert codes == "['none', 'connection']"
+    assert codes == "['sagitta', 'connection, sagitta']"  # segments of 100 m miss the bend too
     assert headline == "a connection turns further than it was made up"
     assert "beyond connection" in events
     assert all("the connection holds 1000 N m" in text for text in texts)

@@ -133,7 +133,7 @@ def test_rows_without_an_answer_are_exit_code_1_and_notes_only_where_strict(
         "mud.density=1200",
     )
     cli("report", case_file, *noted)
-    assert "strict: notes are errors (hoist)" in cli("report", case_file, *noted, "--strict", code=1).err
+    assert "strict: notes are errors (hoist, sagitta)" in cli("report", case_file, *noted, "--strict", code=1).err
 
 
 def test_depths_by_default_are_round_and_end_at_the_bottom(case_file: Path) -> None:

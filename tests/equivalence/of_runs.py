@@ -59,7 +59,8 @@ def short_run(drawn: Drawn, kind: str, length: float) -> Case:
 def drawn_in_time(drawn: Drawn) -> None:
     """Hook load and torque of the second half of a trip or of reaming, within 0.2 % of weight and 4 %."""
     kind = drawn.dice(70).pick(["trip_in", "trip_out", "back_ream"])
-    applies(kind != "back_ream" or not drawn.has("bend"))  # one toolface is not a turn's mean
+    bent = drawn.has("bend")
+    applies(kind != "back_ream" or not bent)  # one toolface is not a turn's mean
     case = short_run(drawn, kind, 1.6)
     result = simulate(case)
     assert result.status == "completed", f"{kind}: {result.status}: {result.message}"
@@ -70,6 +71,8 @@ def drawn_in_time(drawn: Drawn) -> None:
     applies(plain(point))
     off = abs(rows["hookload_N"] - point.hookload)
     assert off <= HOOKLOAD * weight, f"{kind}: hook load {rows['hookload_N']:.6g} and {point.hookload:.6g}"
+    if bent:
+        return  # the row holds its toolface, and the top drive of a run leaves the string to turn to where it rests
     off, allowed = abs(rows["surface_torque_N_m"] - point.surface_torque), LEAST_TORQUE * ARM * weight
     assert off <= allowed + TORQUE * abs(point.surface_torque), (
         f"{kind}: torque {rows['surface_torque_N_m']:.5g} and {point.surface_torque:.5g}"

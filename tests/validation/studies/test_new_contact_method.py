@@ -103,6 +103,7 @@ def test_it_is_among_the_engines_of_the_study_of_speed(toy):
     assert set(times.query("engine == 'toy in our loop'")["state"]) == {speed.FREE, speed.TOUCHING, speed.TAKEN}
     assert not times["check"].str.startswith("invalid").any()
     scaling = pd.DataFrame({"segments": [60.0, 170.0], "step_ms": [4.0, 1.4], "ns_least": [20.0, 20.0]})
+    scaling = scaling.assign(ns=21.0, ns_low=20.0, ns_high=22.0)
     scaling = speed_kernel.with_growth(scaling)
     ratios = speed.ratios(times, scaling)["ratio"]
     assert ratios.str.startswith("toy in our loop : FCTD, 60 segments, a step").any()
