@@ -20,6 +20,11 @@ FRONTS = [
     "setting", "method", "series", "missed_percent", "max_error_mm", "rms_error_mm", "max_angle_deg", "pieces",
     "memory_MB", "build_s",
 ]  # fmt: skip
+# Those of the table that is printed, of calls with one point and with a thousand.
+PRINTED = [
+    "setting", "single_us", "ns_1000", "ns_1000_low", "ns_1000_high", "arcs_1000", "arcs_1000_low", "arcs_1000_high",
+    "rms_error_mm", "max_error_mm", "max_angle_deg",
+]  # fmt: skip
 # Short name, column of ``Loads`` and its unit.
 LOADS = (("torque", "surface_torque_N_m", "N_m"), ("sum", "sum_r_mu_fn_N_m", "N_m"), ("hookload", "hookload_N", "N"))
 NEAR = 200  # points for errors and costs beside loads

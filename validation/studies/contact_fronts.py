@@ -22,6 +22,7 @@ from validation.parts import contact_costs, engine_fronts, gated
 from validation.parts.brought import brought
 from validation.parts.contact_presets import (
     FRONTS,
+    PRINTED,
     TOO_SLOW,
     bounds,
     by_size,
@@ -94,8 +95,10 @@ def run(context: Context) -> Outcome:
     chosen = [(key, name) for key, name in ENGINES.items() if engines.installed_version(name) is not None]
     chosen = chosen[:1] if quick else chosen
     window = Window(20.0, 0.5 if quick else engine_fronts.PERIODS)
+    table = fronts(comparing, runs)
     tables = {
-        "fronts": fronts(comparing, runs),
+        "fronts": table,
+        "settings": table[[*PRINTED, "torque_off_percent", "hookload_off_percent"]],
         "refused": refused,
         "packages": brought(contact.REGISTRY, contact.METHODS),
         "engines": engine_fronts.engine_errors(context.progress(chosen, "engines"), window),
@@ -107,7 +110,7 @@ def run(context: Context) -> Outcome:
         checks=[*bounds(comparing.comparison), *checks(tables, quick), *gated.checks(gates)],
         notes=notes(missing),
         display={
-            "fronts": "Every setting: errors at the same points, cost of a call and of a point in batches, loads",
+            "settings": "Every setting: cost of a call with one point and of a point of 1000, errors, change of loads",
             "engines": "Engines on one window of one string: off the truth, off themselves, and after a shifted start",
             "gate": gated.CAPTION,
             "packages": "What the package of a method costs its user",

@@ -26,6 +26,7 @@ from validation.harness.study import Check, Context, Outcome, Rows, Study, quart
 from validation.parts.brought import brought
 from validation.parts.contact_presets import (
     FRONTS,
+    PRINTED,
     bounds,
     by_size,
     compared,
@@ -132,6 +133,7 @@ def run(context: Context) -> Outcome:
         tables={
             "errors": with_missing(regions(found).assign(status="measured"), "setting", missing),
             "fronts": with_missing(fronts.assign(status="measured"), "setting", missing),
+            "settings": fronts[PRINTED],
             "parts": parts(comparing.built, near, counts),
             "depth": with_missing(deep, "method", missing),
             "traps": wrong,
@@ -142,7 +144,7 @@ def run(context: Context) -> Outcome:
         checks=[*bounds(found), *checks(fronts, deep), *usable(found, plugins)],
         notes=notes(missing),
         display={
-            "fronts": "Every setting: errors, cost of a point in calls of one and of many, memory",
+            "settings": "Every setting: cost of a call with one point and of a point of 1000, errors",
             "parts": "Of a point's cost, the part of the library and that of the wrapper",
             "depth": "Largest distance from the mesh in double precision, with an origin for each 100 m of hole and "
             "with that of the well",
