@@ -9,6 +9,7 @@ from fctd.arrays import Array, Contacts
 from fctd.case.errors import InputError
 from fctd.case.hole import WellboreSpec
 from fctd.model.frames import hole_frame
+from fctd.model.perturbed import perturb_stations
 from fctd.model.survey import Courses, along_courses, minimum_curvature
 from fctd.model.tortuosity import winding
 
@@ -22,14 +23,15 @@ POINTS = 500  # that are tried together, so that memory stays small
 class ExactHole:
     """The hole of a case as arcs.
 
-    md (2,) : measured depths of its ends [m].  Raises InputError where sections are no circles (a caliper).
+    md (2,) : measured depths of its ends [m].  perturbed : the seed of the noise that the engine's hole has
+    (``solver.perturbed``).  Raises InputError where sections are no circles (a caliper).
     """
 
-    def __init__(self, spec: WellboreSpec) -> None:
+    def __init__(self, spec: WellboreSpec, perturbed: int | None = None) -> None:
         if spec.geometry == "sampled":
             raise InputError("arcs or cylinders: a sampled wall has no exact contacts", key="wellbore.geometry",
                              value=spec.geometry)  # fmt: skip
-        stations = spec.trajectory
+        stations = perturb_stations(spec.trajectory, perturbed)
         if spec.tortuosity is not None:
             stations = winding(stations, spec.tortuosity)
         self.md = stations[[0, -1], 0]

@@ -24,6 +24,7 @@ from fctd.model.wellbore import Wellbore
 UNEVEN: Final = 0.1
 # Largest inclination at the rotary table of a string that hangs in a derrick [rad].
 STEEPEST_DERRICK: Final = np.radians(60.0)
+SAME_ANGLE: Final = 1e-9  # [rad]: 60 deg in another unit is 60 deg
 
 
 @dataclass(frozen=True)
@@ -86,7 +87,7 @@ def check_stands(tally: Tally, hole: Wellbore, shallowest: float) -> None:
     bottom = whole.top_md + np.cumsum(whole.length)
     check_clearance(whole, hole, bottom - whole.length - (whole.bit_depth - shallowest), bottom)
     tilt = float(hole.inclination(np.zeros(1))[0])
-    if tilt > STEEPEST_DERRICK:
+    if tilt > STEEPEST_DERRICK + SAME_ANGLE:
         raise InputError(
             f"a hole within {np.degrees(STEEPEST_DERRICK):g} deg of vertical at the rotary table, to move stands",
             key="wellbore",

@@ -56,4 +56,4 @@ def hole_of(case: Case) -> tuple[ExactHole, str]:
         return OwnHole(case), SAMPLED
     if case.wellbore.survey_method == "average_angle":
         return OwnHole(case), AVERAGE
-    return ExactHole(case.wellbore), EXACT
+    return ExactHole(case.wellbore, case.solver.perturbed), EXACT

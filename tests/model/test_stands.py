@@ -119,6 +119,15 @@ def test_what_cannot_be_tripped_is_refused(sections: dict[str, Any], pattern: st
         prepare(make_case(given.pop("stations", BUILD), given.pop("components", [pipe(None, None)]), rig=rig, **given))
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_the_steepest_hole_stays_so_with_rounding(seed: int) -> None:
+    """60 deg are within 60 deg in whatever unit they are written, and with noise of the size of rounding."""
+    steepest: list[list[float]] = [[0, 60, 0], [1000, 60, 0]]
+    case = make_case(steepest, [pipe(None, None)], [trip(380, 400)], rig={"feed": "stands"}, solver={"perturbed": seed})
+    run, _ = prepare(case)
+    assert run.segments > 0
+
+
 def test_a_string_longer_than_the_buffer_is_refused() -> None:
     case = make_case(BUILD, [pipe(None, None, segment_length=0.05)], [trip(800, 900)], rig={"feed": "stands"})
     with pytest.raises(InputError, match=r"string\.components.*at most 10000 segments"):

@@ -30,7 +30,7 @@ def near_wall(case: Case, count: int) -> tuple[Frame, NDArray[np.str_]]:
 
     Returns their frame, and the region (n,) of each.
     """
-    hole = ExactHole(case.wellbore)
+    hole = ExactHole(case.wellbore, case.solver.perturbed)
     rng = np.random.default_rng(SEED)
     parts = [frame(hole, count, md=md, seed=SEED + k) for k, md in enumerate(REGIONS.values())]
     begins = 200.0 + 2.0 * rng.integers(3, 265, count) + rng.uniform(0.0, 0.2, count)

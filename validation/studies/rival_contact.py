@@ -84,7 +84,7 @@ def depths(context: Context, names: list[str], options: dict[str, Any]) -> Rows:
     for depth in context.progress((1000.0, 8000.0) if context.quick else DEPTHS, "depths"):
         deeper = depth - REGIONS["build"][1]
         case = the_case(deeper)
-        near = frame(ExactHole(case.wellbore), 500, md=(REGIONS["build"][0] + deeper, depth))
+        near = frame(ExactHole(case.wellbore, case.solver.perturbed), 500, md=(REGIONS["build"][0] + deeper, depth))
         mesh = contact.build(MESH, case, **options).query(near.places, near.radii)
         for name in names:
             for origin in ("chunk", "well"):
