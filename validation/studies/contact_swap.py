@@ -209,8 +209,8 @@ def fcl_checks(cost: pd.DataFrame, table: pd.DataFrame) -> list[Check]:
         ratio_check("FCL contact over cylinders, both called from Python",
                     cheapest.over(_ratio(cost, "cylinders, from Python")), 10.0, "at_least",
                     "the same claim where both are called from Python"),
-        Check("Σ rμF_n tripping in, FCL against FCTD below 1900 m, largest difference", float(difference.max(skipna=False)),
-              2.0, "at_most", "%", f"facets: {wedge(FACETS):.1f} %"),
+        Check("Σ rμF_n tripping in, FCL against FCTD below 1900 m, largest difference",
+              float(difference.max(skipna=False)), 2.0, "at_most", "%", f"facets: {wedge(FACETS):.1f} %"),
     ]  # fmt: skip
 
 

@@ -28,7 +28,8 @@ def run(context: Context) -> Outcome:
         tables={"windows": table, "steady": torque_drag(load("paper_well"), "rotate_off_bottom", CURVE)},
         checks=[
             Check(f"{words} rotating, FCL against FCTD, largest difference",
-                  float(table[f"{column}_difference_percent"].abs().max(skipna=False)), AGREE, "at_most", "%", "facets: 0.2 %")
+                  float(table[f"{column}_difference_percent"].abs().max(skipna=False)), AGREE, "at_most", "%",
+                  "facets: 0.2 %")
             for words, column in (("torque", "torque"), ("Σ rμF_n", "sum"))
         ],
         notes=[
