@@ -1,6 +1,6 @@
 """Every figure draws from the stored tables of its study, with labelled axes and something on them.
 
-After the studies: their results are in validation/results.
+After the studies: their results are in validation/results.  Those of rivals are marked so, and are drawn after theirs.
 """
 
 import pytest
@@ -9,11 +9,16 @@ from matplotlib import rc_context
 from reports import figures
 from reports.figures import Figure, style
 from validation.harness import store, study
+from validation.harness.registry import RIVALS
 
-ALL = [(study, figure) for study, those in figures.by_study().items() for figure in those]
+ALL = [
+    pytest.param(name, figure, id=f"{name}-{figure.name}", marks=[pytest.mark.rivals] if name in RIVALS else [])
+    for name, those in figures.by_study().items()
+    for figure in those
+]
 
 
-@pytest.mark.parametrize(("name", "figure"), ALL, ids=[f"{name}-{figure.name}" for name, figure in ALL])
+@pytest.mark.parametrize(("name", "figure"), ALL)
 def test_figure_draws(name: str, figure: Figure) -> None:
     """matplotlib warns, and every warning is an error, where a layout leaves an axes no room."""
     folder = study.RESULTS / name
