@@ -21,6 +21,11 @@ def nearest(number: float) -> Any:
     return np.floor(number + 0.5 + 1e-9)
 
 
+def first_largest(numbers: Array) -> int:
+    """Index of the largest of positive numbers, the first of those that are equal but for rounding."""
+    return int(np.argmax(numbers >= numbers.max() * (1 - 1e-9)))
+
+
 class Contacts(NamedTuple):
     """Result of a contact query, one row per point.
 

@@ -47,6 +47,10 @@ class Quartiles(_Part):
         """Median, low and high."""
         return self.median, self.low, self.high
 
+    def __format__(self, spec: str) -> str:
+        """The median, and the quartiles in brackets: ``1.32 (1.3 to 1.34)``."""
+        return "{:{spec}} ({:{spec}} to {:{spec}})".format(*self.all, spec=spec)
+
     def over(self, other: "Quartiles") -> "Quartiles":
         """The ratio to what was not measured in the same rounds: no ratio of two quartiles lies outside."""
         return Quartiles(median=self.median / other.median, low=self.low / other.high, high=self.high / other.low)

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from fctd.arrays import first_largest
 from fctd.case.errors import InputError
 from fctd.case.load import Case
 from fctd.case.text import counted
@@ -115,9 +116,9 @@ def segments_in_words(case: Case, string: String, metre: float = 1.0, label: str
 def _path(case: Case, depth: float) -> Path:
     stations = case.wellbore.trajectory
     (north, east, down) = build_wellbore(case).at(np.array([depth]))[0][0]
-    steepest = int(np.argmax(stations[:, 1]))
+    steepest = first_largest(stations[:, 1])
     rate = survey.dogleg(stations) / np.diff(stations[:, 0])
-    k = int(np.argmax(rate))
+    k = first_largest(rate)
     return Path(
         len(stations), depth, float(down), float(np.hypot(north, east)), float(stations[steepest, 1]),
         float(stations[steepest, 0]), float(rate[k]), float(stations[k, 0]), float(stations[k + 1, 0]),

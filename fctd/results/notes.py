@@ -11,7 +11,7 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from fctd.arrays import Array
+from fctd.arrays import Array, first_largest
 from fctd.case.limits import LimitsSpec
 from fctd.case.load import Case
 from fctd.case.message import Message, kept, quantity, restored, span, within
@@ -375,7 +375,7 @@ def sagitta(case: Case, string: String) -> Note | None:
     middle = string.bit_depth - 0.5 * (string.above_bit[1:] + string.above_bit[:-1])
     missed, clearance = sagittas(case, middle, string.length, string.of("contact_radius"))
     room = np.maximum(clearance, LEAST_CLEARANCE)
-    k = int((missed / room).argmax())
+    k = first_largest(missed / room)
     length, miss = float(string.length[k]), float(missed[k])
     if miss <= MISSES * room[k]:
         return None

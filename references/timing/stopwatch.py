@@ -41,6 +41,16 @@ def units_for(work: Callable[[int], object], aim: float) -> int:
         units = max(2 * units, int(0.7 * units * aim / max(spent, 1e-9)))
 
 
+def rounds(action: Action, count: int, clock: Callable[[], float] = time.process_time) -> list[float]:
+    """Times [s] by ``clock`` of an action called so many times; what is compiled, was called before."""
+    times = []
+    for _ in range(count):
+        began = clock()
+        action()
+        times.append(clock() - began)
+    return times
+
+
 def kernel() -> tuple[Action, int]:
     """The reference kernel as an action, compiled, and the columns of a call."""
     S = reference_kernel.new_buffer()

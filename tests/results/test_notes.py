@@ -301,7 +301,9 @@ def test_a_segment_that_misses_its_bend_is_noted(length: float, is_noted: bool) 
         return
     curvature = math.radians(8) / 30
     assert note.excess == pytest.approx(curvature * string.length.max() ** 2 / 8 / (4 * 0.01))
-    assert 300 < (note.place or 0) < 640
+    # All that bend over 30 m are equally far off but for rounding: the first of them.
+    middle = string.bit_depth - 0.5 * (string.above_bit[1:] + string.above_bit[:-1])
+    assert note.place == middle[middle > 300 + 15].min()
     assert 'of component "casing" miss the bend at' in note.text
     assert "where the clearance is 10 mm; segments of at most 4.1 m would follow it" in note.text
     assert "where the clearance is 0.394 in" in note.told("field")

@@ -93,9 +93,14 @@ class Check:
         return f"{words} {self.unit}".rstrip()
 
 
-def ratio_check(name: str, ratio: Quartiles, bound: float, kind: Kind, source: str) -> Check:
+def ratio_check(name: str, ratio: Quartiles, bound: float, kind: Kind, source: str, unit: str = "") -> Check:
     """A check on a ratio of times, by the quartiles of the ratios within its rounds."""
-    return Check(name, ratio.median, bound, kind, "", source, timed=True, interval=(ratio.low, ratio.high))
+    return Check(name, ratio.median, bound, kind, unit, source, timed=True, interval=(ratio.low, ratio.high))
+
+
+def time_check(name: str, times: ArrayLike, bound: float, unit: str, source: str) -> Check:
+    """A check that times are at most a bound, by their quartiles; times : of rounds, or of rows of one kind."""
+    return ratio_check(name, Quartiles.of(times), bound, "at_most", source, unit)
 
 
 def quartiles_of(row: Any, column: str) -> Quartiles:

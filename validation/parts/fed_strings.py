@@ -183,6 +183,11 @@ def solve(case: Case, operation: str, bit_depth: float) -> Row:
     return Row(point, time.process_time() - began)
 
 
+def again(string: Drawn) -> list[float]:
+    """Processor times [s] of a string's row, which is solved three times more."""
+    return [solve(string.case, string.operation, string.bit_depth).seconds for _ in range(3)]
+
+
 def solved(string: Drawn) -> Row | None:
     """The row of a string, None where string and hole do not fit at its depth."""
     try:

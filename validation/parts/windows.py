@@ -1,13 +1,17 @@
 """Schedules that lead a simulation to a steady state, and means over its end."""
 
+import time
+from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
-from fctd import SimulationResult
+from fctd import Case, SimulationResult, simulate
 from references.engines.run import hann_means
 from validation.cases import trip
 
+PARTS = 10  # of a run, each with a real-time factor of its own
 TRIP_SPEED, TRIP_WINDOW = 0.2, 20.0  # [m/s]; [s] of a steady trip over which loads are averaged
 
 
@@ -25,6 +29,20 @@ def completed(result: SimulationResult) -> SimulationResult:
     if result.status != "completed":
         raise RuntimeError(f"{result.case.name}: {result.status}, {result.message}")
     return result
+
+
+def in_parts(case: Case, **asked: Any) -> tuple[SimulationResult, list[float]]:
+    """A run, and simulated over processor time of each of its parts; asked : further arguments of ``simulate``."""
+    records: list[tuple[float, float]] = []
+    result = simulate(case, progress=lambda now, *_: records.append((now, time.process_time())), **asked)
+    return result, factors(records)
+
+
+def factors(records: Sequence[tuple[float, float]]) -> list[float]:
+    """Simulated over processor time of each of the parts of a run, by records of both [s]."""
+    moments = np.array(records)[np.linspace(0, len(records) - 1, PARTS + 1).astype(int)]
+    simulated, spent = np.diff(moments, axis=0).T
+    return list(simulated / spent)
 
 
 def last_seconds(result: SimulationResult, seconds: float) -> pd.Series:

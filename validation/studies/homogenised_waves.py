@@ -12,8 +12,8 @@ import pandas as pd
 
 from fctd.results.status import SteadyStatus
 from fctd.steady.steady_string import HOMOGENISED, Equilibrium
-from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
-from validation.parts.fed_strings import Drawn, Row, drawn, solved, weight_of
+from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows, time_check
+from validation.parts.fed_strings import Drawn, Row, again, drawn, solved, weight_of
 
 STRINGS, QUICK = 40, (9, 12)  # of the quick run the indices: one string hangs, one is locked up, both take seconds
 WORK = 1.0  # iterations times segments, with which nothing is resolved
@@ -27,8 +27,13 @@ def resolving(string: Drawn, **solver: float) -> Drawn:
     return string._replace(case=case)
 
 
-def pairs(context: Context) -> Iterator[tuple[Drawn, Equilibrium, float, Equilibrium, float]]:
-    """Strings that were resolved, and with homogenised waves, each with its processor time [s]."""
+def homogenised(string: Drawn) -> Drawn:
+    """The string in a case that resolves buckling with so little work that its waves are homogenised."""
+    return resolving(string, resolve_work=WORK)
+
+
+def pairs(context: Context) -> Iterator[tuple[int, Drawn, Equilibrium, float, Equilibrium, float]]:
+    """Index and string; it resolved, and with homogenised waves, each with its processor time [s]."""
     for index in QUICK if context.quick else count():
         string = drawn(context, index)
         whole = solved(resolving(string))
@@ -37,23 +42,24 @@ def pairs(context: Context) -> Iterator[tuple[Drawn, Equilibrium, float, Equilib
             continue
         if point.status not in (SteadyStatus.CONVERGED, SteadyStatus.LOCKED_UP):
             continue
-        waves: Row | None = solved(resolving(string, resolve_work=WORK))
+        waves: Row | None = solved(homogenised(string))
         assert waves is not None  # string and hole fit, as above
         assert waves.point is not None
-        yield string, point, whole.seconds, waves.point, waves.seconds
+        yield index, string, point, whole.seconds, waves.point, waves.seconds
 
 
 @table_of_rows
 def compare(context: Context) -> Rows:
     """A row per string: both answers, how far they are apart, and what each cost."""
+    again(homogenised(drawn(context, QUICK[0])))  # compile
     found = islice(pairs(context), STRINGS)
-    for string, point, seconds, waves, seconds_of_waves in context.progress(found, "resolved and homogenised"):
+    for index, string, point, seconds, waves, seconds_of_waves in context.progress(found, "resolved and homogenised"):
         loads = [point.hookload, point.hookload_low, point.hookload_high]
         # A path that ends before all of the weight on bit has shares of that.
         of_friction = np.nan if "of the weight on bit" in point.message else 1.0
         beyond = max(np.fmin.reduce(loads) - waves.hookload, waves.hookload - np.fmax.reduce(loads), 0.0)
         yield {
-            "well": string.well, "operation": string.operation, "bit_depth_m": string.bit_depth,
+            "index": index, "well": string.well, "operation": string.operation, "bit_depth_m": string.bit_depth,
             "friction": string.friction, "shape": point.shape, "status": str(point.status),
             "homogenised": str(waves.status), "method": waves.method, "hookload_kN": point.hookload / 1e3,
             "homogenised_kN": waves.hookload / 1e3,
@@ -79,11 +85,13 @@ def run(context: Context) -> Outcome:
         "A pushed string multiplies each difference of its wall force, the more the nearer it is to lock-up.",
     ]
     display = {"worst": "The strings whose hook loads are farthest apart"}
-    return Outcome(tables={"strings": table, "worst": worst}, checks=_checks(table, hang), notes=notes, display=display)
+    slowest = again(homogenised(drawn(context, int(table["index"].iloc[table["homogenised_seconds"].argmax()]))))
+    checks = _checks(table, hang, slowest)
+    return Outcome(tables={"strings": table, "worst": worst}, checks=checks, notes=notes, display=display)
 
 
-def _checks(table: pd.DataFrame, hang: pd.Series) -> list[Check]:
-    """The numbers with bounds."""
+def _checks(table: pd.DataFrame, hang: pd.Series, slowest: list[float]) -> list[Check]:
+    """The numbers with bounds; slowest : times of the slowest row [s]."""
 
     def apart(share: str) -> float:
         return 100 * float((table[f"homogenised_{share}"] - table[share]).abs().max())
@@ -98,8 +106,7 @@ def _checks(table: pd.DataFrame, hang: pd.Series) -> list[Check]:
         Check("friction at which slack-off is spent, largest difference", apart("spent_at"), SAME_SPENT, "at_most",
               "% of the friction", own),
         Check("friction at lock-up, largest difference", relative, SAME_LOCKED, "at_most", "%", own),
-        Check("homogenised row, slowest", float(table["homogenised_seconds"].max()), 6.0, "at_most", "s",
-              "processor time", timed=True),
+        time_check("homogenised row, slowest", slowest, 6.0, "s", "processor time, solved three times more"),
     ]  # fmt: skip
 
 

@@ -1,19 +1,17 @@
 """The paper's well tripped into and rotated at depth after depth (§6.2, Fig. 12)."""
 
-import time
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from fctd import Case, SimulationResult, simulate
+from fctd import SimulationResult, simulate
 from validation.cases import load, rotation
 from validation.harness.study import Check, Context, Outcome, Study, in_columns, quartiles_of, ratio_check
-from validation.parts.windows import last_seconds
+from validation.parts.windows import in_parts, last_seconds
 
 VARIANTS = {"paper-well": "paper_well", "paper-well-b": "paper_well_b"}
 PROFILE_DEPTHS = [1900.0, 2200.0]  # and the last one, 2450 m
-PARTS = 10  # of a run, each with a real-time factor of its own
 FIRST_METRES = "1752 m"  # of the trips, from 1750 m
 HISTORY = [
     "bit_depth_m", "hookload_N", "surface_torque_N_m", "sum_r_mu_fn_N_m", "sum_r_ft_N_m",
@@ -23,15 +21,6 @@ PROFILE = [
     "operation", "bit_depth_m", "md_m", "inclination_deg", "effective_tension_N",
     "contact_force_N", "contact_angle_deg", "offset_high_m", "clearance_m",
 ]  # fmt: skip
-
-
-def timed(case: Case) -> tuple[SimulationResult, list[float]]:
-    """A run, and simulated over processor time of each of its parts."""
-    records: list[tuple[float, float]] = []
-    result = simulate(case, progress=lambda now, *_: records.append((now, time.process_time())))
-    moments = np.array(records)[np.linspace(0, len(records) - 1, PARTS + 1).astype(int)]
-    simulated, spent = np.diff(moments, axis=0).T
-    return result, list(simulated / spent)
 
 
 def numbers(name: str, result: SimulationResult, factors: list[float]) -> dict[str, Any]:
@@ -52,13 +41,13 @@ def run(context: Context) -> Outcome:
         law = {"contact__friction_law": "paper"}
         simulate(load(file, **law, operations__0__to_md=FIRST_METRES))
         # A record interval short enough to resolve swings with a period of 2 s.
-        result, factors = timed(load(file, **law, record__profile_at=PROFILE_DEPTHS, record__interval=0.5))
+        result, factors = in_parts(load(file, **law, record__profile_at=PROFILE_DEPTHS, record__interval=0.5))
         runs.append(numbers(f"{variant}: trip in, law paper", result, factors))
         trips[variant] = result.history
         profiles.append(result.profile[PROFILE].assign(variant=variant))
         for depth in context.progress(depths, f"{variant}: rotating"):
             turning = rotation(float(depth), duration=60.0, ramp=20.0)
-            result, factors = timed(load(file, operations=turning, record__interval=0.25))
+            result, factors = in_parts(load(file, operations=turning, record__interval=0.25))
             end = last_seconds(result, 35.0)
             turns.append({name: end[name] for name in HISTORY} | {"variant": variant})
             if depth >= 1900:  # above this depth the torque is hardly larger than its swing

@@ -12,7 +12,8 @@ from references import engines, rivals
 from references.engines import EngineRun, StringEngine, Window
 from references.engines.friction_law import sliding
 from references.engines.run import late
-from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
+from references.methods.loop import Timed
+from validation.harness.study import ENDS, Check, Context, Outcome, Rows, Study, in_columns, table_of_rows
 from validation.parts import gated
 from validation.parts.brought import brought
 from validation.parts.engine_cases import LEAD, TURNING, chain, s_shape
@@ -28,7 +29,7 @@ OWN_WALL = 5.0
 PARTS = (4, FINER)
 SELF_WINDOW = 1.0  # [s]
 AZIMUTHS = (0.0, 30.0)
-SPEEDS = ["segment_step_us", "real_time_factor", "wall_s"]
+SPEEDS = [f"{name}{end}" for name in ("segment_step_us", "real_time_factor") for end in ENDS]
 
 
 def holes(quick: bool) -> dict[str, tuple[Case, Window]]:
@@ -90,10 +91,11 @@ def loads(quick: bool, context: Context) -> Rows:
 
 def numbers(engine: Configuration, case: Case, window: Window, own: EngineRun) -> Rows:
     """The loads of an engine's run, against those of FCTD's own, and its cost."""
-    run = engine.build().run(case, window)
+    timed = Timed(engine.build())
+    run = timed.run(case, window)
     end, reference = late(run), late(own)
     segments = len(run.profile) // run.profile["bit_depth_m"].nunique() - 1
-    simulated = run.history["time_s"].iloc[-1] - window.start
+    costs = np.array(timed.stepper.costs if timed.stepper is not None else [np.nan])  # [s] a step, of each record
 
     def off(column: str) -> float:
         return 100 * float(end[column] / reference[column] - 1)
@@ -112,9 +114,7 @@ def numbers(engine: Configuration, case: Case, window: Window, own: EngineRun) -
         "energy_error_percent": 100 * float(run.checks.set_index("check")["value"]["energy"]),
         "segments": segments,
         "step_ms": 1e3 * run.step,
-        "segment_step_us": 1e6 * run.wall_s / run.steps / segments,
-        "real_time_factor": simulated / run.wall_s,
-        "wall_s": run.wall_s,
+        **in_columns({"segment_step_us": 1e6 * costs / segments, "real_time_factor": run.step / costs}),
     }
 
 
@@ -181,7 +181,7 @@ def run(context: Context) -> Outcome:
     if quick:  # the gate takes some ten seconds an engine, and no speed is printed without it
         tables["loads"] = tables["loads"].drop(columns=SPEEDS, errors="ignore")
     else:
-        ran = tables["loads"].loc[tables["loads"]["wall_s"].notna(), "engine"]
+        ran = tables["loads"].loc[tables["loads"]["real_time_factor"].notna(), "engine"]
         tried = {each.label: (each.name, dict(each.options)) for each in configurations() if each.label in set(ran)}
         tables, gates = gated.held(tables, tried)
         tables["itself"] = against_itself(context)

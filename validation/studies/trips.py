@@ -7,6 +7,7 @@ slacking off and picking up.
 
 from dataclasses import dataclass
 from random import Random
+from time import process_time
 from typing import Any
 
 import numpy as np
@@ -23,8 +24,9 @@ from fctd.simulation.intervals import Interval, Window, within
 from fctd.simulation.run import Run
 from fctd.simulation.simulate import Simulation
 from validation.cases import load, trip
-from validation.harness.study import Check, Context, Outcome, Rows, Study
+from validation.harness.study import Check, Context, Outcome, Rows, Study, in_columns
 from validation.parts.random_paths import path
+from validation.parts.windows import factors
 
 SPEED, RAMP = 0.5, 5.0  # [m/s], [s]
 CONNECTION = 10.0  # [s]
@@ -177,9 +179,10 @@ def one(name: str, of: Trip) -> tuple[dict[str, Any], pd.DataFrame]:
     case = of.case
     simulation = Simulation(case)
     simulation.intervals = recorded(simulation.phases, measured(simulation.phases, of))
-    first, leaks = simulation.run.segments, []
+    first, leaks, records = simulation.run.segments, [], []
     for _ in simulation:
         leaks.append(missing(simulation.run))
+        records.append((simulation.run.time, process_time()))
     result, run = simulation.result(), simulation.run
     strokes = pd.DataFrame(stroke_rows(case, of, simulation, result.history))
     row = {
@@ -187,7 +190,7 @@ def one(name: str, of: Trip) -> tuple[dict[str, Any], pd.DataFrame]:
         "status": str(result.status), "from_m": of.shallow, "to_m": of.deep,
         "connections": int((result.history["in_slips"].astype(int).diff() == 1).sum()),
         "most_segments": run.upper_end.longest.segments, "hours_simulated": result.run["simulated_s"] / 3600,
-        "seconds": result.run["wall_s"], "real_time_factor": result.run["real_time_factor"],
+        **in_columns({"real_time_factor": factors(records)}),
         "largest_off_percent_of_weight": float(strokes["off_percent_of_weight"].abs().max()),
         "energy_error_percent": 100 * result.run["energy_error"],
         "notes": codes_of(result.notes), "missing_share": max(leaks), "segments_gained": run.segments - first,

@@ -10,6 +10,7 @@ from typing import Final
 
 import numpy as np
 
+from fctd.arrays import first_largest
 from fctd.case.input_warnings import InputWarning
 from fctd.case.message import quantity
 from fctd.case.surveys.directions import dogleg, severity
@@ -67,7 +68,7 @@ def _sharp(survey: Survey) -> Iterator[InputWarning]:
     sharp = (rate > _SHARP) & (bend > _SEEN)
     sharp[: survey.tied_in] = False  # told with the station that was added
     if sharp.any() and survey.stations[-1, 0] > _DEEP_ENOUGH:
-        worst = int(np.argmax(np.where(sharp, rate, 0.0)))
+        worst = first_largest(np.where(sharp, rate, 0.0))
         others = int(sharp.sum()) - 1
         more = f" (and {counted(others, 'more such course')})" if others else ""
         yield InputWarning(
