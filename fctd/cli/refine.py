@@ -1,5 +1,6 @@
 """``fctd refine CASE``: the number of segments that a tolerance needs, and the refined case."""
 
+from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -116,18 +117,19 @@ def refine_command(
     )  # fmt: skip
 
 
-def print_counts(steps: "pd.DataFrame", orders: "pd.DataFrame", tolerance: float, units: System) -> None:
-    """Print a range of counts: every string, observed orders with extrapolated loads, and the counts that suffice.
+def counts_parts(
+    steps: "pd.DataFrame", orders: "pd.DataFrame", tolerance: float, units: System
+) -> Iterator[Table | str]:
+    """What is shown of a range of counts: every string, observed orders with extrapolated loads, counts that suffice.
 
     steps, orders, tolerance : of a ``Refinement`` with a range of counts.
     """
     steps = steps[steps["stage"] == "counts"]
-    print_table(_levels(steps, units, layouts=True), words=WHOLE, numbers=FOLD)
+    yield _levels(steps, units, layouts=True)
     for kind, rows in orders.groupby("operation", sort=False):
-        screen.print(KINDS[str(kind)].label)
-        print_table(orders_table(rows, tolerance, units), words=WHOLE, numbers=FOLD)
-    for line in counts_in_words(steps, orders, tolerance):
-        screen.print(line, soft_wrap=True)
+        yield KINDS[str(kind)].label
+        yield orders_table(rows, tolerance, units)
+    yield from counts_in_words(steps, orders, tolerance)
 
 
 def _levels(steps: "pd.DataFrame", units: System, *, layouts: bool) -> Table:
@@ -179,7 +181,11 @@ def _print(job: Job, refined: Refinement, graded: bool, *, lacking: bool) -> Non
             f'"resolve"), {refined.resolved} in all; the loads depend on the length of the others alone.'
         )
     if refined.orders is not None:
-        print_counts(refined.steps, refined.orders, refined.tolerance, job.units)
+        for part in counts_parts(refined.steps, refined.orders, refined.tolerance, job.units):
+            if isinstance(part, str):
+                screen.print(part, soft_wrap=True)
+            else:
+                print_table(part, words=WHOLE, numbers=FOLD)
     print_notes(refined.notes, job.units)
     if lacking:
         messages.print("Nothing is written: no equilibrium was found.")

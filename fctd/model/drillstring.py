@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from fctd.arrays import Array, nearest
+from fctd.arrays import Array, ceiling, nearest
 from fctd.case.errors import Computed, InputError
 from fctd.case.load import Case
 from fctd.case.message import quantity
@@ -341,7 +341,8 @@ def check_lengths(string: String, taken: list[float]) -> None:
 def _joint_by_joint(component: ComponentSpec, origin: int, take: float, fed: bool) -> Pieces:
     """Joints of ``take`` metres of a component from the bit up; below a long segment of it, where it is fed."""
     joint = repeat_of(component).every
-    count = max(int((take - SHORTEST_LONG_SEGMENT) / joint), 0) if fed else joints_in(component, take)
+    # Whole joints, but for rounding, that leave the long segment its shortest length.
+    count = max(int(-ceiling((SHORTEST_LONG_SEGMENT - take) / joint)), 0) if fed else joints_in(component, take)
     check_segments(segments_in(component, count))  # before a list of them fills the memory
     if not fed:
         return cut_joints(component, origin, take, count, joint)

@@ -1,17 +1,19 @@
 """A comparison as a page: the sections of the screen, with pictures, in one file that needs no network."""
 
+from dataclasses import replace
 from pathlib import Path
 
 from fctd.arena.result import Comparison
 from fctd.case.text import printable
 from fctd.report.parts import Picture, Report, Section, Text
 from fctd.store.whole_file import whole_file
-from references.methods.tables import ending, sections
+from references.methods.tables import counts_of, ending, sections
 
 CAPTION = (
     "Left: largest error of a method's wall over the processor time of a point. Right: contact forces along the string "
     "less those of the engine's own wall. Grey: broken or invalid."
 )
+COUNTS = "Errors of the loads against the number of segments; the dashed line is the tolerance."
 LIMITS = (
     "Errors, costs and loads are those of this hole, this string and this operation.",
     "Times are those of this machine while it had the load above. Other programs that share its caches and its memory "
@@ -24,9 +26,13 @@ LIMITS = (
 
 def report_of(comparison: Comparison) -> Report:
     """The comparison as a report; a comparison that was read from its JSON gives the same."""
+    from fctd.plots.counts import counts_figure
     from fctd.plots.methods import methods_figure
 
     shown = list(sections(comparison))
+    if (counts := comparison.counts) is not None:
+        picture = counts_figure(comparison.case, *counts_of(counts), counts.tolerance)
+        shown[-1] = replace(shown[-1], parts=(Picture(COUNTS, picture), *shown[-1].parts))
     if comparison.rows:
         shown.insert(2, Section("Pictures", (Picture(CAPTION, methods_figure(comparison)),)))
     shown.append(Section("Limits", tuple(map(Text, (*LIMITS, f"{ending(comparison)}.")))))

@@ -9,7 +9,7 @@ from fctd.arena.result import Comparison, Counts, Loads, Quartiles, Row
 from fctd.case.text import counted, printable
 from fctd.cli.job import FOLD, headed, print_table
 from fctd.cli.options import messages, screen
-from fctd.cli.refine import print_counts
+from fctd.cli.refine import counts_parts
 from fctd.report.parts import Section, Text
 from fctd.results.shown_tables import NONE, Cell, Head, Table, number, of_column, short, shown_table
 from fctd.results.unit_systems import System, shown
@@ -20,6 +20,7 @@ TOLD = 2.0  # percent: a load that is further off than this is told in words
 # [N], [N m], and share of all contact forces, or of the torque of their friction: of a smaller load no difference is
 # told in percent.
 LEAST, SMALL = 1.0, 0.01
+VERDICTS, SEGMENTS = "Verdicts", "Numbers of segments, by the engine's own steady string"  # titles of sections
 VERSIONS = ("fctd", "python", "numpy", "numba", "commit")
 
 
@@ -222,7 +223,7 @@ def sections(comparison: Comparison) -> Iterator[Section]:
     if not rows:
         return
     said = [*reasons(rows), *(f"note: {note}" for note in comparison.notes)]
-    yield Section("Verdicts", (verdicts(rows), *(Text(printable(line)) for line in said)))
+    yield Section(VERDICTS, (verdicts(rows), *(Text(printable(line)) for line in said)))
     wall = [row for row in rows if row.errors is not None]
     if wall:
         points = next(row.errors for row in wall if row.errors is not None)
@@ -235,6 +236,9 @@ def sections(comparison: Comparison) -> Iterator[Section]:
     if run:
         yield Section("Loads of this string", (loads(run, rows[0], units),))
         yield Section("Steps", (steps([row for row in rows if row.loads is not None or row.predicted_s is not None]),))
+    if (counts := comparison.counts) is not None:
+        parts = counts_parts(*counts_of(counts), counts.tolerance, units)
+        yield Section(SEGMENTS, tuple(Text(part) if isinstance(part, str) else part for part in parts))
 
 
 def _units_of(row: Row, kernel_ns: Quartiles) -> str:
@@ -262,10 +266,7 @@ def print_comparison(comparison: Comparison) -> None:
             if isinstance(part, Table):
                 table = replace(part, heads=part.heads or ("", ""))
                 print_table(table, words=FOLD, numbers=FOLD, show_header=bool(part.heads))
-                console = messages
+                console = messages if section.title == VERDICTS else screen
             elif isinstance(part, Text):
                 console.print(part.text, soft_wrap=True)
-    if comparison.counts is not None:
-        screen.print("Numbers of segments, by the engine's own steady string", style="bold")
-        print_counts(*counts_of(comparison.counts), comparison.counts.tolerance, comparison.units)
     screen.print(ending(comparison))

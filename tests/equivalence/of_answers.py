@@ -299,8 +299,11 @@ def monitor_curves(drawn: Drawn) -> None:
         read, scale = own.weight_indicator, base(drawn).weight
         if kind == "rotate_off_bottom":
             read, scale = own.drive_torque, ARM * scale
+        if factor == FACTORS[k]:  # a curve drops it where the load does not grow with the factor
+            node = chart.readings(mode, depth, rpm)[k]  # type: ignore[arg-type]
+            apart({"reading": node / scale}, {"reading": read / scale}, bound, f"{kind} at {factor:.9g}, node: ")
         found = chart.curve(mode, depth, factor, rpm)  # type: ignore[arg-type]
-        applies(not math.isnan(found))  # as where the load does not grow with the factor
+        applies(not math.isnan(found))
         apart({"reading": found / scale}, {"reading": read / scale}, bound, f"{kind} at {factor:.9g}: ")
 
 

@@ -149,6 +149,14 @@ def test_pipe_that_is_fed_ends_in_a_long_segment_of_whole_pipe(part: dict[str, A
     assert mean(string, "mass", 0) == pytest.approx(string.sections[-1].mass, rel=1e-9)
 
 
+@pytest.mark.parametrize("joints", [3, 11, 40])
+def test_whole_joints_of_fed_pipe_do_not_hang_on_rounding(joints: int) -> None:
+    joint = {"length": 9.3, "tool_joint_length": 0.5, "tool_joint_diameter": 0.168}
+    case, depth = make_case(components=[pipe(None, None, joint=joint, joint_segments=4)]), 10.0 + joints * 9.3
+    found = {lay_out(case, depth * (1 + off), depth + 50.0).segments for off in (-1e-15, 0.0, 1e-15)}
+    assert found == {joints * 5 + 1}
+
+
 @settings(max_examples=20)
 @given(part=jointed(), deepest=st.floats(100.0, 900.0), joints=st.integers(1, 4), off=st.floats(-0.09, 0.09))
 def test_stands_have_whole_joints(part: dict[str, Any], deepest: float, joints: int, off: float) -> None:

@@ -18,6 +18,7 @@ from references.methods.window import in_arcs
 from tests.references.methods.planted import plant
 from tests.references.test_command_line import call
 from tests.references.wells import STATIONS
+from tests.report.test_html_file import Cells
 
 ARGUMENTS = ("--quick", "--quiet", "--contact", "arcs", "--contact", "leaning")
 
@@ -83,7 +84,8 @@ def test_pictures_and_a_range_of_counts(
 ) -> None:
     plot, out = tmp_path / "compared.png", tmp_path / "compared.json"
     arguments = ("--quick", "--quiet", "--contact", "arcs", "--contact", "cylinders", "--segments", "8:64")
-    assert call(monkeypatch, "methods", case, *arguments, "--plot", plot, "--out", out) == 0
+    page = tmp_path / "compared.html"
+    assert call(monkeypatch, "methods", case, *arguments, "--plot", plot, "--out", out, "--page", page) == 0
     assert min(path.stat().st_size for path in (plot, tmp_path / "compared_segments.png")) > 10_000
     found = Comparison.model_validate_json(out.read_text())
     assert found.counts is not None
@@ -93,6 +95,9 @@ def test_pictures_and_a_range_of_counts(
     screen = capsys.readouterr().out
     assert f"The default layout has {found.counts.steps[-1]['segments']} segments" in screen
     assert "observed order" in screen
+    shown = Cells(page.read_text(encoding="utf-8"))
+    assert {f"{row['segments']} {row['layout']}" for row in found.counts.steps} <= {row[0] for row in shown.rows}
+    assert sum(address.startswith("data:") for address in shown.addresses) == 2
 
 
 def test_a_picture_and_a_page_are_written(case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
