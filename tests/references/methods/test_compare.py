@@ -2,6 +2,7 @@
 
 import signal
 import time
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from fctd.arena.result import Comparison, Row
 from fctd.case.errors import InputError
 from references.contact.reference_hole import hole_of
 from references.engines import StringEngine, checks
-from references.methods import asked, compare, compare_methods, in_hole, window
+from references.methods import asked, compare, compare_methods, in_hole, loop, window
 from references.methods.compare import Comparing
 from references.methods.in_hole import POINTS
 from references.methods.loop import timed_run
@@ -236,6 +237,23 @@ def test_a_slow_method_is_asked_for_fewer_points(each: float, points: int, monke
     near = frame(hole_of(well())[0], POINTS)
     found, _ = in_hole.errors(Slow(well(), None), near)
     assert found.points == pytest.approx(points, rel=0.1)
+
+
+def test_a_run_is_not_ended_for_the_time_in_which_its_step_is_compiled(monkeypatch: pytest.MonkeyPatch) -> None:
+    """On a clock of its own: the first record takes 9 s, those after it 0.4 s each, and 1 s was expected at most."""
+    now, run = [0.0], SimpleNamespace(steps=0)
+
+    def advance(motion: Any, duration: float) -> None:
+        now[0] += 0.4 if run.steps else 9.0
+        run.steps += 1
+
+    monkeypatch.setattr(loop, "kernel", lambda: (lambda: None, 1))
+    monkeypatch.setattr(loop.time, "process_time", lambda: now[0])
+    timed: Any = loop.TimedStepper(SimpleNamespace(step=0.1, advance=advance), run, lambda _: None, 1.0)  # type: ignore[arg-type]
+    for _ in range(3):
+        timed.advance(None, 1.0)
+    with pytest.raises(loop.OverrunError, match=r"1.2 s for 3 of"):
+        timed.advance(None, 1.0)
 
 
 def test_an_interruption_keeps_the_rows_that_are_there() -> None:
