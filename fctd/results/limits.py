@@ -299,7 +299,8 @@ def find_shares(
     compare(top, _section(sections, component[0]), 0.0, worst)  # one type of row, or all is compiled anew
     for j in range(len(hole)):
         if j and component[j] != component[j - 1]:  # the upper end of a weaker part bears most
-            upper = Place(tension[j], torque[j], hanging[j + 1, MOMENT], 0.0, 0.0, 0.0, 0.0, 0.0, excess[j])
+            # What bends it there is the moment of the contact point above, as the part above has it.
+            upper = Place(tension[j], torque[j], hanging[j, MOMENT], 0.0, 0.0, 0.0, 0.0, 0.0, excess[j])
             compare(upper, _section(sections, component[j]), j + UPPER, worst)
         clearance = hole[j] - radius[j]
         distance = math.sqrt(offset[j, 0] ** 2 + offset[j, 1] ** 2 + offset[j, 2] ** 2)
