@@ -31,15 +31,17 @@ class Sentence(Strict):
     numbers: tuple[tuple[str, str], ...]
 
     def filled(self, records: Mapping[str, Record]) -> str:
-        """The sentence with its numbers, or which studies have to be run for it."""
-        values, missing, doubtful = [], [], False
+        """The sentence with its numbers, or which studies have to be run for it, or which of them found no number."""
+        values, missing, without, doubtful = [], [], [], False
         for study, name in self.numbers:
             found = (
                 [judged.check for judged in records[study].checks if judged.check.name == name]
                 if study in records
                 else []
             )
-            if found:
+            if found and math.isnan(found[0].value):
+                without.append(study)
+            elif found:
                 values.append(words.found(found[0]))
                 low, high = found[0].interval or (math.nan, math.nan)
                 doubtful |= low <= 1 <= high
@@ -47,6 +49,8 @@ class Sentence(Strict):
                 missing.append(study)
         if missing:
             return f"Not answered yet: python -m validation {' '.join(dict.fromkeys(missing))}."
+        if without:
+            return f"Not answered: a run failed, so that {' and '.join(dict.fromkeys(without))} found no number."
         return (self.otherwise if doubtful and self.otherwise else self.says).format(*values)
 
 

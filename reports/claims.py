@@ -6,7 +6,7 @@ from pathlib import Path
 
 from fctd.case.errors import InputError
 from validation.claims.judgement import Judgement, judge_all
-from validation.claims.ledger import Verdict
+from validation.claims.ledger import Finding, Verdict
 
 # Verdict -> its class in the style sheet and its sign, which distinguishes it without colour.
 LOOKS: dict[Verdict, tuple[str, str]] = {
@@ -33,6 +33,18 @@ class Claims:
         return [(verdict, found[verdict]) for verdict in LOOKS if found[verdict]]
 
     @property
+    def listed(self) -> str:
+        """How many claims have each verdict, as a sentence without its full stop."""
+        total = len(self.judgement.findings)
+        return "; ".join(f"{count} of {total} {SAID[verdict][count > 1]}" for verdict, count in self.counts)
+
+    @property
+    def against(self) -> list[tuple[Verdict, list[Finding]]]:
+        """The claims that do not hold, and those whose routes disagree; what a reader has to know first."""
+        found = {verdict: [each for each in self.judgement.findings if each.verdict == verdict] for verdict in AGAINST}
+        return [(verdict, those) for verdict, those in found.items() if those]
+
+    @property
     def answer(self) -> str:
         """Whether the paper's claims hold, in a sentence."""
         found = dict(self.counts)
@@ -54,6 +66,12 @@ DECIDED: dict[Verdict, tuple[str, str]] = {
     "holds with limits": ("holds within limits", "hold within limits"),
     "does not hold": ("does not hold", "do not hold"),
 }
+SAID: dict[Verdict, tuple[str, str]] = DECIDED | {
+    "cannot be tested": ("cannot be tested", "cannot be tested"),
+    "not yet run": ("is not yet run", "are not yet run"),
+    "routes disagree": ("has routes that disagree", "have routes that disagree"),
+}
+AGAINST: tuple[Verdict, ...] = ("does not hold", "routes disagree")
 
 
 def judged(results: Path, ledger: Path) -> Claims:

@@ -20,6 +20,7 @@ from validation.harness.full_checks import Full
 from validation.harness.sensitivity import REASONS
 
 TEMPLATES = Path(__file__).parent / "templates"
+MOST = 4  # claims of one verdict that stand beneath the answer
 LONG_CELL = 40  # letters of a text in a table that is broken into lines
 
 
@@ -74,7 +75,10 @@ def _render(
             measured[study] = tables
         if study in first and tables:
             drawn[study] = section.draw(first[study].figure, tables, out)
-    leading = [(each.study, each.figure.caption, drawn.get(each.study)) for each in LEADING]
+    leading = [
+        (each.study, each.figure.caption, drawn.get(each.study), _ours(f"{each.study}/{each.more}", sections)[1])
+        for each in LEADING
+    ]
     leading.sort(key=lambda each: each[2] is None)  # keeps the order of those that are drawn
     claims = judged(stored, ledger)
     sensitive = rounding.page_of(stored, REASONS)
@@ -112,8 +116,10 @@ def _write_pages(out: Path, given: Mapping[str, Any]) -> None:
     environment.globals |= {
         "number": words.number,
         "found": words.found,
+        "bound": words.bound,
         "anchor": anchor,
         "long_cell": LONG_CELL,
+        "most": MOST,
     }
     environment.filters["typeset"] = words.typeset
     environment.filters["struck"] = _struck
@@ -133,8 +139,8 @@ def _write_pages(out: Path, given: Mapping[str, Any]) -> None:
 
 
 def _struck(text: str) -> Markup:
-    """A cell of the guide: parts between ``~~`` are struck through, and of a link to another guide its text is left."""
-    plain = re.sub(r"\[(.*?)\]\(.*?\)", r"\1", text)
+    """A cell of the guide: parts between ``~~`` are struck through, and a link to another guide becomes its path."""
+    plain = re.sub(r"\[.*?\]\((.*?)\)", r"see docs/\1", text)
     return Markup(re.sub(r"~~(.*?)~~", r"<s>\1</s>", str(escape(plain))))
 
 

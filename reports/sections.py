@@ -182,9 +182,11 @@ def _small(canvas: Canvas) -> str:
 
 def printed(table: pd.DataFrame, caption: str) -> Printed:
     """A table's columns as text; the speeds of an engine that failed its gate are struck through."""
-    names = list(map(str, table.columns))
+    every = {str(name): words.column(table[name]) for name in table.columns}
+    # A column that says nothing in any row makes a table wider than the page.
+    every = {name: cells for name, cells in every.items() if not cells or set(cells) - {"", words.NOTHING}}
+    names, cells = list(every), list(every.values())
     columns = [(*words.heading(name), pd.api.types.is_numeric_dtype(table[name])) for name in names]
-    cells = [words.column(table[name]) for name in names]
     failed = np.flatnonzero(words.failed_gate(table)).tolist() if "gate" in names else []
     speeds = [index for index, name in enumerate(names) if columns[index][2] and words.is_speed(name)]
     struck = {(row, index) for row in failed for index in speeds}

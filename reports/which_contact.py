@@ -69,11 +69,15 @@ class _Needs(Strict):
 
 @dataclass(frozen=True)
 class Table:
-    """A table as text, and what it was made of: dates, machines and commits."""
+    """A table as text, and what it was made of: dates, machines and commits.
+
+    from_guide : the studies that have no result, so that the guide's record stands for them.
+    """
 
     headings: tuple[str, ...]
     rows: list[tuple[str, ...]]
     origins: list[str]
+    from_guide: tuple[str, ...] = ()
 
 
 @cache
@@ -169,7 +173,8 @@ def table(folder: Path) -> Table:
         method = "FCTD itself" if each.take == "own" else f"`{each.take}`"
         rows.append((each.need, method, each.setting, cost, error, each.precision, *_package(each, results), each.trap))
     origins = [line for line in kept.origins if line.removeprefix(RECORD).partition(":")[0] in from_guide]
-    return Table(HEADINGS, rows, results.origins() + [RECORD + line.removeprefix(RECORD) for line in origins])
+    of_record = [RECORD + line.removeprefix(RECORD) for line in origins]
+    return Table(HEADINGS, rows, results.origins() + of_record, tuple(from_guide))
 
 
 def recorded() -> Table:

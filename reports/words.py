@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any
 
 import pandas as pd
@@ -75,6 +76,7 @@ SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 SPACE, NARROW_SPACE = "\u00a0", "\u202f"  # neither breaks a line
 MINUS = "\u2212"
 NOTHING = "–"
+ROUNDING = 1e-6  # a load below it is rounding alone [kN, kN·m]
 NOISE = 1e-4  # of the largest number of a column: a smaller difference is not shown
 
 
@@ -143,7 +145,12 @@ def found(check: Check) -> str:
     if math.isnan(check.value):
         return "no number"
     digits = check.found(lambda value: number(value, check.limits)).removesuffix(f" {check.unit}")
-    return f"{digits}{SPACE}{check.unit}".rstrip()
+    return f"{digits}{SPACE}{_sign(check.unit)}".rstrip()
+
+
+def bound(check: Check) -> str:
+    """The bound of a check in words, with its unit as print has it."""
+    return replace(check, unit=_sign(check.unit)).requirement(number)
 
 
 def column(values: "pd.Series[Any]") -> list[str]:
@@ -156,6 +163,8 @@ def column(values: "pd.Series[Any]") -> list[str]:
     if not pd.api.types.is_numeric_dtype(values):
         return [NOTHING if pd.isna(value) else name(str(value)) for value in values]
     numbers = [float(value) for value in values]
+    if heading(str(values.name))[1] in ("kN", "kN·m"):
+        numbers = [0.0 if abs(value) < ROUNDING else value for value in numbers]
     sizes = [abs(value) for value in numbers if math.isfinite(value) and value != 0]
     if not sizes or max(sizes) >= 1e6 or max(sizes) < 1e-3:
         return [number(value) for value in numbers]
@@ -182,6 +191,11 @@ def failed_gate(table: pd.DataFrame) -> "pd.Series[bool]":
     return table["gate"].str.startswith("failed")
 
 
+def _sign(unit: str) -> str:
+    """A unit as print has it."""
+    return UNITS["deg"] if unit == "deg" else unit
+
+
 def _label(identifier: str) -> str:
     return re.sub(rf"\b({'|'.join(SPELT)})\b", lambda found: SPELT[found[0]], identifier.replace("_", " "))
 
@@ -198,7 +212,7 @@ def _apart(one: float, other: float, size: float) -> int:
 
 
 def _fixed(value: float, decimals: int) -> str:
-    return f"{value:,.{decimals}f}".replace(",", NARROW_SPACE).replace("-", MINUS)
+    return f"{value:z,.{decimals}f}".replace(",", NARROW_SPACE).replace("-", MINUS)
 
 
 def _shortest(value: float, decimals: int) -> str:

@@ -14,6 +14,7 @@ SHOWN = 100.0  # [m]
     "post_buckling",
     name="shapes",
     caption="The middle of a buckled 5 in pipe in a level 8½ in hole, unrolled and in space (drawn wider than it is).",
+    checks=("amplitude of snaking at 1.4 *", "helix, pitch"),
 )
 def shapes(tables: Tables) -> Canvas:
     """Angle over the length of hole on the left, the pipe's axis in space on the right, a row for each shape."""
@@ -47,6 +48,7 @@ def shapes(tables: Tables) -> Canvas:
         "Mean wall force of a level pipe. Snaking lasts as the load rises, and a helix as it falls: at one load the "
         "wall force, and with it the friction, differs by up to a factor of two."
     ),
+    checks=("helix, wall force", "wall force of snaking*", "equal energy*"),
 )
 @style.panels(3.6)
 def wall_force(tables: Tables, ax: Axes) -> None:
@@ -68,6 +70,7 @@ def wall_force(tables: Tables, ax: Axes) -> None:
     caption=(
         "Push that slides a helix through a level hole. The tan law adds the weight, which averages out over a turn."
     ),
+    checks=("push through*", "the tan law*"),
 )
 @style.panels(3.4)
 def transmitted(tables: Tables, ax: Axes) -> None:

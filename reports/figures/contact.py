@@ -213,6 +213,7 @@ PANELS = (("drag", "kN", "axial drag, kN"), ("torque", "kN_m", "torque, kN·m"))
         "axial to its tangential speed at the wall. Coulomb's law divides one force between drag and torque; the "
         "paper's law gives both in full."
     ),
+    checks=("drag and torque in straight hole*", "friction of law paper*"),
 )
 @style.panels(3.6, 1, 2, sharex=True)
 def straight(tables: Tables, *axes: Axes) -> None:

@@ -61,6 +61,7 @@ def reflection(tables: Tables, *axes: Axes) -> None:
         "The paper's string starts to turn within 2 s with the bit at 2450 m. Coulomb's friction, whose torque does "
         "not grow with speed, does not damp the twisting; the mud does."
     ),
+    checks=("decay rate*",),
 )
 def decay(tables: Tables) -> Canvas:
     """Surface torque after a quick start, without mud's damping and with two viscosities."""

@@ -23,6 +23,7 @@ LIMITS = (1.0, 0.1)
         "moment turning off bottom, hook load picking up; grey lines are 1 % and 0.1 %, dashed ones first and second "
         "order. Where a line is broken the string has no solution."
     ),
+    checks=("order of *", "torque of the paper's*"),
 )
 def errors(tables: Tables) -> Canvas:
     """A panel for each well: every quantity's error, and lines of first and second order."""
@@ -63,6 +64,7 @@ def errors(tables: Tables) -> Canvas:
         "Processor time against the number of segments: a steady string (left), a simulated second of the stepper, "
         "settling included (right). Linear and quadratic growth in grey; an exponential would bend upwards."
     ),
+    checks=("cost of *",),
 )
 @style.panels(3.9, 1, 2)
 def cost(tables: Tables, *axes: Axes) -> None:
@@ -101,6 +103,7 @@ def cost(tables: Tables, *axes: Axes) -> None:
         "arcs: side force over the distance between the longest cylinder and the sharpest bend, in clearances "
         "(left), and moment over the length of a cylinder (right)."
     ),
+    checks=("torque of cylinders*",),
 )
 @style.panels(3.9, 1, 2)
 def cylinders(tables: Tables, *axes: Axes) -> None:
@@ -133,6 +136,7 @@ LAYOUTS = ("uniform", "graded")
         "Error of uniform and graded strings of equal counts: torque turning off bottom (above), hook load picking up "
         "(below). johancsik3 is the third example of Johancsik, Friesen and Dawson (1984)."
     ),
+    checks=("*error of graded over uniform*",),
 )
 def layouts(tables: Tables) -> Canvas:
     """A column for each well: torque above, hook load below."""
@@ -167,6 +171,7 @@ def layouts(tables: Tables) -> Canvas:
         "Errors of fctd refine for three operations at once: the error it estimated, and the largest difference "
         "from a run with segments and cylinders a quarter as long."
     ),
+    checks=("difference from a run*", "refinements that*"),
 )
 @style.panels(3.6)
 def landed(tables: Tables, ax: Axes) -> None:
@@ -198,8 +203,9 @@ PANELS = (
     name="start_up",
     caption=(
         "The paper's string with the bit at 2450 m started in 2 s: torque when it starts to turn (above), hook load "
-        "when it starts to go in (below). Steady loads agree within a millionth; the long segment changes the waves."
+        "when it starts to go in (below). Steady loads agree; the long segment changes the waves."
     ),
+    checks=("torque of a start in 2 s*", "mean torque and hook load of starts*"),
 )
 @style.panels(5.0, 2, 1, sharex=True)
 def start_up(tables: Tables, *axes: Axes) -> None:
@@ -220,9 +226,10 @@ def start_up(tables: Tables, *axes: Axes) -> None:
     name="frequencies",
     caption=(
         "The four lowest axial and torsional frequencies of the hanging string, as differences from those of a "
-        "continuous string with the same pipe and collars. With one long segment for the uppermost 750 m the higher "
-        "ones are up to 10 % off."
+        "continuous string with the same pipe and collars. One long segment for the uppermost 750 m changes the "
+        "second and the third most."
     ),
+    checks=("* frequencies, *",),
 )
 @style.panels(3.0, 1, 2, sharey=True)
 def frequencies(tables: Tables, *axes: Axes) -> None:

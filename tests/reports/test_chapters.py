@@ -1,5 +1,6 @@
 """Chapters and the paper's figures: what they name is there, answers are filled with stored numbers."""
 
+import math
 from collections import Counter
 from dataclasses import replace
 
@@ -45,6 +46,8 @@ def test_an_answer_has_its_numbers_or_says_what_to_run():
     assert sentence.filled(records) == "Not answered yet: python -m validation jumps."
     records["jumps"] = replace(BLANK, study="jumps", checks=(judged(2.0, name="b"),))
     assert sentence.filled(records) == "It is 0.25\u00a0kN·m, not 2\u00a0kN·m."
+    records["jumps"] = replace(BLANK, study="jumps", checks=(judged(math.nan, name="b"),))
+    assert sentence.filled(records) == "Not answered: a run failed, so that jumps found no number."
 
 
 def test_no_sentence_says_what_the_interval_of_its_ratio_leaves_open():

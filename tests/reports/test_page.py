@@ -336,6 +336,16 @@ def test_a_long_table_is_folded_and_a_short_one_open(render, tmp_path):
     assert re.findall(r'<details class="table"( open)?>\s*<summary>(\w+)', text) == [(" open", "Few"), ("", "Many")]
 
 
+def test_a_column_that_says_nothing_in_any_row_is_left_out():
+    table = pd.DataFrame(
+        {"engine": ["a", "b"], "failed": ["", ""], "torque_kN_m": [np.nan, np.nan], "off_percent": [1, 2]}
+    )
+    found = sections.printed(table, "Engines")
+    assert [label for label, _, _ in found.columns] == ["engine", "off"]
+    assert found.rows == [("a", "1"), ("b", "2")]
+    assert len(sections.printed(table[:0], "None").columns) == 4
+
+
 def test_an_interruption_leaves_the_pages_before(render, tmp_path, monkeypatch):
     render((replace(BLANK, checks=(judged(0.0),)), {}), studies=["overlap"])
     before = {path: path.read_bytes() for path in (tmp_path / "out").rglob("*") if path.is_file()}

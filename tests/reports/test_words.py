@@ -51,6 +51,7 @@ def test_heading(column, heading):
         (1.0042, "1.0042"),
         (0.5, "0.5"),
         (-2.3456, "−2.35"),
+        (-0.0, "0"),
         (3.14159e-7, "3.14 × 10⁻⁷"),
         (-1e-6, "−1 × 10⁻⁶"),
         (2.5e12, "2.5 × 10¹²"),
@@ -91,6 +92,16 @@ def test_column(values, texts):
 )
 def test_sentences_are_set_as_in_print(plain, printed):
     assert words.typeset(plain).replace(words.SPACE, " ") == printed
+
+
+def test_a_load_that_is_rounding_alone_is_zero():
+    assert words.column(pd.Series([2.4, 2.23e-13], name="torque_paper_kN_m")) == ["2.4", "0.0"]
+    assert words.column(pd.Series([2.4, 2.23e-13], name="off_percent"))[1] == "2.23\u00a0×\u00a010⁻¹³"
+
+
+def test_angles_of_checks_have_their_sign():
+    check = Check("x", 0.4, 0.2, "at_least", "deg", "test")
+    assert (words.found(check), words.bound(check)) == (f"0.4{words.SPACE}°", "at least 0.2 °")
 
 
 def test_quantity_of_nothing_has_no_unit():

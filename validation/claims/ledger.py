@@ -269,7 +269,9 @@ def judge(claim: Claim, results: "Results") -> Finding:
             return "not yet run", number.why
         if isinstance(second, Found) and second.met != number.met:
             keeps, misses = ("first", "second") if number.met else ("second", "first")
-            return "routes disagree", f"the {keeps} route meets the bound and the {misses} does not"
+            lacking = math.isnan((second if number.met else number).check.value)
+            does_not = "has no number" if lacking else "does not"
+            return "routes disagree", f"the {keeps} route meets the bound and the {misses} {does_not}"
         if number.met:
             return "holds", ""
         if isinstance(limited, Missing):

@@ -101,7 +101,9 @@ class Record:
         if self.status != "finished":
             return self.status
         counts = Counter[str](judged.standing for judged in self.checks) + Counter({"not checked": len(left_out)})
-        return ", ".join(f"{count} {standing}" for standing, count in counts.items()) or "no checks"
+        several = {"finding about the paper": "findings about the paper"}
+        words = ((count, several.get(name, name) if count > 1 else name) for name, count in counts.items())
+        return ", ".join(f"{count} {name}" for count, name in words) or "no checks"
 
 
 def provenance() -> Provenance:

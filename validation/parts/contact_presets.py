@@ -27,6 +27,7 @@ PRINTED = [
 ]  # fmt: skip
 # Short name, column of ``Loads`` and its unit.
 LOADS = (("torque", "surface_torque_N_m", "N_m"), ("sum", "sum_r_mu_fn_N_m", "N_m"), ("hookload", "hookload_N", "N"))
+ROUNDING = 1e-6  # a load below it is none, in its unit or in a thousand of it
 NEAR = 200  # points for errors and costs beside loads
 
 
@@ -81,8 +82,8 @@ def windows(found: Mapping[str, Comparison], method: str) -> Rows:
 
 
 def _off(value: float | None, first: float | None) -> float:
-    """Difference in percent; nan where there is none."""
-    return float("nan") if value is None or not first else 100 * (value / first - 1)
+    """Difference in percent; nan where there is none, as of a torque that is rounding alone."""
+    return float("nan") if value is None or not first or abs(first) < ROUNDING else 100 * (value / first - 1)
 
 
 @table_of_rows

@@ -101,7 +101,7 @@ def with_growth(table: pd.DataFrame) -> pd.DataFrame:
         )
     for end, start in zip(ENDS, ("", "_high", "_low"), strict=True):
         grown = table[f"ms_per_simulated_s{end}"] / table[f"ms_per_simulated_s{start}"].iloc[0]
-        table = table.assign(**{f"growth_when_doubled{end}": 2 ** (np.log2(grown) / doublings)})
+        table = table.assign(**{f"growth_when_doubled{end}": (2 ** (np.log2(grown) / doublings)).where(doublings > 0)})
     return table
 
 
@@ -165,16 +165,21 @@ def table_of(held: list[Check], made: list[Check], kernel: pd.DataFrame) -> pd.D
         (
             check.name,
             check.requirement(),
-            check.found("{:.3g}".format),
+            check.found(_digits),
             check.verdict if check in made else "not checked",
         )
         for check in held
     ]
     default = real_time(kernel, CONTACT)
-    rows = [*rows, ("real-time factor, 60 segments, default step", "", f"{default.median:.3g}", "")]
+    rows = [*rows, ("real-time factor, 60 segments, default step", "", _digits(default.median), "")]
     return pd.DataFrame(rows, columns=["what", "target", "reached", "verdict"])
 
 
 def less(one: Quartiles, other: Quartiles) -> Quartiles:
     """A difference of what was not measured in the same rounds."""
     return Quartiles(median=one.median - other.median, low=one.low - other.high, high=one.high - other.low)
+
+
+def _digits(value: float) -> str:
+    """Three digits, and all of a large number."""
+    return f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"

@@ -64,7 +64,7 @@ def wrong_results(trapped: pd.DataFrame) -> list[Check]:
         return []
     return [
         Check("error of a capsule's depth in python-fcl", float(capsule["found"].iloc[0]), 0.1, "at_least", "m",
-              "finding: capsules are unfit for the long triangles of a tube")
+              "more than this makes capsules unfit for the long triangles of a tube: a finding about the library")
     ]  # fmt: skip
 
 

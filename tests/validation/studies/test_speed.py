@@ -125,7 +125,7 @@ def test_targets_and_real_time_factor():
     table = speed_kernel.table_of(checks, checks[:1], kernel).set_index("what")
     # A quick run has no verdict on the targets of absolute times.
     assert table["verdict"].iloc[:-1].to_list() == [checks[0].verdict, *["not checked"] * (len(checks) - 1)]
-    assert table["reached"]["real-time factor, 60 segments, default step"] == "1.67e+03"
+    assert table["reached"]["real-time factor, 60 segments, default step"] == "1667"
     # A quick run has no string of 10000 segments, and then no check of the exponent.
     short = {"kernel": kernel, "scaling": scaling[:2], "steady": steady}
     assert not any("exponent" in check.name for check in speed.targets(times(), short))
