@@ -68,7 +68,7 @@ def loads(found: Comparison) -> Rows:
 
 @table_of_rows
 def windows(found: Mapping[str, Comparison], method: str) -> Rows:
-    """Loads of windows at several depths, with a method and with the engine's cylinders, and their differences."""
+    """Loads of windows at several depths, with a method and with the engine's cylinders; differences; why none."""
     for of in found.values():
         rows = loads(of).set_index("method").to_dict("index")
         theirs, own = rows[method], rows["cylinders"]
@@ -78,7 +78,7 @@ def windows(found: Mapping[str, Comparison], method: str) -> Rows:
             column = f"{name.removesuffix(unit)}k{unit}"
             line |= {f"{method}_{column}": theirs[column], f"FCTD_{column}": own[column]}
             line[f"{short}_difference_percent"] = _off(theirs[column], own[column])
-        yield line
+        yield line | {"failed": "; ".join(filter(None, (own["failed"], theirs["failed"])))}
 
 
 def _off(value: float | None, first: float | None) -> float:
