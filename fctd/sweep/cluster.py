@@ -9,10 +9,12 @@ import asyncio
 import json
 import logging
 import re
+import signal
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
+from multiprocessing import resource_tracker
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -81,15 +83,31 @@ def _local(choice: ClusterChoice) -> Iterator[Client]:
         # were starting just then.
         "distributed.deploy.lost-worker-timeout": "1 week",
     }
-    with (
-        dask.config.set(settings),
-        LocalCluster(
-            n_workers=choice.workers or cores(), threads_per_worker=1, processes=True, host=LOOPBACK,
-            dashboard_address=f"{LOOPBACK}:0", silence_logs=logging.CRITICAL,
-        ) as cluster,
-        Client(cluster) as client,
-    ):  # fmt: skip
-        yield client
+    with dask.config.set(settings):
+        with _deaf():
+            cluster = LocalCluster(
+                n_workers=choice.workers or cores(), threads_per_worker=1, processes=True, host=LOOPBACK,
+                dashboard_address=f"{LOOPBACK}:0", silence_logs=logging.CRITICAL,
+            )  # fmt: skip
+        with cluster, Client(cluster) as client:
+            yield client
+
+
+@contextmanager
+def _deaf() -> Iterator[None]:
+    """Threads and processes that begin inside, and those that they start, get no Ctrl-C; here it waits for the end.
+
+    A terminal sends Ctrl-C to all processes, and each worker would print its traceback.  The client ends them.
+    """
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    resource_tracker.ensure_running()  # where it starts later, it unblocks the signal
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 @contextmanager

@@ -5,6 +5,7 @@ import json
 import os
 import re
 import shutil
+import signal
 import socket
 import subprocess
 import sys
@@ -28,7 +29,7 @@ from validation.parts.small_sweep import sweep_file
 
 
 @pytest.mark.slow
-def test_a_local_sweep_listens_on_the_loopback_alone() -> None:
+def test_a_local_sweep_listens_on_the_loopback_alone_and_its_workers_get_no_ctrl_c() -> None:
     import psutil
 
     with connected(ClusterChoice(workers=2)) as client:
@@ -47,6 +48,9 @@ def test_a_local_sweep_listens_on_the_loopback_alone() -> None:
         assert {dashboard, scheduler} <= ports
         assert len(ports) >= 4  # of two workers and their nannies, too
         assert {address for address, _ in listening} == {"127.0.0.1"}
+        # A terminal sends Ctrl-C to the workers too, who would each print a traceback.
+        assert all(signal.SIGINT in held for held in client.run(signal.pthread_sigmask, signal.SIG_BLOCK, []).values())
+        assert signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, [])
 
 
 @pytest.mark.slow
