@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from fctd.arrays import Array
 from fctd.store.limits import cores
 from fctd.store.origin import versions
 from references.contact import METHODS, method_class
@@ -78,13 +79,9 @@ def race(
     fastest round, least disturbed by other processes), and ratio, ratio_low, ratio_high to the baseline, from
     the ratios within the rounds.
     """
-    order = list(actions)
-    for name in order:
-        actions[name]()
-    turns = [turn(actions, counts, clock or time.perf_counter, backwards=k % 2 == 1) for k in range(rounds)]
-    per_unit = {name: np.array([taken[name] for taken in turns]) for name in order}
+    per_unit = in_rounds(actions, counts, rounds, clock)
     rows = []
-    for name in order:
+    for name in actions:
         low, middle, high = np.percentile(per_unit[name], [25, 50, 75])
         against = baseline if isinstance(baseline, str) else baseline[name]
         ratio = np.percentile(per_unit[name] / per_unit[against], [25, 50, 75])
@@ -96,6 +93,16 @@ def race(
             }
         )  # fmt: skip
     return pd.DataFrame(rows)
+
+
+def in_rounds(
+    actions: Mapping[str, Action], counts: Mapping[str, float], rounds: int, clock: Callable[[], float] | None = None
+) -> dict[str, Array]:
+    """Time of a unit of each action [ns] in each of the rounds of ``race``, which has the arguments."""
+    for action in actions.values():
+        action()
+    turns = [turn(actions, counts, clock or time.perf_counter, backwards=k % 2 == 1) for k in range(rounds)]
+    return {name: np.array([taken[name] for taken in turns]) for name in actions}
 
 
 def turn(

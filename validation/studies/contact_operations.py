@@ -16,9 +16,9 @@ from references.contact.box_tree import BoxTree, penetration
 from references.contact.for_loop import for_loop_owner, for_loop_owners, one_cylinder
 from references.contact.tube_mesh import TubeOptions, build_tube
 from references.timing.operation_count import Counted, Number, arithmetic, counted, interpreted, operations_of
-from references.timing.stopwatch import Action, race
+from references.timing.stopwatch import Action, in_rounds
 from validation.cases import load, trip
-from validation.harness.study import Check, Context, Outcome, Study
+from validation.harness.study import Check, Context, Outcome, Study, in_columns
 
 # "At most two dot products and three arithmetic operations": a dot product is three products and two sums.
 CLAIMED = 2 * 5 + 3
@@ -160,16 +160,15 @@ def times(run: Run, meshes: bool, rounds: int) -> pd.DataFrame:
         beside = points - np.array([0.0, 0.0, 1e5])
         actions |= {LIBRARY: lambda: library.query(points, radii), ASKING: lambda: library.query(beside, radii)}
         counts |= {LIBRARY: len(points), ASKING: len(points)}
-    raced = race(actions, counts, rounds, ONE)
-    # The fastest round: other processes on the machine disturb it least.
-    ns = dict(zip(raced["name"], raced["ns_least"].astype(float), strict=True))
-    asking = ns.pop(ASKING, 0.0)
+    ns = in_rounds(actions, counts, rounds)
+    asking = ns.pop(ASKING, np.zeros(rounds))
     if LIBRARY in ns:
-        ns[LIBRARY] -= asking
-    table = pd.DataFrame(ns.items(), columns=["what", "ns_per_point"])
-    return table.assign(
-        over_one_cylinder=table["ns_per_point"] / ns[ONE],
-        over_search_and_test=table["ns_per_point"] / (ns[SEARCH] + ns[ONE]),
+        ns[LIBRARY] = ns[LIBRARY] - asking
+    both = ns[SEARCH] + ns[ONE]
+    return pd.DataFrame(
+        {"what": what}
+        | in_columns({"ns_per_point": of, "over_one_cylinder": of / ns[ONE], "over_search_and_test": of / both})
+        for what, of in ns.items()
     )
 
 
@@ -241,7 +240,7 @@ def run(context: Context) -> Outcome:
             "wait for boxes and branches. The table of times is for the same points and for the counted code, "
             "compiled; the cost of calling coal from Python is subtracted from its time.",
         ],
-        display={"operations": "Operations per point", "times": "Times of the same, all compiled; fastest round"},
+        display={"operations": "Operations per point", "times": "Times of the same, all compiled"},
     )
 
 

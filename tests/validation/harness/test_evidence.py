@@ -256,13 +256,13 @@ def test_a_library_is_timed_without_the_cost_of_the_call(monkeypatch):
     ns = {contact_operations.ONE: 2.0, contact_operations.SEARCH: 98.0, contact_operations.ASKING: 150.0}
     ns |= {contact_operations.TREE: 300.0, contact_operations.LIBRARY: 650.0}
 
-    def told(actions, counts, rounds, baseline):
+    def told(actions, counts, rounds):
         for action in actions.values():
             action()
         assert counts[contact_operations.ONE] == counts[contact_operations.TREE] == 100 * run.segments
-        return pd.DataFrame([{"name": name, "ns_least": ns[name]} for name in actions])
+        return {name: np.full(rounds, ns[name]) for name in actions}
 
-    monkeypatch.setattr(contact_operations, "race", told)
+    monkeypatch.setattr(contact_operations, "in_rounds", told)
     run, _ = prepare(load("scaled_section"))
     found = contact_operations.times(run, True, 1).set_index("what")
     assert found["over_one_cylinder"].to_dict() == pytest.approx(
