@@ -74,7 +74,7 @@ def race(
 
     counts : number of units (points, segment-steps, simulated seconds) in a call of each action.
     baseline : the action that is the denominator of the ratios, one for all or one for each action.  clock : [s], by
-    default the wall's; that of the process leaves out the time in which other processes have its core.
+    default the processor's, which leaves out the time in which other processes have the core.
     Returns a row per action: name, units, rounds, ns (median per unit), ns_low, ns_high (quartiles), ns_least (the
     fastest round, least disturbed by other processes), and ratio, ratio_low, ratio_high to the baseline, from
     the ratios within the rounds.
@@ -101,7 +101,7 @@ def in_rounds(
     """Time of a unit of each action [ns] in each of the rounds of ``race``, which has the arguments."""
     for action in actions.values():
         action()
-    turns = [turn(actions, counts, clock or time.perf_counter, backwards=k % 2 == 1) for k in range(rounds)]
+    turns = [turn(actions, counts, clock or time.process_time, backwards=k % 2 == 1) for k in range(rounds)]
     return {name: np.array([taken[name] for taken in turns]) for name in actions}
 
 

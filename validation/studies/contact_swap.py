@@ -153,7 +153,7 @@ def run(context: Context) -> Outcome:
     }
     counts = SEGMENTS[:1] if context.quick else SEGMENTS
     cost = pd.concat(
-        [costs(n, asked, 5 if context.quick else 15) for n in context.progress(counts, "segments")],
+        [costs(n, asked, 9 if context.quick else 15) for n in context.progress(counts, "segments")],
         ignore_index=True,
     )
     turned = in_loop(rotating(), [name for name in raced if name != TOO_SLOW], context)

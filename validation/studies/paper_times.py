@@ -1,6 +1,5 @@
 """The paper's times (§6.3, §7): the tripping speeds they imply, and our times for the same trip."""
 
-import time
 from functools import partial
 
 import pandas as pd
@@ -72,10 +71,8 @@ def measured(rounds: int) -> pd.DataFrame:
     }
     lengths = dict(zip(trips, (DEPTH - KICK_OFF, FREE_LENGTH), strict=True))
     runs = {name: completed(simulate(case)).run for name, case in trips.items()}
-    times = race(
-        {name: partial(simulate, case) for name, case in trips.items()}, lengths, rounds, list(trips)[1],
-        time.process_time,
-    ).to_dict("records")  # fmt: skip
+    actions = {name: partial(simulate, case) for name, case in trips.items()}
+    times = race(actions, lengths, rounds, list(trips)[1]).to_dict("records")
     rows = [
         {
             "our_run": name,
