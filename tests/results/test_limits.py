@@ -142,12 +142,20 @@ def test_the_hook_load_counts_at_the_table_where_both_columns_begin_without_pres
     assert point.shares[TENSILE, SHARE] == pytest.approx(point.hookload / (931e6 * steel), rel=1e-12)
 
 
-@pytest.mark.parametrize("stations", [
-    [[0, 0, 0], [300, 0, 0], [700, 60, 40], [1000, 60, 40]],
-    [[0, 0, 0], [930, 0, 0], [1000, 35, 0]],  # it bends the more the deeper
-])  # fmt: skip
-def test_a_component_that_is_written_as_several_has_the_stress_of_one(stations: list[list[float]]) -> None:
+def test_a_part_bends_at_its_upper_end_as_the_part_above() -> None:
+    """Pull falls and bending grows down the string: both of one place, whether or not a part begins there."""
+    several = lay_out(make_case(components=[pipe(20.0, 1, contact="sleeve")] * N), 20.0 * N)
+    whole = lay_out(make_case(components=[pipe(20.0 * N, N)]), 20.0 * N)
+    loads = Loads(np.linspace(2e6, 1e5, N), np.zeros(N), np.linspace(1e3, 4e4, N), np.zeros(N), 0.0, 0.0)
+    one, other = (
+        shares_of(of, loads, 2e6, walls_of(of, np.full(N, -0.01)))[:, SHARE] for of in (whole, several)
+    )  # fmt: skip
+    np.testing.assert_allclose(other, one, rtol=1e-12)
+
+
+def test_a_component_that_is_written_as_several_has_the_stress_of_one() -> None:
     """The upper end of a weaker part is a place of its own; that of an equal part is none."""
+    stations = [[0, 0, 0], [300, 0, 0], [700, 60, 40], [1000, 60, 40]]
     whole, several = [pipe(1000.0, 50)], [pipe(20.0, 1, contact="sleeve")] * 50
     one, other = (equilibrium(make_case(stations, parts), "trip_out", 1000.0) for parts in (whole, several))
     np.testing.assert_allclose(other.shares[:, SHARE], one.shares[:, SHARE], rtol=1e-9)

@@ -66,7 +66,7 @@ def engine_errors(names: Iterable[tuple[str, str]], window: Window) -> Rows:
             row[f"{load_name}_off_truth_percent"] = 100 * (loads[load_name] / truth[load_name] - 1)
             row[f"{load_name}_off_itself_percent"] = 100 * (loads[load_name] / finer[load_name] - 1)
             row[f"{load_name}_spread_percent"] = 100 * (aside[load_name] / loads[load_name] - 1)
-        yield row | {"finer_status": fine.status}
+        yield row | {"finer_status": fine.status, "wall_s": own.wall_s, "finer_wall_s": fine.wall_s}
 
 
 def _loads(run: EngineRun) -> pd.Series:

@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from fctd.arena.result import Quartiles
 from validation.harness import study
 from validation.harness.study import Check, Outcome
 
@@ -60,6 +61,12 @@ def test_a_ratio_of_times_is_that_of_its_rounds():
     assert row == {"over": 2.0, "over_low": 1.5, "over_high": 2.5}
     check = study.ratio_check("x", study.quartiles_of(row, "over"), 2.2, "at_most", "test")
     assert (check.value, check.interval, check.timed, check.verdict) == (2.0, (1.5, 2.5), True, "missed")
+
+
+def test_times_of_rounds_meet_a_bound_by_their_quartiles():
+    check = study.time_check("x", [1.0, 1.5, 2.0, 2.5, 3.0], 2.4, "s", "test")
+    assert (check.value, check.interval, check.unit, check.verdict) == (2.0, (1.5, 2.5), "s", "missed")
+    assert f"{Quartiles.of([1.0, 1.5, 2.0, 2.5, 3.0]):.1f}" == "2.0 (1.5 to 2.5)"
 
 
 def test_quartiles_of_a_fitted_exponent_widen_with_its_scatter():
