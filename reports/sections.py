@@ -182,7 +182,7 @@ def _small(canvas: Canvas) -> str:
 
 def printed(table: pd.DataFrame, caption: str) -> Printed:
     """A table's columns as text; the speeds of an engine that failed its gate are struck through."""
-    every = {str(name): words.column(table[name]) for name in table.columns}
+    every = words.columns(table)
     # A column that says nothing in any row makes a table wider than the page.
     every = {name: cells for name, cells in every.items() if not cells or set(cells) - {"", words.NOTHING}}
     names, cells = list(every), list(every.values())

@@ -18,6 +18,7 @@ from reports.chapters import Strict
 from validation.harness import store
 from validation.harness.registry import RIVALS
 from validation.harness.store import Record
+from validation.harness.study import ENDS
 
 FILE = Path(__file__).with_name("which_contact.toml")
 GUIDE = Path(__file__).parents[1] / "docs" / "which_contact.md"
@@ -136,8 +137,11 @@ class Results:
             return None
         for name, value in {rows.columns[0]: key, **others}.items():
             rows = rows[rows[name] == value]
-        found = rows[column].dropna()
-        return words.quantity(float(found.iloc[0]), unit) if len(found) else None
+        found = rows[rows[column].notna()]
+        if not len(found):
+            return None
+        ends = [words.number(float(found[each].iloc[0])) for each in map(column.__add__, ENDS) if each in found]
+        return f"{words.between(*ends) if len(ends) == len(ENDS) else ends[0]}{words.SPACE}{unit}".rstrip()
 
     def gate(self, engine: str) -> str:
         """How an engine failed the gate before any speed; empty where it passed, or where it was not tried."""
@@ -192,9 +196,10 @@ def fronts(folder: Path) -> Table:
     results = Results(folder)
     columns = list(MEASURED)
     found = [of["fronts"] for of in results.tables.values() if "setting" in of.get("fronts", ())]
-    rows = pd.concat(found, ignore_index=True).reindex(columns=columns) if found else pd.DataFrame(columns=columns)
-    rows = rows.drop_duplicates("setting")  # the baselines of rivals are those of the suite
-    return Table(tuple(MEASURED.values()), list(zip(*(words.column(rows[name]) for name in columns), strict=True)), [])
+    rows = pd.concat(found, ignore_index=True) if found else pd.DataFrame(columns=columns)
+    rows = rows.reindex(columns=dict.fromkeys([*columns, *rows.columns])).drop_duplicates("setting")  # of rivals: again
+    printed = words.columns(rows)
+    return Table(tuple(MEASURED.values()), list(zip(*(printed[name] for name in columns), strict=True)), [])
 
 
 def write_guide(folder: Path) -> None:

@@ -153,6 +153,21 @@ def bound(check: Check) -> str:
     return replace(check, unit=_sign(check.unit)).requirement(number)
 
 
+def columns(table: pd.DataFrame) -> dict[str, list[str]]:
+    """The columns of a table by name, the quartiles of a measured number in brackets behind it."""
+    found = {str(name): column(table[name]) for name in table.columns}
+    for low, high in [(f"{name}_low", f"{name}_high") for name in found]:
+        if low in found and high in found:
+            name = low.removesuffix("_low")
+            found[name] = [*map(between, found[name], found.pop(low), found.pop(high))]
+    return found
+
+
+def between(value: str, low: str, high: str) -> str:
+    """A printed number with its quartiles in brackets, where it has any."""
+    return value if NOTHING in (value, low, high) else f"{value} ({low} to {high})"
+
+
 def column(values: "pd.Series[Any]") -> list[str]:
     """A table's column: numbers have equal decimals where their sizes allow it, for comparison.
 

@@ -32,8 +32,7 @@ class EngineRun(NamedTuple):
 
     status : ``valid``, or ``invalid`` when a check failed; message names the failed checks and the error that ended
     the run.  note : a limitation of the loads, or empty.  history, profile, energy : tables as in
-    ``fctd.SimulationResult``.  checks : a row per check of ``checks.examine``.  step [s], steps; wall_s [s] : time of
-    the run.
+    ``fctd.SimulationResult``.  checks : a row per check of ``checks.examine``.  step [s], steps.
     """
 
     history: pd.DataFrame
@@ -45,7 +44,6 @@ class EngineRun(NamedTuple):
     checks: pd.DataFrame
     step: float
     steps: int
-    wall_s: float
 
 
 class Stepper(simulate.Stepper, Protocol):

@@ -25,7 +25,7 @@ def ladder(
     """Run a window of a case with the step ``longest`` [s] and its successive halves, ``rungs`` in all; a row per step.
 
     Columns: step_s, status, failed, hookload_N and surface_torque_N_m (means of the last ``seconds`` [s]), off (the
-    larger relative difference of the two from the next finer step; NaN for the finest), energy_error, wall_s.
+    larger relative difference of the two from the next finer step; NaN for the finest), energy_error.
     """
     rows = []
     for k in range(rungs):
@@ -34,7 +34,7 @@ def ladder(
         rows.append(
             {"step_s": run.step, "status": run.status, "failed": run.message}
             | {load: loads[load] for load in LOADS}
-            | {"energy_error": ledger.error(run.energy, motion=True), "wall_s": run.wall_s}
+            | {"energy_error": ledger.error(run.energy, motion=True)}
         )
     table = pd.DataFrame(rows)
     finer = table[list(LOADS)].shift(-1)

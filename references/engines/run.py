@@ -47,7 +47,7 @@ def run_window(case: Case, window: Window, engine: "InWindows") -> EngineRun:
     message = "; ".join([*([broken] if broken else []), *failed])
     return EngineRun(
         result.history, result.profile, "invalid" if failed else "valid", message, stepper.note(), result.energy,
-        checks, stepper.step, run.steps, simulation.wall_s,
+        checks, stepper.step, run.steps,
     )  # fmt: skip
 
 

@@ -62,6 +62,13 @@ class Timed(InWindows):
         self.honours: Collection[str] = engine.honours  # type: ignore[misc]
         self.stepper: TimedStepper | None = None
 
+    @property
+    def real_time_factors(self) -> Array:
+        """Simulated over processor time of each record; NaN alone before the first."""
+        if self.stepper is None or not self.stepper.costs:
+            return np.array([np.nan])
+        return self.stepper.step / np.array(self.stepper.costs)
+
     def begin(self, run: Run) -> Stepper:
         """See ``StringEngine.begin``."""
         self.stepper = TimedStepper(self._engine.begin(run), run, self._tell, self._most)

@@ -119,7 +119,7 @@ def test_table_for_display_has_units_in_its_head(render):
 
 def test_times_of_an_engine_that_failed_the_gate_are_struck_through_with_the_reason(render):
     """And kept: the time of an engine that passed stands beside it, as do numbers that are no time."""
-    rows = {"engine": ["sound", "loose"], "hookload_kN": [1.5, 2.5], "wall_s": [3.5, 4.5]}
+    rows = {"engine": ["sound", "loose"], "hookload_kN": [1.5, 2.5], "real_time_factor": [3.5, 4.5]}
     table = pd.DataFrame(rows | {"gate": ["passed", "failed: lean 19.8 ° (at most 15)"]})
     given = replace(BLANK, tables=("times",), display={"times": "Times"})
     html, _ = render((given, {"times": table}))

@@ -17,6 +17,8 @@ FRONTS = pd.DataFrame(
     {
         "setting": ["arcs", "cylinders, cylinder_length=2.0, overlap=0.2"],
         "ns_1000": [40.0, 50.0],
+        "ns_1000_low": [38.0, 48.0],
+        "ns_1000_high": [43.0, 53.0],
         "torque_off_percent": [0.0, 0.3],
     }
 )
@@ -35,7 +37,8 @@ def test_numbers_are_those_of_stored_results(tmp_path: Path) -> None:
     store.write(record, {"fronts": FRONTS}, tmp_path)
     found = which_contact.table(tmp_path)
     survey = next(row for row in found.rows if row[0].startswith("The hole is a survey"))
-    assert "40" in survey[3]
+    assert "40 (38 to 43)\u00a0ns" in survey[3]
+    assert which_contact.fronts(tmp_path).rows[0][2] == "40 (38 to 43)"
     assert "321" in survey[3]
     assert "0.3" in survey[4]
     assert found.origins[0].startswith("contact_fronts: ")

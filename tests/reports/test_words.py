@@ -99,6 +99,11 @@ def test_a_load_that_is_rounding_alone_is_zero():
     assert words.column(pd.Series([2.4, 2.23e-13], name="off_percent"))[1] == "2.23\u00a0×\u00a010⁻¹³"
 
 
+def test_quartiles_stand_in_brackets_behind_their_number():
+    table = pd.DataFrame({"ns": [12.5, math.nan], "ns_low": [11.0, math.nan], "ns_high": [14.0, math.nan], "m_low": 1})
+    assert words.columns(table) == {"ns": ["12.5 (11 to 14)", words.NOTHING], "m_low": ["1", "1"]}
+
+
 def test_angles_of_checks_have_their_sign():
     check = Check("x", 0.4, 0.2, "at_least", "deg", "test")
     assert (words.found(check), words.bound(check)) == (f"0.4{words.SPACE}°", "at least 0.2 °")

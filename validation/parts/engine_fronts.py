@@ -11,8 +11,9 @@ from fctd.simulation.run import Run
 from references import engines
 from references.engines import EngineRun, Stepper, StringEngine, Window
 from references.engines.run import InWindows, late
+from references.methods.loop import Timed
 from validation.cases import load, rotation
-from validation.harness.study import Rows, table_of_rows
+from validation.harness.study import Rows, in_columns, table_of_rows
 
 BIT = 2450.0
 FINER = 16  # steps of the finer run in one of an engine's own
@@ -52,7 +53,8 @@ def engine_errors(names: Iterable[tuple[str, str]], window: Window) -> Rows:
     steady = equilibrium(case, "rotate_off_bottom", BIT)
     truth = pd.Series({"hookload": steady.hookload, "torque": steady.surface_torque})
     for label, name in names:
-        own = engines.build(name).run(case, window)
+        timed = Timed(engines.build(name))
+        own = timed.run(case, window)
         fine = engines.build(name, step=own.step / FINER).run(case, window)
         loads, finer, aside = (_loads(run) for run in (own, fine, Shifted(engines.build(name)).run(case, window)))
         row: dict[str, Any] = {
@@ -66,7 +68,7 @@ def engine_errors(names: Iterable[tuple[str, str]], window: Window) -> Rows:
             row[f"{load_name}_off_truth_percent"] = 100 * (loads[load_name] / truth[load_name] - 1)
             row[f"{load_name}_off_itself_percent"] = 100 * (loads[load_name] / finer[load_name] - 1)
             row[f"{load_name}_spread_percent"] = 100 * (aside[load_name] / loads[load_name] - 1)
-        yield row | {"finer_status": fine.status, "wall_s": own.wall_s, "finer_wall_s": fine.wall_s}
+        yield row | {"finer_status": fine.status} | in_columns({"real_time_factor": timed.real_time_factors})
 
 
 def _loads(run: EngineRun) -> pd.Series:

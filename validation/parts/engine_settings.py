@@ -91,7 +91,6 @@ def steps(names: tuple[str, ...]) -> pd.DataFrame:
                     "torque_off_percent": 100 * (found["surface_torque_N_m"] / own["surface_torque_N_m"] - 1),
                     "finer_off_percent": 100 * found["off"],
                     "energy_error_percent": 100 * found["energy_error"],
-                    "wall_s": found["wall_s"],
                     "best": found["step_s"] == best_step(found),
                 }
             )

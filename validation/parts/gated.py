@@ -28,12 +28,14 @@ def held(
     configurations: Mapping[str, tuple[str, dict[str, Any]]],
     free: Collection[str] = (),
 ) -> tuple[dict[str, pd.DataFrame], Gates]:
-    """Tables of engines, those with wall times with the gate's verdict in a column, and the rules as a table ``gate``.
+    """Tables of engines, those with real-time factors with the gate's verdict, and the rules as a table ``gate``.
 
     configurations : of ``examined``; those that no such table names are left out.  free : tables of freely hanging
-    strings, to whose times the rules of the wall do not apply.
+    strings, to whose times the rules of the wall do not apply.  Raises ValueError where no table has such a column.
     """
-    timed = {key for key, table in tables.items() if "wall_s" in table}
+    timed = {key for key, table in tables.items() if "real_time_factor" in table}
+    if not timed:
+        raise ValueError(f"the gate judges columns real_time_factor; none is in the tables {sorted(tables)}")
     named = {name for key in timed for name in tables[key]["engine"]}
     gates = examined({name: each for name, each in configurations.items() if name in named})
     judged = {}

@@ -11,8 +11,9 @@ from references import engines
 from references.engines import EngineRun, Window
 from references.engines.run import late
 from references.engines.scaling import SCALE, Factors, factors, scaled
+from references.methods.loop import Timed
 from validation.cases import load, rotation
-from validation.harness.study import Check, Context, Outcome, Rows, Study, table_of_rows
+from validation.harness.study import Check, Context, Outcome, Rows, Study, in_columns, table_of_rows
 from validation.parts import engine_notes, engine_settings, gated
 from validation.parts.engine_cases import BIT, LEAD, RAMP, S_BIT, TURNING, WELL_LEAD, chain, s_shape, well
 from validation.parts.windows import last_seconds
@@ -65,7 +66,6 @@ def row(name: str, run: EngineRun, reference: EngineRun, steady: Any) -> dict[st
         "steady_torque_off_percent": off("surface_torque_N_m", steady.surface_torque) if torque else np.nan,
         "step_ms": 1e3 * run.step,
         "simulated_s": run.history["time_s"].iloc[-1] - run.history["time_s"].iloc[0],
-        "wall_s": run.wall_s,
     }
 
 
@@ -79,8 +79,12 @@ def compare(
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """All engines over one window of a case: numbers, and the contact profile at its end."""
     steady = equilibrium(case, kind, depth)
-    runs = {name: engines.build(ENGINES[name][0], **ENGINES[name][1]).run(case, window) for name in names}
-    rows = [row(name, run, runs["FCTD"], steady) for name, run in runs.items()]
+    timed = {name: Timed(engines.build(ENGINES[name][0], **ENGINES[name][1])) for name in names}
+    runs = {name: engine.run(case, window) for name, engine in timed.items()}
+    rows = [
+        row(name, run, runs["FCTD"], steady) | in_columns({"real_time_factor": timed[name].real_time_factors})
+        for name, run in runs.items()
+    ]
     profiles = [
         run.profile[["md_m", "contact_force_N"]].assign(engine=name, operation=kind) for name, run in runs.items()
     ]
@@ -99,7 +103,8 @@ def hanging(names: tuple[str, ...], duration: float) -> Rows:
     own = None
     for name in names:
         engine, options = (ENGINES | CHAIN)[name]
-        run = engines.build(engine, **options).run(case, Window(0.0, duration))
+        timed = Timed(engines.build(engine, **options))
+        run = timed.run(case, Window(0.0, duration))
         torque = run.history["surface_torque_N_m"].to_numpy()
         own = torque if own is None else own
         yield {
@@ -109,7 +114,7 @@ def hanging(names: tuple[str, ...], duration: float) -> Rows:
             "hookload_kN": float(run.history["hookload_N"].mean()) / 1e3,
             "torque_rms_off_percent": 100 * float(np.sqrt(((torque - own) ** 2).mean() / (own**2).mean())),
             "step_ms": 1e3 * run.step,
-            "wall_s": run.wall_s,
+            **in_columns({"real_time_factor": timed.real_time_factors}),
         }
 
 

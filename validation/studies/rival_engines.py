@@ -95,7 +95,7 @@ def numbers(engine: Configuration, case: Case, window: Window, own: EngineRun) -
     run = timed.run(case, window)
     end, reference = late(run), late(own)
     segments = len(run.profile) // run.profile["bit_depth_m"].nunique() - 1
-    costs = np.array(timed.stepper.costs if timed.stepper is not None else [np.nan])  # [s] a step, of each record
+    factors = timed.real_time_factors
 
     def off(column: str) -> float:
         return 100 * float(end[column] / reference[column] - 1)
@@ -114,7 +114,7 @@ def numbers(engine: Configuration, case: Case, window: Window, own: EngineRun) -
         "energy_error_percent": 100 * float(run.checks.set_index("check")["value"]["energy"]),
         "segments": segments,
         "step_ms": 1e3 * run.step,
-        **in_columns({"segment_step_us": 1e6 * costs / segments, "real_time_factor": run.step / costs}),
+        **in_columns({"segment_step_us": 1e6 * run.step / factors / segments, "real_time_factor": factors}),
     }
 
 
