@@ -29,6 +29,7 @@ from tests.equivalence.holes import Raw
 # the weight times ``ARM``.
 EXACT: Final = 0.0
 ROUNDING: Final = 1e-6
+CLOSER: Final = (1e-3, 1e-2, 1e-1)  # of what Newton's method may leave out of balance, until rounding lets it
 LEFT: Final = 1e-5  # by what Newton's method leaves out of balance
 TWO_BALANCES: Final = 1e-4
 UPRIGHT: Final = 1e-3  # of the hook load, by which a string that leans in vertical hole differs from one that does not
@@ -84,11 +85,14 @@ class Answers:
         """The same where Newton's method goes on until rounding alone is left; of a row of another method, itself."""
         if self[kind].method != NEWTON:
             return self
-        problem = self.solver.problem(kind, self._rates(kind), self.laid)
-        problem.lay_guess()
-        exact = 1e-3 * problem.allowed
-        code, _ = problem.iterate(Pace(*ATTEMPTS[0], LARGEST_TURN, exact, exact)._replace(iterations=LONG))
-        if code != CONVERGED:
+        for share in CLOSER:
+            problem = self.solver.problem(kind, self._rates(kind), self.laid)
+            problem.lay_guess()
+            left = share * problem.allowed
+            code, _ = problem.iterate(Pace(*ATTEMPTS[0], LARGEST_TURN, left, left)._replace(iterations=LONG))
+            if code == CONVERGED:
+                break
+        else:
             return self
         other = Answers(self.case, self.depth, self.rates)
         other._found[kind] = self.solver.answer(problem, CONVERGED, LONG, 0, NEWTON)
