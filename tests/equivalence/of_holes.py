@@ -153,9 +153,9 @@ def mirrored(drawn: Drawn) -> None:
     same(drawn, other, ROUNDING, kinds=kinds, but=("surface_torque", "drive_torque", "sum_r_ft", "profile torque"))
     for kind in kinds:  # what a bend to the right turns to one side, a bend to the left turns to the other
 
-        def compare(*both: Answers, kind: str = kind) -> None:
+        def compare(*both: Answers, bound: float = ROUNDING, kind: str = kind) -> None:
             right, left = (of[kind].surface_torque / (ARM * of.weight) for of in both)
-            assert abs(right + left) <= ROUNDING, f"{kind}: torque {right:.6g} and {left:.6g}"
+            assert abs(right + left) <= bound, f"{kind}: torque {right:.6g} and {left:.6g}"
 
         if plain(base(drawn)[kind]) and plain(other[kind]):
             to_rounding(compare, kind, base(drawn), other)
