@@ -197,8 +197,8 @@ def fronts(folder: Path) -> Table:
     columns = list(MEASURED)
     found = [of["fronts"] for of in results.tables.values() if "setting" in of.get("fronts", ())]
     rows = pd.concat(found, ignore_index=True) if found else pd.DataFrame(columns=columns)
-    rows = rows.reindex(columns=dict.fromkeys([*columns, *rows.columns])).drop_duplicates("setting")  # of rivals: again
-    printed = words.columns(rows)
+    rows = rows.drop_duplicates("setting")  # the baselines of rivals are those of the suite
+    printed = words.columns(rows.reindex(columns=[*dict.fromkeys([*columns, *rows.columns])]))
     return Table(tuple(MEASURED.values()), list(zip(*(printed[name] for name in columns), strict=True)), [])
 
 
