@@ -35,7 +35,7 @@ from fctd.model.depths import depth_of
 from fctd.model.operations import rates_of_all
 from fctd.results.notes import Note, worst
 from fctd.results.status import RefineStatus
-from fctd.steady.chords import largest_chord, shorter_cylinders
+from fctd.model.chords import largest_chord, shorter_cylinders
 from fctd.steady.counts import ends_of, judged, solve_counts
 from fctd.steady.levels import (
     MOST_BESIDE,

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from fctd.steady.chords import largest_chord, shorter_cylinders
+from fctd.model.chords import largest_chord, shorter_cylinders
 from tests.cases import make_case
 
 BUILD = [[0, 0, 0], [400, 0, 0], [800, 60, 0]]
