@@ -27,7 +27,7 @@ from fctd.results.case_facts import (
     path_facts,
     string_table,
 )
-from fctd.results.notes import sagitta
+from fctd.results.mesh_notes import mesh_notes
 from fctd.results.unit_systems import System, shown
 
 
@@ -50,8 +50,7 @@ def check_command(
     if not quiet:
         screen.print(segments_in_words(case, string, metre.factor, metre.label), soft_wrap=True)
     tell(case, case.warnings, strict=strict, units=units)
-    note = sagitta(case, string)
-    notes = [] if note is None else [note]
+    notes = mesh_notes(case, string)
     print_notes(notes, units)
     finish(True, [note.code for note in notes], strict)
 

@@ -1,12 +1,35 @@
-"""The distance of a hole's cylinders from its axis, which a refinement makes small before it cuts the string.
+"""The cylinders of a hole in its bends: their lengths, and their distance from the axis.
 
-A cylinder of length ℓ in a bend of curvature κ misses the axis by κ ℓ²/8 in its middle.
+A cylinder of length ℓ in a bend of curvature κ misses the axis by κ ℓ²/8 in its middle.  A refinement makes this small
+before it cuts the string.
 """
 
 import numpy as np
 
+from fctd.arrays import Array, ceiling
+from fctd.case.hole import WellboreSpec
 from fctd.case.load import Case
 from fctd.model import survey
+
+# Longest cylinder in straight hole [m]; neighbours in the table should stay neighbours in space.
+LONGEST_CYLINDER = 30.0
+
+
+def longest_cylinders(hole: WellboreSpec, curvature: Array) -> Array:
+    """The largest length [m] that the case allows cylinders in bends of curvatures (n,) [1/m]."""
+    if hole.chord_tolerance is None:
+        return np.full(len(curvature), hole.cylinder_length)
+    return np.minimum(np.sqrt(8 * hole.chord_tolerance / np.maximum(curvature, 1e-12)), LONGEST_CYLINDER)
+
+
+def missed_by_cylinders(case: Case, md: Array) -> tuple[Array, Array]:
+    """Distances [m] between axis and cylinders in their middles, and their lengths (n,) [m], at depths (n,) [m]."""
+    stations = case.wellbore.trajectory
+    long = np.diff(stations[:, 0])
+    curvature = survey.dogleg(stations) / long
+    length = long / np.maximum(ceiling(long / longest_cylinders(case.wellbore, curvature)), 1)
+    course = np.clip(np.searchsorted(stations[:, 0], md, side="right") - 1, 0, len(long) - 1)
+    return (curvature * length**2 / 8)[course], length[course]
 
 
 def largest_chord(case: Case) -> float:

@@ -18,6 +18,7 @@ from fctd.mechanics.query import WALL_COLUMNS, Walls, query_sampled, query_walls
 from fctd.mechanics.sampled import AROUND_CELLS
 from fctd.mechanics.state import ARCS, CYLINDERS, SAMPLED
 from fctd.model import survey
+from fctd.model.chords import longest_cylinders
 from fctd.model.frames import hole_frame
 from fctd.model.perturbed import perturb_stations
 from fctd.model.pieces import (
@@ -38,8 +39,6 @@ from fctd.model.tortuosity import winding
 
 # Largest difference between the length of a hole's axis and the sum of its pieces [m].
 SAME_LENGTH = 1e-6
-# Longest cylinder in straight hole [m]; neighbours in the table should stay neighbours in space.
-LONGEST_CYLINDER = 30.0
 # More cylinders would not fit into memory, or take longer to lay out than the run takes.
 MOST_CYLINDERS = 1_000_000
 # No point of a string is further from the origin [m]; squares of far larger numbers overflow.
@@ -368,11 +367,7 @@ def _cylinder_ends(hole: WellboreSpec, stations: Array, ends: Array) -> Array:
     A chord of length ℓ in a bend of curvature κ misses the arc by κℓ²/8.
     """
     curvature = survey.dogleg(stations) / np.diff(stations[:, 0])
-    if hole.chord_tolerance is None:
-        wanted = np.full(len(curvature), hole.cylinder_length)
-    else:
-        wanted = np.sqrt(8 * hole.chord_tolerance / np.maximum(curvature, 1e-12))
-        wanted = np.minimum(wanted, LONGEST_CYLINDER)
+    wanted = longest_cylinders(hole, curvature)
     if hole.overlap > wanted.min():
         raise InputError(
             f"at most the length of a cylinder, here {quantity(wanted.min(), 'm', '.3g')}", key="wellbore.overlap",

@@ -9,16 +9,12 @@ from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, Final, NamedTuple
 
-import numpy as np
-
-from fctd.arrays import Array, first_largest
+from fctd.arrays import Array
 from fctd.case.limits import LimitsSpec
-from fctd.case.load import Case
 from fctd.case.message import Message, kept, quantity, restored, span, within
 from fctd.case.rig import RigSpec
 from fctd.case.systems import told
 from fctd.mechanics.query import Walls
-from fctd.model.default_layout import LEAST_CLEARANCE, largest_sagitta, sagittas
 from fctd.model.drillstring import String
 from fctd.model.fluids import BAR, EQUAL
 from fctd.model.section import Section, bearing
@@ -26,8 +22,6 @@ from fctd.results.buckling import Buckling
 from fctd.results.limits import LIMITS, Place, place_of
 from fctd.results.unit_systems import System
 
-# Clearances by which a segment may miss the axis of a bend: within them the study ``refine`` has torque within 1 %.
-MISSES: Final = 4.0
 HARDLY = 0.01  # share of a string's weight that is worth a note
 FULL: Final = LimitsSpec()  # all of each capacity may be used
 # Codes of notes on what string and rig bear, whose probability a sweep tells.
@@ -84,6 +78,10 @@ MEANINGS: Final = {
     "sagitta": Meaning(
         "the segments are too long for the bend in which they lie",
         "leave out segments and segment_length there, or use shorter segments",
+    ),
+    "chord": Meaning(
+        "the cylinders of the hole are too long for its bend",
+        'use wellbore.geometry = "arcs", or a smaller wellbore.chord_tolerance',
     ),
     "wall": Meaning(
         "the string was pressed deeper into the wall than the time step is stable for",
@@ -361,28 +359,3 @@ def under_resolved(buckling: Buckling) -> Note | None:
         f"segments of at most {quantity(buckling.segment_length, 'm')} would"
     )
     return note_of("buckling", text, buckling.longest / buckling.segment_length, buckling.from_md)
-
-
-def sagitta(case: Case, string: String) -> Note | None:
-    """A note where a segment misses the axis of a bend by more than ``MISSES`` clearances, on the worst one."""
-    if all(part.cut_by_default for part in case.string.components):
-        return None  # they miss it by 1.3 clearances at most
-    narrowest = 0.5 * min(interval.diameter for interval in case.wellbore.intervals) - max(
-        section.contact_radius for section in string.sections
-    )
-    if largest_sagitta(case, float(string.length.max())) <= MISSES * max(narrowest, LEAST_CLEARANCE):
-        return None  # as nearly every row, at a fraction of the cost of what follows
-    middle = string.bit_depth - 0.5 * (string.above_bit[1:] + string.above_bit[:-1])
-    missed, clearance = sagittas(case, middle, string.length, string.of("contact_radius"))
-    room = np.maximum(clearance, LEAST_CLEARANCE)
-    k = first_largest(missed / room)
-    length, miss = float(string.length[k]), float(missed[k])
-    if miss <= MISSES * room[k]:
-        return None
-    text = (
-        f'segments of {quantity(length, "m", ".3g")} of component "{string.parts[string.component[k]].component.name}" '
-        f"miss the bend at {quantity(middle[k], 'm', '.0f')} by {quantity(1e3 * miss, 'mm', '.0f')}, where the "
-        f"clearance is {quantity(1e3 * clearance[k], 'mm', '.3g')}; segments of at most "
-        f"{quantity(length * math.sqrt(room[k] / miss), 'm', '.2g')} would follow it"
-    )
-    return note_of("sagitta", text, miss / (MISSES * float(room[k])), float(middle[k]))

@@ -31,11 +31,11 @@ from fctd.case.operation_names import kinds_of
 from fctd.case.units import bare
 from fctd.mechanics.state import MAX_SEGMENTS
 from fctd.model import layouts
+from fctd.model.chords import largest_chord, shorter_cylinders
 from fctd.model.depths import depth_of
 from fctd.model.operations import rates_of_all
 from fctd.results.notes import Note, worst
 from fctd.results.status import RefineStatus
-from fctd.model.chords import largest_chord, shorter_cylinders
 from fctd.steady.counts import ends_of, judged, solve_counts
 from fctd.steady.levels import (
     MOST_BESIDE,

@@ -21,6 +21,7 @@ from fctd.model.tortuosity import shortfall
 from fctd.model.wellbore import Wellbore
 from fctd.results.buckling import NOT_BUCKLED, UNKNOWN, Buckling
 from fctd.results.limits import WORST
+from fctd.results.mesh_notes import mesh_notes
 from fctd.results.notes import (
     Note,
     bent,
@@ -29,7 +30,6 @@ from fctd.results.notes import (
     homogenised,
     limit_notes,
     rig_notes,
-    sagitta,
     several_balances,
 )
 from fctd.results.profile import profile_table
@@ -185,8 +185,7 @@ class Equilibrium:
             found = (*found, *(note for note in (law, lies) if note is not None))
         if (falls := shape.laid.falling) is not None:
             found = (*found, falls)
-        if self.case.contact.enabled and (long := sagitta(self.case, string)) is not None:
-            found = (*found, long)
+        found = (*found, *mesh_notes(self.case, string))
         if self.method != HOMOGENISED:
             return found
         # How deep its long segments lie in the wall says nothing of the string's waves.

@@ -18,7 +18,7 @@ from fctd.mechanics.energy import Energy, energy_of
 from fctd.mechanics.jit import entry
 from fctd.mechanics.rotations import rotation_columns
 from fctd.mechanics.topdrive import Motion, move_top_drive
-from fctd.model.wellbore import LONGEST_CYLINDER
+from fctd.model.chords import LONGEST_CYLINDER
 from fctd.simulation.run import Run
 from references.contact.tube_mesh import Tube, TubeOptions, build_tube, curvature_at
 from references.engines import StepOptions

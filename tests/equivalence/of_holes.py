@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 
 from fctd.arena.exact_hole import ExactHole
+from fctd.model.drillstring import lay_out
+from fctd.results.mesh_notes import chord
 from tests.equivalence.answers import ARM, EXACT, ROUNDING, Answers, base, changed, plain, same, to_rounding
 from tests.equivalence.draws import Drawn
 from tests.equivalence.holes import INCH, Raw
@@ -18,6 +20,8 @@ FINE = 2e-4
 # Where cylinders end elsewhere, and for each degree of their kinks: a string that lies over a kink is pressed on there,
 # and most of this is contact force.
 CUT_ELSEWHERE, EACH_DEGREE = 2e-3, 0.02
+# For each clearance by which cylinders miss the axis, where the note ``chord`` says that loads hang on it.
+EACH_CLEARANCE = 0.05
 AT_SHOE = 1e-3  # where the wall leads otherwise from one size to the next, over the same length
 HYDRAULIC = ("standpipe", "bore", "annulus", "ecd", "pump", "lift_N")
 
@@ -100,7 +104,9 @@ def cut_elsewhere(drawn: Drawn) -> float:
         return ROUNDING
     curvature = ExactHole(hole).curvature
     kink = curvature * hole.cylinder_length if hole.cylinder_length else (8 * hole.chord_tolerance * curvature) ** 0.5
-    return max(CUT_ELSEWHERE, EACH_DEGREE * math.degrees(kink))
+    note = chord(drawn.case, lay_out(drawn.case, drawn.depth))
+    noted = 0.0 if note is None else EACH_CLEARANCE * note.excess
+    return max(CUT_ELSEWHERE, EACH_DEGREE * math.degrees(kink), noted)
 
 
 def without_north(drawn: Drawn) -> bool:

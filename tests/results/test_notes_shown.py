@@ -156,5 +156,6 @@ def test_every_code_is_raised() -> None:
         "falling",
         "flow_lie",
         "sagitta",
+        "chord",
     }
     assert set().union(*(codes for codes, _ in RAISED.values()), of_steady_strings) == set(MEANINGS)

@@ -12,7 +12,7 @@ import pandas as pd
 
 from fctd import Case, refine
 from fctd.model.layouts import uniform
-from fctd.results.notes import MISSES
+from fctd.results.mesh_notes import MISSES
 from validation.cases import load
 from validation.cases.segmented_wells import WALL
 from validation.cases.wells import COLLAR, HEAVY, PIPE, S_WELL, TURN, Stations, assembly, well
