@@ -12,6 +12,7 @@ from reports.figures import Tables
 from reports.figures.judged import WELLS
 from reports.sections import Picture, Printed, Section, printed
 from validation.claims.ledger import Finding
+from validation.harness.study import between
 from validation.parts.judged_well import CAPTIONS, STIFF, which_is_better
 
 CLAIMS: Final = "measured-torque-of-"  # what their names begin with
@@ -107,7 +108,7 @@ def readings(judged: pd.DataFrame) -> pd.DataFrame:
 def scores(table: pd.DataFrame) -> pd.DataFrame:
     """Coverage with its interval, CRPS and bias."""
     ends = zip(table["coverage_95"], table["coverage_low"], table["coverage_high"], strict=True)
-    coverage = [f"{words.number(a)} ({words.number(b)} to {words.number(c)})" for a, b, c in ends]
+    coverage = [between(*map(words.number, (a, b, c))) for a, b, c in ends]
     found = table.assign(coverage=coverage, unit=table["unit"].str.replace(" ", "·"))
     return found[[*_SCORES]].rename(columns=_SCORES)
 

@@ -141,7 +141,7 @@ class Results:
         if not len(found):
             return None
         ends = [words.number(float(found[each].iloc[0])) for each in map(column.__add__, ENDS) if each in found]
-        return f"{words.between(*ends) if len(ends) == len(ENDS) else ends[0]}{words.SPACE}{unit}".rstrip()
+        return f"{words.measured(*ends) if len(ends) == len(ENDS) else ends[0]}{words.SPACE}{unit}".rstrip()
 
     def gate(self, engine: str) -> str:
         """How an engine failed the gate before any speed; empty where it passed, or where it was not tried."""
@@ -234,10 +234,10 @@ LEGEND = """An error of a contact method is the change of the torque of the curv
 FCTD's own arcs over the same window. Below 0.01 % it is that of the start, which settles a little longer with a method
 from outside. An engine's own error is against what its cell names.
 
-A time is struck through where its engine failed [the gate before any speed](references.md); its error stands. Lean is
-the angle of friction from the direction against the sliding, 0 by Coulomb's law. A point is one test of contact. Size
-is that of a package with what it needs beside FCTD's own packages. `make rivals` installs `embree`, `warp`, `rapier`
-and `exudyn` in an environment of their own.
+Brackets behind a number hold its quartiles. A time is struck through where its engine failed [the gate before any
+speed](references.md); its error stands. Lean is the angle of friction from the direction against the sliding, 0 by
+Coulomb's law. A point is one test of contact. Size is that of a package with what it needs beside FCTD's own packages.
+`make rivals` installs `embree`, `warp`, `rapier` and `exudyn` in an environment of their own.
 """
 
 SETTINGS = """Behind a method stand facets around the hole and metres between rings, the length of cylinders, the cell

@@ -10,7 +10,7 @@ import pandas as pd
 
 from fctd.case.operations import KINDS
 from fctd.results.columns import COLUMNS
-from validation.harness.study import Check
+from validation.harness.study import Check, between
 
 # Endings of column names, longest first, so that ``_kN_m`` is not taken for metres.
 UNITS = {
@@ -159,13 +159,13 @@ def columns(table: pd.DataFrame) -> dict[str, list[str]]:
     for low, high in [(f"{name}_low", f"{name}_high") for name in found]:
         if low in found and high in found:
             name = low.removesuffix("_low")
-            found[name] = [*map(between, found[name], found.pop(low), found.pop(high))]
+            found[name] = [*map(measured, found[name], found.pop(low), found.pop(high))]
     return found
 
 
-def between(value: str, low: str, high: str) -> str:
+def measured(value: str, low: str, high: str) -> str:
     """A printed number with its quartiles in brackets, where it has any."""
-    return value if NOTHING in (value, low, high) else f"{value} ({low} to {high})"
+    return value if NOTHING in (value, low, high) else between(value, low, high)
 
 
 def column(values: "pd.Series[Any]") -> list[str]:

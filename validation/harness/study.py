@@ -81,8 +81,8 @@ class Check:
 
     def found(self, number: Callable[[float], str] = "{:.6g}".format) -> str:
         """The value in words, an interval in brackets, e.g. ``1.32 (1.3 to 1.34)``, with numbers by ``number``."""
-        span = f" ({' to '.join(map(number, self.interval))})" if self.interval else ""
-        return f"{number(self.value)}{span} {self.unit}".rstrip()
+        value = number(self.value)
+        return f"{between(value, *map(number, self.interval)) if self.interval else value} {self.unit}".rstrip()
 
     def requirement(self, number: Callable[[float], str] = "{:.6g}".format) -> str:
         """The bound in words, e.g. ``at most 0.02 kN·m``, with numbers printed by ``number``."""
@@ -91,6 +91,11 @@ class Check:
         else:
             words = f"{self.kind.replace('_', ' ')} {number(self.bound)}"
         return f"{words} {self.unit}".rstrip()
+
+
+def between(value: str, low: str, high: str) -> str:
+    """A printed number with its interval in brackets."""
+    return f"{value} ({low} to {high})"
 
 
 def ratio_check(name: str, ratio: Quartiles, bound: float, kind: Kind, source: str, unit: str = "") -> Check:
