@@ -13,8 +13,7 @@ from fctd.results.notes import Note, note_of
 
 # Clearances by which a segment may miss the axis of a bend: within them the study ``refine`` has torque within 1 %.
 MISSES: Final = 4.0
-# Cylinders of a hole miss its axis by at most the clearance, or by this where that is smaller [m]: the wall yields by
-# as much.
+# Cylinders of a hole may miss its axis by the clearance, or by this where that is smaller [m].
 LEAST_CHORD: Final = 5e-4
 
 

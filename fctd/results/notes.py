@@ -81,7 +81,7 @@ MEANINGS: Final = {
     ),
     "chord": Meaning(
         "the cylinders of the hole are too long for its bend",
-        'use wellbore.geometry = "arcs", or a smaller wellbore.chord_tolerance',
+        'use wellbore.geometry = "arcs", or a wellbore.chord_tolerance below the clearance and no cylinder_length',
     ),
     "wall": Meaning(
         "the string was pressed deeper into the wall than the time step is stable for",

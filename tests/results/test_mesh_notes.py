@@ -12,7 +12,7 @@ from fctd.results import mesh_notes
 from fctd.results.notes import as_metadata, codes_of
 from tests.cases import make_case, pipe
 
-BEND = [[0, 0, 0], [300, 0, 0], [637.5, 90, 0], [900, 90, 0]]  # 8°/30 m
+BEND: list[list[float]] = [[0, 0, 0], [300, 0, 0], [637.5, 90, 0], [900, 90, 0]]  # 8°/30 m
 
 
 @pytest.mark.parametrize(("length", "is_noted"), [(8.2, False), (8.4, True), (20.0, True)])
@@ -96,5 +96,8 @@ def test_long_cylinders_are_noted_where_the_hole_bends_and_wide_clearances_are_n
         assert mesh_notes.chord(case, lay_out(case, 290.0)) is None
     assert notes[4.0] is None
     assert notes[10.0] is not None
+    assert "no cylinder_length" in notes[10.0].remedy
+    advised = make_case(BEND, [pipe(None, None)], wellbore={"chord_tolerance": 0.01})
+    assert mesh_notes.chord(advised, lay_out(advised, 900.0)) is None
     assert 300 < (notes[10.0].place or 0.0) < 637.5
     assert mesh_notes.chord(stabilised(geometry="arcs"), lay_out(stabilised(geometry="arcs"), 600.0)) is None
